@@ -162,17 +162,23 @@ void OutFile::fail() const {
 }
 
 void OutFile::write(const void* data, size_t bytes) {
+  if (buffer_.size() + bytes >= kBuffer) flush();
+  if (bytes >= kBuffer) return writeDirectly(static_cast<const char*>(data), bytes);  // a state may be of gigabytes
   buffer_.append(static_cast<const char*>(data), bytes);
-  if (buffer_.size() >= kBuffer) flush();
+}
+
+void OutFile::writeDirectly(const char* data, size_t bytes) const {
+  while (bytes > 0) {
+    const ssize_t done = ::write(fd_, data, std::min(bytes, kAtOnce));
+    if (done < 0 && errno == EINTR) continue;
+    if (done <= 0) fail();
+    data += done;
+    bytes -= static_cast<size_t>(done);
+  }
 }
 
 void OutFile::flush() {
-  for (size_t done = 0; done < buffer_.size();) {
-    const ssize_t now = ::write(fd_, buffer_.data() + done, std::min(buffer_.size() - done, kAtOnce));
-    if (now < 0 && errno == EINTR) continue;
-    if (now <= 0) fail();
-    done += static_cast<size_t>(now);
-  }
+  writeDirectly(buffer_.data(), buffer_.size());
   buffer_.clear();
 }
 

@@ -68,6 +68,7 @@ class OutFile {
 
  private:
   [[noreturn]] void fail() const;  ///< with errno
+  void writeDirectly(const char* data, size_t bytes) const;
   void flush();
 
   std::string path_, place_, draft_, buffer_;  ///< place: without links; draft empty: written directly

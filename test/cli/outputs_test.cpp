@@ -41,7 +41,9 @@ class Outputs : public ::testing::Test {
   Ending withFileLimit(int blocks, const std::vector<std::string>& arguments) const {
     std::string command = "trap '' XFSZ; ulimit -f " + std::to_string(blocks) + "; exec " + shellQuoted(kCommand);
     for (const std::string& argument : arguments) command += " " + shellQuoted(argument);
-    return runProgram("sh", {"-c", command});
+    Ending ending = runProgram("sh", {"-c", command + " 2>&1"});  // as files have no room
+    ending.err = ending.out;
+    return ending;
   }
 
   TemporaryFolder folder_;

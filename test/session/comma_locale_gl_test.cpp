@@ -6,6 +6,7 @@
 #include "math/number_text.h"
 #include "model/scene/scene_text.h"
 #include "model/scene/scene_yaml.h"
+#include "model/shape/files/msh_reader.h"
 #include "session/on_backends.h"
 #include "support/comma_locale.h"
 #include "support/temporary_folder.h"
@@ -33,7 +34,8 @@ void expectSame(const Make& make) {
 std::string cornersOf(const std::string& path) {
   try {
     std::string out;
-    for (const Vector3f& p : importMesh(path, 1).positions_m)
+    const bool is_msh = path.substr(path.size() - 4) == ".msh";
+    for (const Vector3f& p : is_msh ? readMsh(path, 1).positions_m : importMesh(path, 1).positions_m)
       for (int axis = 0; axis < 3; ++axis) out += exactText(p[axis]) + ' ';
     return out;
   } catch (const std::exception& error) {
@@ -55,9 +57,11 @@ TEST(InACommaLocale, MeshesAreRead) {
   const std::string obj = folder.write("a.obj",
                                        "v 0 0 0\nv 0.125 0 0\nv 0 0.5 0\nv 0 0 0.125\nf 1 3 2\nf 1 2 4\nf 1 4 3\n"
                                        "f 2 3 4\n");
-  const std::string stl = folder.write("a.stl",
-                                       "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 0.125 0 0\n"
-                                       "vertex 0 0.5 0\nendloop\nendfacet\nendsolid a\n");
+  std::string facets = "solid a\n";
+  for (const char* corners : {"0 0 0\nvertex 0 0.5 0\nvertex 0.125 0 0", "0 0 0\nvertex 0.125 0 0\nvertex 0 0 0.125",
+                              "0 0 0\nvertex 0 0 0.125\nvertex 0 0.5 0", "0.125 0 0\nvertex 0 0.5 0\nvertex 0 0 0.125"})
+    facets += std::string("facet normal 0 0 1\nouter loop\nvertex ") + corners + "\nendloop\nendfacet\n";
+  const std::string stl = folder.write("a.stl", facets + "endsolid a\n");
   for (const std::string& file : {ply, msh, obj, stl}) {
     expectSame([&] { return cornersOf(file); });
     EXPECT_NE(cornersOf(file).find("0.125"), std::string::npos) << cornersOf(file);
