@@ -34,9 +34,14 @@ void expectSame(const Make& make) {
 std::string cornersOf(const std::string& path) {
   try {
     std::string out;
-    const bool is_msh = path.substr(path.size() - 4) == ".msh";
-    for (const Vector3f& p : is_msh ? readMsh(path, 1).positions_m : importMesh(path, 1).positions_m)
+    const auto add = [&out](const auto& p) {
       for (int axis = 0; axis < 3; ++axis) out += exactText(p[axis]) + ' ';
+    };
+    if (path.substr(path.size() - 4) == ".msh") {
+      for (const Vector3d& p : readMsh(path, 1).positions_m) add(p);
+    } else {
+      for (const Vector3f& p : importMesh(path, 1).positions_m) add(p);
+    }
     return out;
   } catch (const std::exception& error) {
     return error.what();
