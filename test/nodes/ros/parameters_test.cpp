@@ -215,7 +215,7 @@ TEST_F(LaunchLimitsTest, AreBoundsOfEveryLaterSceneAndOverride) {
   EXPECT_EQ(first.scene.styluses.at(0).max_force_n, 1);
   EXPECT_TRUE(first.limit_notes.empty());
   EXPECT_EQ(load(first).at(0).max_force_n, 1);
-  ASSERT_EQ(notes_.size(), 2U);
+  ASSERT_EQ(notes_.size(), 3U);
   EXPECT_EQ(notes_[0], "stylus left: max_force_n is 1, which the launch's ~overrides set, not 8");
   const std::vector<StylusConfig> later = load(first, {"styluses[0].max_force_n=10"});
   EXPECT_EQ(later.at(0).max_force_n, 1);

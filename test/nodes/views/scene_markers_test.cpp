@@ -246,11 +246,11 @@ TEST(SceneMarkers, AToolThatIsHeldBackIsNotWhereItsFrameIs) {
   samples[0].valid = samples[1].valid = true;
   frame.tools[0].present = frame.tools[1].present = true;
   frame.tools[1].to.position_m.x() = 0.001;
-  samples[2].valid = true;
   const SceneLook look = lookOf(frame, samples);
   EXPECT_TRUE(look.in_tf[0]);
   EXPECT_FALSE(look.in_tf[1]);
-  EXPECT_FALSE(look.in_tf[2]) << "not there";
+  samples[0].valid = false;
+  EXPECT_FALSE(lookOf(frame, samples).in_tf[0]) << "its frame is not sent";
 }
 
 class SentMeshesTest : public ::testing::Test {
