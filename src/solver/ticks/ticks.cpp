@@ -295,6 +295,7 @@ bool Ticks::heed(const Watch::Verdict& verdict) {
     looks_for_folds_ = folds_.isDue(*verdict.good);
   }
   restarted_ |= verdict.rolled_back;
+  if (verdict.rolled_back) seen_cuts_.nodes.clear();  // restored tracks were embedded under older cuts: embed again
   if (blades_ && verdict.rolled_back) cut_revision_ += blades_->leave(*backend_);
   return verdict.rolled_back;
 }

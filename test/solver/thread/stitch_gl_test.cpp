@@ -105,6 +105,48 @@ TEST_P(Stitch, GoesOnToTheBitFromASavedState) {
   EXPECT_EQ(hashOf(model_, *two), hashOf(model_, *make(model_, stitchScene())));
 }
 
+/// A blade parts the tissue beside the tracks in ticks 2 to 7; the other stylus holds tissue, and is nowhere in some
+/// ticks, which the governor rolls back: while the blade is there, right after it, and later.
+ToolMotions cutAndLose(int tick) {
+  constexpr double kX_m = 0.0135, kLength_m = 0.0145, kBelow_m = -0.001;
+  constexpr int kFirst = 2, kLast = 7;
+  const auto at = [&](int t) { return Vector3d(kX_m, kLength_m * (t - kFirst) / (kLast + 1 - kFirst), kBelow_m); };
+  ToolMotions out;
+  if (tick >= kFirst && tick <= kLast) out[0] = motionOf(ToolMode::kCut, at(tick), at(tick + 1));
+  const Vector3d hold_m(0.003, 0.003, 0.009);
+  out[1] = motionOf(ToolMode::kGrab, hold_m, hold_m);
+  out[1].hold_begins = tick == 0;
+  for (const int lost : {4, kLast + 1, kLast + 2, 14}) {
+    if (tick == lost) out[1].to.position_m.x() = std::numeric_limits<double>::quiet_NaN();
+  }
+  return out;
+}
+
+TEST_P(Stitch, GoesOnToTheBitFromEveryTickAlsoAfterRollbacks) {
+  constexpr int kTicks = 20, kGoesOn = 2;
+  Scene scene = stitchScene();
+  scene.styluses.emplace_back();
+  const auto unbroken = make(model_, scene), resumed = make(model_, scene);
+  std::vector<Archive> saved(kTicks);
+  std::vector<uint64_t> hashes;
+  for (int t = 0; t < kTicks; ++t) {
+    unbroken->step(cutAndLose(t));
+    unbroken->persist(saved[static_cast<size_t>(t)]);
+    hashes.push_back(hashOf(model_, *unbroken));
+  }
+  EXPECT_GE(unbroken->health().trips, 3U);  // on the GPU the tick after a bad one does not count
+  for (int t = 0; t + kGoesOn < kTicks; ++t) {
+    Archive read(saved[static_cast<size_t>(t)].sections());
+    resumed->reset();
+    resumed->persist(read);
+    read.end();
+    for (int next = t + 1; next <= t + kGoesOn; ++next) {
+      resumed->step(cutAndLose(next));
+      EXPECT_EQ(hashOf(model_, *resumed), hashes[static_cast<size_t>(next)]) << next << ", saved after " << t;
+    }
+  }
+}
+
 TEST_P(Stitch, IsTheSameOnEveryBackendAndForAnyNumberOfThreads) {
   constexpr int kTicks = 4;
   Scene scene = stitchScene();
