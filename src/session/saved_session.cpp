@@ -86,6 +86,7 @@ void Session::persist(Archive& archive) {
   archive.value(has_stats_);
   archive.value(reactions_);
   archive.value(contacts_);
+  archive.value(jaw_moments_nm_);
   archive.values(obstacle_forces_);
   archive.value(extremes_);
   archive.value(look_.motions);

@@ -104,6 +104,7 @@ void Needle::persist(Archive& archive) {
   archive.value(velocity_);
   archive.value(turning_);
   archive.value(end_);
+  archive.value(led_);
 }
 
 NeedleLaw Needle::lawAt(const TissuePoint& point) const {

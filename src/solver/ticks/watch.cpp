@@ -160,7 +160,10 @@ void Watch::persist(Archive& archive) {
   archive.value(tick.recovering);
   archive.value(tick.undone);
   archive.value(tick.long_substeps);
-  if (threads_) archive.value(tick.pulls);
+  if (threads_) {
+    archive.value(tick.pulls);
+    archive.value(tick.threads_j);
+  }
   archive.value(stats);
   tick.delivered = true;
   tick.stats = stats;
