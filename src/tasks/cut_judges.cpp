@@ -137,7 +137,8 @@ class DiscJudge : public TaskJudge {
 double bladeTravel(const TaskTick& tick, const Vector3d& normal) {
   double out = 0;
   for (const StylusMotion& motion : tick.motions) {
-    if (motion.present && kindOf(motion.mode).severs())
+    const ToolKind& kind = kindOf(motion.mode);
+    if (motion.present && (kind.severs() || kind.burns))
       out = std::max(out, across(motion.to.position_m - motion.from.position_m, normal).norm());
   }
   return out;

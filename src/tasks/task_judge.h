@@ -29,7 +29,8 @@ struct TaskTick {
   double tick_s = 0;
 };
 
-/// How far the tip of a blade went in a tick, across a direction [m]; of two that of the one that went farther.
+/// How far the tip of a tool that cuts or burns went in a tick, across a direction [m]; of two that of the one that
+/// went farther.
 double bladeTravel(const TaskTick& tick, const Vector3d& normal);
 /// Why it cannot be a direction, or empty. @param key  of it
 std::string directionFault(const Vector3d& direction, const char* key);
@@ -49,7 +50,7 @@ class TaskJudge {
  public:
   virtual ~TaskJudge() = default;
   virtual void judge(const TaskTick& tick, TaskTally& tally) = 0;
-  /// Does it ask where springs were cut? Then the tissue is waited for while a blade is there.
+  /// Does it ask where springs were cut? Then the tissue is waited for after ticks that may have cut.
   virtual bool heedsCuts() const { return false; }
   /// Whether what was to be cut off is; asked on the session's thread.
   virtual bool isApart(const CutState&) const { return false; }

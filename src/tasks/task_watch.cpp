@@ -7,7 +7,6 @@
 
 #include "math/float_bits.h"
 #include "math/number_text.h"
-#include "model/scene/tool_kinds.h"
 #include "tasks/task_kinds.h"
 
 namespace viscera {
@@ -69,9 +68,7 @@ void TaskWatch::stepped(Session& session, const StylusSamples& samples) {
   TaskTick tick;
   tick.motions = session.motions();
   tick.tick_s = session.tick_s();
-  const auto severs = [](const StylusMotion& motion) { return motion.present && kindOf(motion.mode).severs(); };
-  if (judge_->heedsCuts() && std::any_of(tick.motions.begin(), tick.motions.end(), severs) &&
-      session.solver().readCuts(cuts_)) {
+  if (judge_->heedsCuts() && session.solver().readCuts(cuts_)) {  // whatever cuts: blades, heat, sutures, tears
     const size_t before = cut_watch_->springs();
     tick.cuts_m = cut_watch_->fresh(cuts_);
     tick.apart = cut_watch_->springs() > before && judge_->isApart(cuts_);

@@ -95,6 +95,39 @@ TEST(TaskCommand, ReplaysToTheSameScoreAndWritesAReport) {
   EXPECT_NE(page.find("Touch in order"), std::string::npos);
 }
 
+/// Of a pad that hangs together until its middle is cut. @param material, stylus, keys  of the scene and of the hand
+nlohmann::json dividedBy(const std::string& material, const std::string& stylus, const std::string& keys) {
+  const TemporaryFolder folder;
+  folder.write("pad.yaml", "bodies: [{source: box, box_size_m: [0.024, 0.024, 0.012], spacing_m: 0.003, material: {" +
+                               material +
+                               "}, fixed: [{shape: plane, point_m: [0, 0, -0.006], normal: [0, 0, 1]}]}]\n"
+                               "styluses: [{name: right, idle: none, button2: none, " +
+                               stylus + "}]\nsolver: {backend: cpu}\n");
+  const std::string task =
+      folder.write("divide.yaml",
+                   "scene: pad.yaml\nkind: follow_line\nfollow_line: {path: [{position_m: [-0.003, "
+                   "0, 0]}, {position_m: [0.003, 0, 0]}], normal: [0, 0, 1], corridor_m: 0.02}\n");
+  const std::string strokes = folder.write("hand.yaml", "strokes: [{stylus: right, keys: [" + keys + "]}]\n");
+  const Ending ending = viscera({"task", task, "--strokes", strokes, "--no-view", "--set", "solver.threads=1"});
+  EXPECT_EQ(ending.status, 0) << ending.err;
+  const nlohmann::json result = lastLine(ending);
+  return result.contains("tasks") && result["tasks"].size() == 1 ? result["tasks"][0] : nlohmann::json::object();
+}
+
+TEST(TaskCommand, NoticesWhatHeatAndTearsDivide) {
+  const nlohmann::json burnt =
+      dividedBy("young_modulus_pa: 5000", "button1: cautery, cautery: {radius_m: 0.004, power_w: 60}",
+                "{t_s: 0.1, position_m: [0, 0, 0.03], button1: true}, "
+                "{t_s: 0.3, position_m: [0, 0, 0.0095], button1: true}, "
+                "{t_s: 5, position_m: [0, 0, 0.0095], button1: true}");
+  EXPECT_EQ(burnt["state"], "passed") << burnt["why"];
+  const nlohmann::json torn =
+      dividedBy("young_modulus_pa: 20000, tear: {toughness_j_per_m2: 5}", "button1: grab, grab: {radius_m: 0.005}",
+                "{t_s: 0.1, position_m: [0, 0, 0.008]}, {t_s: 0.2, position_m: [0, 0, 0.006], button1: true}, "
+                "{t_s: 1.2, position_m: [0, 0, 0.05], button1: true}");
+  EXPECT_EQ(torn["state"], "passed") << torn["why"];
+}
+
 TEST(TaskCommand, KinematicsHaveTheColumnsOfJigsaws) {
   constexpr double kRowDigits = 1e-6;  // as they are printed
   const TemporaryFolder folder;
