@@ -17,6 +17,9 @@ namespace viscera::bench {
 namespace {
 
 constexpr double kTick_hz = 240, kClear_m = 0.001, kMilli = 1e-3;
+// Of the first peak, what a needle feels behind the capsule: published 0.3, toughness and friction there ask for 0.15.
+constexpr double kMostLeft = 0.5, kLeastLeft = 0.1;
+constexpr double kAllCarried = 0.99;  // of the capsule's toughness, by the lattice
 
 /// A force on the way.
 struct Moment {
@@ -89,10 +92,27 @@ class Hand {
   std::vector<Moment> moments_;
 };
 
-Moment largest(const std::vector<Moment>& moments, double from_m, double to_m, double sign = 1) {
-  Moment out{0, 0, -1e300 * sign};
+Moment largest(const std::vector<Moment>& moments, double from_m, double to_m) {
+  Moment out{0, 0, -1e300};
   for (const Moment& m : moments) {
-    if (m.gone_m >= from_m && m.gone_m < to_m && sign * m.force_n > sign * out.force_n) out = m;
+    if (m.gone_m >= from_m && m.gone_m < to_m && m.force_n > out.force_n) out = m;
+  }
+  return out;
+}
+
+/// The least mean over a millimetre: a force that changes its direction is 0 for a moment.
+Moment leastAfter(const std::vector<Moment>& moments, double from_m, double to_m) {
+  constexpr double kMean_m = 0.001;
+  Moment out{0, 0, 1e300};
+  for (size_t first = 0; first < moments.size(); ++first) {
+    double sum_n = 0;
+    size_t end = first;
+    for (; end < moments.size() && moments[end].gone_m < moments[first].gone_m + kMean_m; ++end)
+      sum_n += moments[end].force_n;
+    const double mean_n = sum_n / static_cast<double>(end - first);
+    if (moments[first].gone_m <= from_m || moments[end - 1].gone_m >= to_m || mean_n >= out.force_n) continue;
+    out = moments[first];
+    out.force_n = mean_n;
   }
   return out;
 }
@@ -157,13 +177,15 @@ void bladeOnset(Report& report) {
     capsule.asked_j_per_m2 = Published::kCapsule;
     const double carried = capsule.ofPoint_n(Published::kWidth_m, capsule.pointKernel_m(Published::kWidth_m)) /
                            (Published::kCapsule * Published::kWidth_m);
-    const Moment first = largest(moments, 0, 0.013), then = largest(moments, first.gone_m, first.gone_m + 0.006, -1),
+    const Moment first = largest(moments, 0, 0.013), then = leastAfter(moments, first.gone_m, first.gone_m + 0.006),
                  second = largest(moments, then.gone_m + 0.004, 0.028);
     table.add({spacing_m / kMilli, carried, first.force_n, (first.gone_m - kClear_m) / kMilli, then.force_n,
                second.force_n, (second.gone_m - kClear_m) / kMilli, moments.back().force_n, hand.trips()});
     plot.series.push_back(curveOf(name, moments, false));
     report.checkAtMost("trips, needle, " + name, hand.trips(), 0);
-    report.checkAtMost("drop after the first peak, " + name, then.force_n / first.force_n, 0.5);
+    report.checkAtMost("drop after the first peak, " + name, then.force_n / first.force_n, kMostLeft);
+    if (carried > kAllCarried)
+      report.checkAtLeast("left after the first peak, " + name, then.force_n / first.force_n, kLeastLeft);
   }
   table.add({Cell("published"), Cell(""), Published::kFirst_n, Published::kFirst_m / kMilli, Published::kThen_n,
              Published::kSecond_n, Published::kSecond_m / kMilli, Cell("1.45 to 1.6 after it"), Cell("")});

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -52,6 +53,9 @@ class BladeEdge {
   /// The blade is not there, or the state was put back: fronts begin again. @returns whether there were any
   bool leave(BladeTarget& target);
   void reset();
+  /// What the point of the same blade has stored in the tissue: a hand may get it back from the edge too. @param more_j
+  /// below 0: it was spent
+  void addStored(double more_j) { stored_j_ = std::max(0.0, stored_j_ + more_j); }
   const BladeWork& done() const { return done_; }
   void persist(Archive& archive);
 

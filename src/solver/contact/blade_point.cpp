@@ -28,7 +28,7 @@ BladePoint::BladePoint(RestTissue& tissue, double width_m)
       kernel_m_(tissue.toughness().pointKernel_m(width_m)),
       h_(tissue.toughness().spacing_m()) {}
 
-void BladePoint::act(BladeTarget& target, uint32_t stylus, const layout::ToolMotion& blade, double dt_s) {
+double BladePoint::act(BladeTarget& target, uint32_t stylus, const layout::ToolMotion& blade, double dt_s) {
   const Vector3d from = xyz(blade.blade_from), to = xyz(blade.blade_to);
   const Vector3d into = (to - xyz(blade.to)).normalized(), edge_velocity = (to - from) / dt_s;
   if (!tip_.is_there) {
@@ -45,7 +45,7 @@ void BladePoint::act(BladeTarget& target, uint32_t stylus, const layout::ToolMot
   const double cap_n = tip_.stuck ? fill(tip_.at) * tissue_.toughness().ofPoint_n(tip_.at, width_m_, kernel_m_) : 0;
   kernel_.spread(near_, spread_);
   const double mobility = kernel_.mobility(spread_);
-  double push_n_s = 0;
+  double push_n_s = 0, stored_j = 0;
   bool slips = tip_.stuck != 0;
   done_.limit_n = cap_n;
   if (cap_n > 0 && mobility > 0) {
@@ -60,12 +60,14 @@ void BladePoint::act(BladeTarget& target, uint32_t stylus, const layout::ToolMot
     target.pushRuns(stylus, static_cast<float>(dt_s), near_.runs, momenta_);
     v += push_n_s * mobility * into;
     done_.work_j += push_n_s * into.dot(edge_velocity);
+    stored_j = push_n_s * std::min(into.dot(edge_velocity), into.dot(v));
   }
   gap += dt_s * (edge_velocity - v);
   advance(gap, into, slips);
   if (!tip_.stuck && isInTissue() && edge_velocity.dot(into) > 0 &&
       !tissue_.isParted(tip_.at + kPointAhead * h_ * into))
     tip_.stuck = 1;
+  return stored_j;
 }
 
 void BladePoint::renewKernel(BladeTarget& target) {

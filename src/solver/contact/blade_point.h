@@ -20,7 +20,8 @@ class BladePoint {
   BladePoint(RestTissue& tissue, double width_m);
 
   /// After a substep. @param blade  its motion in the substep
-  void act(BladeTarget& target, uint32_t stylus, const layout::ToolMotion& blade, double dt_s);
+  /// @returns what it has stored in the tissue [J]; below 0: what the tissue has spent on it
+  double act(BladeTarget& target, uint32_t stylus, const layout::ToolMotion& blade, double dt_s);
   void leave();
   void reset();
   const BladeWork& done() const { return done_; }

@@ -44,7 +44,7 @@ void Blades::act(BladeTarget& target, const ToolMotions& motions, const layout::
         cut.edges[s].act(target, s, substep[s], dt_s);
       else
         cut.edges[s].leave(target);
-      if (cut.points[s] && cuts) cut.points[s]->act(target, s, substep[s], dt_s);
+      if (cut.points[s] && cuts) cut.edges[s].addStored(cut.points[s]->act(target, s, substep[s], dt_s));
       if (cut.points[s] && !cuts) cut.points[s]->leave();
     }
   }
