@@ -25,7 +25,8 @@ struct TaskMeasure {
 
 inline constexpr TaskMeasure kTaskMeasures[] = {
     {"off_path_mm",
-     "mm: way of the blade's tip in ticks in which it cut, by the share of cut points out of the corridor",
+     "mm: way of the tip of a blade or cautery in ticks in which springs were cut, by the share of cut points out of "
+     "the corridor",
      &TaskTally::off_path_mm},
     {"deviation_mm", "mm: largest distance of a cut point from the line", &TaskTally::deviation_mm},
     {"wrong_touches", "contacts that begin anywhere but at the target that is due", &TaskTally::wrong_touches},
