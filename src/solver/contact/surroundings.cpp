@@ -142,7 +142,17 @@ SubstepSurroundings Surroundings::at(int substep) const {
 void Surroundings::persist(Archive& archive) {
   archive.value(time_s_);
   archive.values(tick_motions_);
-  if (archive.reads()) substeps_ = 0;  // the motions of substeps are made again
+  if (!archive.reads()) return;
+  substeps_ = 0;  // the motions of substeps are made again
+  if (!(time_s_ >= 0 && std::isfinite(time_s_)))
+    throw Error("section 'ticks': the time is " + std::to_string(time_s_) + " s; 0 s and more is accepted");
+  const auto lost = [](const Pose& pose) {
+    return !pose.position_m.allFinite() || !pose.orientation.coeffs().allFinite();
+  };
+  for (size_t i = 0; i < tick_motions_.size(); ++i) {
+    if (lost(tick_motions_[i].from) || lost(tick_motions_[i].to))
+      throw Error("section 'ticks': obstacle " + std::to_string(i) + " has no place; finite numbers are accepted");
+  }
 }
 
 void Surroundings::reset() {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "math/archive.h"
 #include "math/float_bits.h"
@@ -26,6 +27,22 @@ namespace {
 constexpr size_t kFinishedKept = 3;    // ticks whose measurements wait to be asked for
 constexpr double kStretchSteps = 0.1;  // in which the substep follows the stretch
 constexpr double kWorthwhile = 1.01;   // a stable substep must have grown by this factor to be taken
+// What is read from a saved state, over the same of this machine: of computed and of measured stable substeps.
+constexpr double kRoundedHere = 0.999, kLeastMeasured = 0.5;
+
+void persistFlag(Archive& archive, bool& flag) {
+  auto byte = static_cast<uint8_t>(flag);
+  archive.value(byte);
+  if (byte > 1) throw Error("section 'ticks': a flag is " + std::to_string(byte) + "; 0 or 1 is accepted");
+  flag = byte == 1;
+}
+
+void requireInTicks(const char* what, double value, double least, double most) {
+  if (value >= least && value <= most) return;
+  std::ostringstream text;
+  text << "section 'ticks': " << what << " is " << value << "; " << least << " .. " << most << " is accepted";
+  throw Error(text.str());
+}
 
 }  // namespace
 
@@ -42,6 +59,7 @@ Ticks::Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::
       dashpot_ratio_(largestDashpot(model)),
       substeps_(plan.substeps),
       recovery_substeps_(plan.recovery_substeps),
+      most_substeps_(std::max(plan.mostSubsteps(), plan.substeps.calm)),
       surroundings_(plan.surroundings),
       folds_(plan.tick_s) {
   finished_.reserve(kFinishedKept);
@@ -222,24 +240,43 @@ void Ticks::writeState(const HostState& state, bool staggered) {
   if (watch_) noteStretch(watch_->restart());
 }
 
+/// @throws Error  a number that is read is none that this model's ticks can have
+void Ticks::persistSubsteps(Archive& archive) {
+  const double least_safe_s = dt_safe_s_ * kRoundedHere;
+  archive.value(dt_safe_s_);
+  double limit_s = dt_limit_s_;  // which a reset would not measure again
+  archive.value(limit_s);
+  archive.value(stretch_);
+  archive.value(substeps_);
+  archive.value(substeps_done_);
+  archive.value(springs_cut_);
+  archive.value(n_);
+  persistFlag(archive, recovering_);
+  persistFlag(archive, restarted_);
+  archive.value(last_dt_s_);
+  persistFlag(archive, looks_for_folds_);
+  folds_.persist(archive);
+  if (!archive.reads()) return;
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  requireInTicks("stable substep [s]", dt_safe_s_, least_safe_s, kAny);
+  requireInTicks("measured stable substep [s]", limit_s, kLeastMeasured * dt_limit_s_, dt_limit_s_ / kLeastMeasured);
+  requireInTicks("stretch", stretch_, 0, std::numeric_limits<float>::max());
+  requireInTicks("calm substeps", substeps_.calm, 1, most_substeps_);
+  requireInTicks("strained substeps", substeps_.strained, 1, most_substeps_);
+  requireInTicks("substeps of the last tick", n_, 1, most_substeps_);
+  requireInTicks("last substep [s]", last_dt_s_, 0, tick_s_);
+  requireInTicks("ticks until tissue is unfolded", folds_.ticksLeft(), -1e9, folds_.waitTicks());
+  requireInTicks("looks for folded tissue", folds_.looksLeft(), 0, FoldWatch::kLooks);
+  dt_limit_s_ = limit_s;
+}
+
 /// Measurements that were not asked for are not kept: they change nothing that comes.
 void Ticks::persist(Archive& archive) {
   layout::TickStats taken;
   while (pollStats(taken, true)) {
   }
   archive.section("ticks");
-  archive.value(dt_safe_s_);
-  archive.value(dt_limit_s_);
-  archive.value(stretch_);
-  archive.value(substeps_);
-  archive.value(substeps_done_);
-  archive.value(springs_cut_);
-  archive.value(n_);
-  archive.value(recovering_);
-  archive.value(restarted_);
-  archive.value(last_dt_s_);
-  archive.value(looks_for_folds_);
-  folds_.persist(archive);
+  persistSubsteps(archive);
   if (surroundings_) surroundings_->persist(archive);
   if (blades_) blades_->persist(archive);
   if (threads_) threads_->persist(archive);

@@ -84,6 +84,7 @@ class Ticks : public Solver {
   bool heed(const Watch::Verdict& verdict);
   void relaxSubsteps(const layout::TickStats& stats);
   void unfoldTissue();
+  void persistSubsteps(Archive& archive);
 
   const Model& model_;
   std::unique_ptr<SolverBackend> backend_;
@@ -96,7 +97,7 @@ class Ticks : public Solver {
   double dashpot_ratio_;   ///< the largest
   double stretch_ = 0;     ///< largest of the last good tick, rounded down
   SubstepPlan substeps_;
-  int recovery_substeps_;
+  int recovery_substeps_, most_substeps_;
   std::optional<Surroundings> surroundings_;  ///< only where a scene has any
   std::optional<Blades> blades_;              ///< only where a body resists them
   std::unique_ptr<ThreadBodies> threads_;     ///< null: the scene has none

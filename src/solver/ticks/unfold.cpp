@@ -18,7 +18,6 @@ namespace viscera {
 namespace {
 
 constexpr double kAlone_s = 0.5;  // without a tool before a look: several periods of what swings back by itself
-constexpr int kLooks = 3;         // after tools have left, while folds are found
 constexpr double kLong = 0.3;     // max |L - l0| / l0: what is folded has longer or shorter springs
 constexpr int kMostRings = 8;     // of cells around folds
 constexpr std::array<std::array<int, 2>, 12> kEdges = {

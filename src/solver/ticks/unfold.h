@@ -22,12 +22,16 @@ size_t unfold(const Model& model, HostState& state);
 /// When to look whether tissue stays folded: once it has been left alone for a while, after tools were at it.
 class FoldWatch {
  public:
+  static constexpr int kLooks = 3;  ///< after tools have left, while folds are found
   explicit FoldWatch(double tick_s);
   /// Of a good tick. @return whether it is time to look
   bool isDue(const layout::TickStats& stats);
   /// What looking has found: it is looked at again a while later, but not for ever.
   void found(size_t nodes);
   void reset() { looks_left_ = 0; }
+  int waitTicks() const { return wait_ticks_; }
+  int ticksLeft() const { return ticks_left_; }
+  int looksLeft() const { return looks_left_; }
   template <class Archive>
   void persist(Archive& archive) {
     archive.value(looks_left_);
