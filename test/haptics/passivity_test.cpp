@@ -70,5 +70,62 @@ TEST(PassivityControl, BooksNothingBeyondWhatItRemembers) {
   EXPECT_TRUE(control.moved({0, 0, 0.03}, (periods - 50) * kPeriod_s, periods * kPeriod_s));
 }
 
+/// A loop of 100 Hz whose forces a limit lets through every 2 ms.
+TEST(PassivityControl, RemembersAsLongWhereALimitSendsMoreOften) {
+  PassivityControl control({0.01, 0, 1});
+  for (int i = 0; i <= 100; ++i) control.sent({0, 0, 1}, 2e-3 * i);
+  EXPECT_TRUE(control.moved({0, 0, -0.01}, 0.11, 0.2));
+  EXPECT_NEAR(control.energy_j(), 0.01, kRounding);
+}
+
+TEST(PassivityControl, CarriesWhatIsOwedToTheNextHand) {
+  PassivityControl control({kPeriod_s, 0, 1e-3});
+  const auto giveBack = [&control](double from_s) {
+    control.sent({0, 0, 1}, from_s);
+    control.moved({0, 0, 4e-4}, from_s, from_s + kPeriod_s);
+  };
+  const Vector3d force(0, 0, 1);
+  const double fast = 0.2, unheard_s = 5e-3;
+  const double whole = control.bearable(force, 1e-3, fast, unheard_s);
+  giveBack(0);
+  const double once = control.bearable(force, 1e-3, fast, unheard_s);
+  EXPECT_LT(once, 0.6 * whole);
+  control.forget();
+  EXPECT_EQ(control.bearable(force, 1e-3, fast, unheard_s), once);
+  giveBack(1);
+  EXPECT_LT(control.bearable(force, 1e-3, fast, unheard_s), 0.5 * once);
+}
+
+/// The force of a hold is what the tissue has, whatever came before, as soon as the hand has come to rest.
+TEST(PassivityControl, BearsAnyForceOfAHandAtRest) {
+  PassivityControl control({kPeriod_s, 0.01, 1e-3});
+  control.sent({0, 0, 1}, 0);
+  control.moved({0, 0, 4e-3}, 0.02, 0.02 + kPeriod_s);
+  EXPECT_LT(control.energy_j(), -3e-3);
+  EXPECT_EQ(control.bearable({0, 0, 5}, 0, 0.005, 0.016), 1);
+}
+
+TEST(PassivityControl, CountsTheWorstOfTheDelaysThereMayBe) {
+  PassivityControl control({kPeriod_s, 0, 1e-3});
+  for (int i = 0; i < 20; ++i) control.sent({0, 0, i < 10 ? 1.0 : 0.0}, i * kPeriod_s);
+  // By what was told nothing acts any more; 8 ms later there still does.
+  EXPECT_EQ(*control.moved({0, 0, 1e-3}, 16 * kPeriod_s, 17 * kPeriod_s), Vector3d(0, 0, 0));
+  EXPECT_EQ(control.surely_j(), 0);
+  control.mayTake(0.008);
+  EXPECT_NEAR(control.surely_j(), -1e-3, kRounding);
+  EXPECT_EQ(control.energy_j(), 0);
+  EXPECT_NEAR(control.moved({0, 0, 1e-3}, 17 * kPeriod_s, 18 * kPeriod_s)->z(), 1, kRounding);
+}
+
+TEST(SentForces, MeansOfSumsAreThoseOfAForceThatGrows) {
+  SentForces sent(0.1, kPeriod_s);
+  for (int i = 0; i < 10; ++i) sent.add({0, 0, 2}, i * kPeriod_s);
+  EXPECT_NEAR(sent.meanSum(0, 0.008)->z(), 2 * 0.004, kRounding);
+  EXPECT_NEAR(sent.meanSum(0.002, 0.02)->z(), 2 * 0.011, kRounding);
+  EXPECT_NEAR(sent.meanSum(-0.01, 0.01)->z(), 2 * 0.0025, kRounding);
+  for (int i = 10; i < 400; ++i) sent.add({0, 0, 2}, i * kPeriod_s);
+  EXPECT_FALSE(sent.meanSum(0, 0.01));
+}
+
 }  // namespace
 }  // namespace viscera
