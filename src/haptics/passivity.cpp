@@ -28,6 +28,8 @@ constexpr double kFaster = 1.5;
 constexpr double kPart = 0.65, kLeastLeft_j = 5e-5;
 /// What is owed beyond this share of what may be is forgiven at a pace [W]; beyond all of it, within some of these [s].
 constexpr double kOwedForGood = 0.9, kForgiven_w = 1e-4, kForgiven_s = 1;
+/// Of what may be owed, what a round trip owes at most that is none.
+constexpr double kOwedElsewhere = 0.5;
 
 }  // namespace
 
@@ -113,6 +115,8 @@ void PassivityControl::book(Trip& trip, const Vector3d& way_m, double span_s) co
   const double beyond_j = -limits_.most_owed_j - trip.budget_j;
   if (trip.budget_j < -kOwedForGood * limits_.most_owed_j)
     trip.budget_j += span_s * (kForgiven_w + std::max(beyond_j, 0.0) / kForgiven_s);
+  // One that was excluded may come to count again; it is not to forbid all then.
+  if (!maybe(trip)) trip.budget_j = std::max(trip.budget_j, -kOwedElsewhere * limits_.most_owed_j);
 }
 
 std::optional<Vector3d> PassivityControl::moved(const Vector3d& way_m, double from_s, double to_s) {

@@ -40,7 +40,7 @@ struct PassivityLimits {
   double period_s = 1e-3;        ///< of the loop
   double round_trip_s = 0;       ///< from a pose, measured at the device, to the force that answers it, acting there
   double most_reserve_j = 1e-3;  ///< energy beyond what the tissue stores that is kept for later
-  double most_owed_j = 8e-4;     ///< energy that may be given in advance, until the hand has made up for it
+  double most_owed_j = 7e-4;     ///< energy that may be given in advance, until the hand has made up for it
   double longest_trip_s = 1e-2;  ///< that mayTake() will name, unless a longer one is told
 };
 
