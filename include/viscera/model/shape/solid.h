@@ -78,6 +78,7 @@ struct VoxelReport {
   int crumbs_removed = 0;       ///< tiny pieces apart from all others that were emptied
   int parts_dropped = 0;        ///< parts that filled no cell
   std::vector<std::string> dropped_names;
+  double dropped_surface = 0;  ///< share of the mesh's area that parts without a cell have
   std::string text() const;
 };
 

@@ -7,12 +7,12 @@
 
 #include "model/shape/enclosed/enclosed_surface.h"
 #include "model/shape/solid/solid_volumes.h"
+#include "model/shape/solid/triangle_samples.h"
 
 namespace viscera {
 namespace {
 
 constexpr double kEnclosedStep = 0.25;  ///< of a cell: the grid on which the inside is found
-constexpr double kSamples = 0.25;       ///< of a cell: between points of a triangle that look for its cells
 
 /// Gives cells of the rest to a part.
 class Regions {
@@ -36,14 +36,7 @@ class Regions {
     for (int c = 0; c < 3; ++c) {
       p[c] = (mesh.positions_m[mesh.triangles[triangle][c]].cast<double>() - solid_.origin_m) / solid_.spacing_m;
     }
-    const double longest = std::max({(p[1] - p[0]).norm(), (p[2] - p[1]).norm(), (p[0] - p[2]).norm()});
-    const int steps = std::max(1, static_cast<int>(std::ceil(longest / kSamples)));
-    for (int a = 0; a <= steps; ++a) {
-      for (int b = 0; a + b <= steps; ++b) {
-        const Vector3d at = p[0] + (a * (p[1] - p[0]) + b * (p[2] - p[0])) / steps;
-        take(at.array().floor().cast<int>(), mesh.parts[triangle]);
-      }
-    }
+    forEachSample(p, [&](const Vector3d& at) { take(at.array().floor().cast<int>(), mesh.parts[triangle]); });
   }
 
  private:
@@ -86,7 +79,8 @@ Solid voxeliseEnclosed(const TriangleMesh& mesh, double spacing_m, double gap_m,
                         : voxelise(enclosed.mesh, spacing_m, &report, progress);
   nameRegions(mesh, part + 1, solid);
   report.dropped_names.clear();
-  countDropped(solid, report);
+  countDropped(mesh, solid, report);
+  report.dropped_surface = 0;  // it is enclosed all the same
   note = enclosed.text() + "; " + report.text();
   return solid;
 }

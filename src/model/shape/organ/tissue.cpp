@@ -11,6 +11,7 @@
 #include "model/shape/organ/label_mesh.h"
 #include "model/shape/organ/placing.h"
 #include "model/shape/organ/plain_tissue.h"
+#include "model/shape/solid/joined_parts.h"
 #include "model/shape/solid/solid_shell.h"
 #include "viscera/math/error.h"
 #include "viscera/model/shape/mesh_import.h"
@@ -42,6 +43,8 @@ class MeshTissue : public Tissue {
     moments_ = hasMoments(config);
     enclosed_ = config.fill == Fill::kEnclosed;
     gap_m_ = config.gap_m;
+    const bool is_whole = labels_ || enclosed_ || isNetwork(config.structure);
+    bounds_ = is_whole ? boundsOf(mesh_.positions_m) : filledBounds(mesh_);
     planes_ = clampPlanes(config, bounds());
   }
 
@@ -67,7 +70,7 @@ class MeshTissue : public Tissue {
     return enclosed_ ? mesh_ : withCaps(mesh_);
   }
   TriangleMesh shell(double spacing_m) const override { return refined(labels_ ? skin_ : mesh_, spacing_m); }
-  Eigen::AlignedBox3d bounds() const override { return boundsOf(mesh_.positions_m); }
+  Eigen::AlignedBox3d bounds() const override { return bounds_; }
 
  private:
   void read(const BodyConfig& config, const std::string& folder) {
@@ -88,6 +91,7 @@ class MeshTissue : public Tissue {
   bool labels_;
   bool moments_ = false, enclosed_ = false;
   double gap_m_ = 0;
+  Eigen::AlignedBox3d bounds_;  ///< of what is filled
   NodePlanes planes_;
 };
 

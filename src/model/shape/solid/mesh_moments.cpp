@@ -31,10 +31,11 @@ Solid voxeliseByMoments(const TriangleMesh& mesh, double spacing_m, const NodePl
     refuseEmpty(volumes, mesh, spacing_m,
                 [&](double h) { return fill(volumes, mesh, h, planes, {}).filledCells() > 0; });
   }
+  nameJoinedParts(volumes, solid);
   found.crumbs_removed = removeCrumbs(solid, kCrumb);
   if (!solid.partial.empty()) measureDepths(volumes, solid);
   found.filled_volume_m3 = solid.volumeM3();
-  countDropped(solid, found);
+  countDropped(mesh, solid, found);
   if (report != nullptr) *report = found;
   return solid;
 }

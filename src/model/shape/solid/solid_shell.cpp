@@ -6,45 +6,13 @@
 #include <map>
 #include <unordered_map>
 
+#include "model/shape/solid/joined_parts.h"
+#include "model/shape/solid/triangle_sides.h"
+
 namespace viscera {
 namespace {
 
 using Triangle = std::array<uint32_t, 3>;
-
-/// One side of a triangle; `forward` where the triangle runs from the lower to the higher vertex.
-struct Side {
-  uint32_t low, high;
-  uint32_t triangle;
-  bool forward;
-
-  bool sameEdge(const Side& other) const { return low == other.low && high == other.high; }
-};
-
-std::vector<Side> sortedSides(const std::vector<Triangle>& triangles) {
-  std::vector<Side> sides;
-  sides.reserve(3 * triangles.size());
-  for (uint32_t t = 0; t < triangles.size(); ++t) {
-    for (int c = 0; c < 3; ++c) {
-      const uint32_t a = triangles[t][c], b = triangles[t][(c + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), t, a < b});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
-  });
-  return sides;
-}
-
-/// Calls visit(first, last) for the sides of every edge.
-template <typename Visit>
-void forEachEdge(const std::vector<Side>& sides, Visit visit) {
-  for (size_t first = 0; first < sides.size();) {
-    size_t last = first + 1;
-    while (last < sides.size() && sides[last].sameEdge(sides[first])) ++last;
-    visit(first, last);
-    first = last;
-  }
-}
 
 struct Link {
   uint32_t triangle;
@@ -134,6 +102,24 @@ Vector3d doubledArea(const Shell& shell, const Triangle& t) {
   return (shell.positions_m[t[1]] - a).cross(shell.positions_m[t[2]] - a);
 }
 
+void dropUnusedVertices(TriangleMesh& mesh) {
+  constexpr uint32_t kUnused = UINT32_MAX;
+  std::vector<uint32_t> moved(mesh.positions_m.size(), kUnused);
+  for (const Triangle& t : mesh.triangles) {
+    for (const uint32_t vertex : t) moved[vertex] = 0;
+  }
+  uint32_t kept = 0;
+  for (size_t v = 0; v < moved.size(); ++v) {
+    if (moved[v] == kUnused) continue;
+    mesh.positions_m[kept] = mesh.positions_m[v];
+    moved[v] = kept++;
+  }
+  mesh.positions_m.resize(kept);
+  for (Triangle& t : mesh.triangles) {
+    for (uint32_t& vertex : t) vertex = moved[vertex];
+  }
+}
+
 void cap(Shell& shell, const std::vector<uint32_t>& loop) {
   Vector3d middle = Vector3d::Zero();
   for (const uint32_t v : loop) middle += shell.positions_m[v] / static_cast<double>(loop.size());
@@ -174,13 +160,13 @@ std::vector<std::vector<uint32_t>> trianglesByPart(const TriangleMesh& mesh) {
   return out;
 }
 
-Shell closePart(const TriangleMesh& mesh, const std::vector<uint32_t>& of_part) {
+Shell closePart(const TriangleMesh& mesh, const std::vector<uint32_t>& of_part, const std::vector<uint32_t>& same) {
   Shell shell;
   std::unordered_map<uint32_t, uint32_t> local;
   for (const uint32_t t : of_part) {
     Triangle triangle;
     for (int c = 0; c < 3; ++c) {
-      const uint32_t vertex = mesh.triangles[t][c];
+      const uint32_t corner = mesh.triangles[t][c], vertex = same.empty() ? corner : same[corner];
       const auto next = static_cast<uint32_t>(shell.positions_m.size());
       const auto [found, is_new] = local.try_emplace(vertex, next);
       if (is_new) {
@@ -217,20 +203,24 @@ Shell boxShell(const Vector3d& min_m, const Vector3d& max_m, const Pose& pose) {
 
 TriangleMesh facingOutward(const TriangleMesh& mesh) {
   TriangleMesh facing = mesh;
-  for (const std::vector<uint32_t>& of_part : trianglesByPart(mesh)) {
-    const Shell shell = closePart(mesh, of_part);
-    size_t own = 0;  // the triangles of a shell are in the order of the mesh
-    for (const uint32_t t : of_part) {
-      if (shell.turned[own++] != (shell.volume_m3 < 0)) std::swap(facing.triangles[t][1], facing.triangles[t][2]);
+  bool is_joined = false;
+  for (const ClosedSurface& surface : closeSurfaces(mesh)) {
+    const Shell& shell = surface.shell;
+    for (size_t own = 0; own < surface.triangles.size(); ++own) {  // in the order of the mesh, and turned already
+      Triangle& triangle = facing.triangles[surface.triangles[own]];
+      for (int c = 0; c < 3; ++c) triangle[c] = shell.vertices[shell.triangles[own][c]];
+      if (shell.volume_m3 < 0) std::swap(triangle[1], triangle[2]);
     }
+    is_joined = is_joined || surface.is_joined;
   }
+  if (is_joined) dropUnusedVertices(facing);
   return facing;
 }
 
 TriangleMesh withCaps(const TriangleMesh& mesh) {
   TriangleMesh out = mesh;
-  for (const std::vector<uint32_t>& of_part : trianglesByPart(mesh)) {
-    const Shell shell = closePart(mesh, of_part);
+  for (const ClosedSurface& surface : closeSurfaces(mesh)) {
+    const Shell& shell = surface.shell;
     if (shell.isOpenSheet()) continue;
     std::unordered_map<uint32_t, uint32_t> apexes;
     const auto numberOf = [&](uint32_t vertex) {
@@ -241,9 +231,9 @@ TriangleMesh withCaps(const TriangleMesh& mesh) {
     };
     for (size_t c = 0; c < shell.closes_hole.size(); ++c) {
       if (!shell.closes_hole[c]) continue;
-      const Triangle& cap = shell.triangles[of_part.size() + c];
+      const Triangle& cap = shell.triangles[surface.triangles.size() + c];
       out.triangles.push_back({numberOf(cap[0]), numberOf(cap[1]), numberOf(cap[2])});
-      out.parts.push_back(mesh.parts[of_part[0]]);
+      out.parts.push_back(surface.part);
       if (!out.charts.empty()) out.charts.push_back(kNoChart);
     }
   }

@@ -10,7 +10,8 @@
 
 namespace viscera {
 
-/// One part of a mesh, made into a closed surface: every point off it has a whole winding number.
+/// A part of a mesh, or several that are joined, made into a closed surface: every point off it has a whole winding
+/// number.
 struct Shell {
   std::vector<Vector3d> positions_m;
   std::vector<std::array<uint32_t, 3>> triangles;  ///< the part's own first, then the caps
@@ -35,16 +36,18 @@ struct Shell {
 std::vector<std::vector<uint32_t>> trianglesByPart(const TriangleMesh& mesh);
 
 /// Orients some triangles of a mesh, those of one part, alike across shared edges and caps their boundary loops.
-Shell closePart(const TriangleMesh& mesh, const std::vector<uint32_t>& of_part);
+/// @param same  [vertices] which vertex of the mesh to take for each; empty: itself
+Shell closePart(const TriangleMesh& mesh, const std::vector<uint32_t>& of_part, const std::vector<uint32_t>& same = {});
 
 /// The surface of a box in a frame of its own.
 Shell boxShell(const Vector3d& min_m, const Vector3d& max_m, const Pose& pose);
 
-/// The mesh with its triangles turned to be counter-clockwise seen from outside, part by part.
+/// The mesh with its triangles turned to be counter-clockwise seen from outside, surface by surface (closeSurfaces()).
+/// Parts that are one surface share the vertices where they meet.
 TriangleMesh facingOutward(const TriangleMesh& mesh);
 
-/// The mesh with the caps that closePart() puts on the holes of its parts, but of open sheets: the surface of what is
-/// filled. @param mesh  facing outward
+/// The mesh with the caps that closeSurfaces() puts on its holes, but of open sheets: the surface of what is filled.
+/// @param mesh  facing outward
 TriangleMesh withCaps(const TriangleMesh& mesh);
 
 }  // namespace viscera

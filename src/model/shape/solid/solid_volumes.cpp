@@ -5,25 +5,42 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/shape/solid/joined_parts.h"
 #include "model/shape/solid/solid_grid.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
 
+namespace {
+
+/// What to try where open sheets may enclose a body together; empty of a flat mesh.
+std::string enclosedHint(const TriangleMesh& mesh) {
+  constexpr float kFlat = 1e-3f;  // of the largest extent
+  Eigen::AlignedBox3f box;
+  for (const Vector3f& p : mesh.positions_m) box.extend(p);
+  const Vector3f size = box.sizes();
+  if (size.minCoeff() <= kFlat * size.maxCoeff()) return "";
+  return "; if its sheets enclose one together, set fill: enclosed";
+}
+
+}  // namespace
+
 std::vector<Volume> closeParts(const TriangleMesh& mesh, VoxelReport& report) {
   std::vector<Volume> volumes;
-  const std::vector<std::vector<uint32_t>> triangles = trianglesByPart(mesh);
-  for (size_t part = 0; part < mesh.part_names.size(); ++part) {
-    Shell shell = closePart(mesh, triangles[part]);
-    if (shell.triangles.empty() || shell.isOpenSheet()) continue;
+  for (ClosedSurface& surface : closeSurfaces(mesh)) {
+    Shell& shell = surface.shell;
+    if (shell.isOpenSheet()) continue;
     report.mesh_volume_m3 += std::abs(shell.volume_m3);
     report.holes_closed += shell.holes_closed;
-    volumes.push_back({std::move(shell), static_cast<uint16_t>(part)});
+    volumes.push_back({std::move(shell), surface.part});
+    if (!surface.is_joined) continue;
+    for (const uint32_t t : surface.triangles) volumes.back().triangle_parts.push_back(mesh.parts[t]);
   }
   std::stable_sort(volumes.begin(), volumes.end(), [](const Volume& a, const Volume& b) {
     return std::abs(a.shell.volume_m3) < std::abs(b.shell.volume_m3);
   });
-  if (volumes.empty()) throw MeshError("the mesh encloses no volume: it is an open sheet, not the surface of a body");
+  if (volumes.empty())
+    throw MeshError("the mesh encloses no volume: it is an open sheet, not the surface of a body" + enclosedHint(mesh));
   return volumes;
 }
 
@@ -55,13 +72,20 @@ void fillCentres(const Volume& volume, Solid& solid) {
   }
 }
 
-void countDropped(const Solid& solid, VoxelReport& report) {
+void countDropped(const TriangleMesh& mesh, const Solid& solid, VoxelReport& report) {
   std::vector<bool> seen(solid.part_names.size() + 1, false);
   for (const uint16_t label : solid.labels) seen[label] = true;
+  std::vector<double> areas_m2 = partAreas(mesh);
+  areas_m2.resize(solid.part_names.size(), 0);  // one that the solid has beyond the mesh's
+  double dropped_m2 = 0, all_m2 = 0;
   for (size_t part = 0; part < solid.part_names.size(); ++part) {
-    if (!seen[part + 1]) report.dropped_names.push_back(solid.part_names[part]);
+    all_m2 += areas_m2[part];
+    if (seen[part + 1]) continue;
+    report.dropped_names.push_back(solid.part_names[part]);
+    dropped_m2 += areas_m2[part];
   }
   report.parts_dropped = static_cast<int>(report.dropped_names.size());
+  report.dropped_surface = all_m2 > 0 ? dropped_m2 / all_m2 : 0;
 }
 
 void refuseEmpty(const std::vector<Volume>& volumes, const TriangleMesh& mesh, double spacing_m,

@@ -12,13 +12,15 @@
 
 namespace viscera {
 
-/// A part that has an inside.
+/// A surface that has an inside: of a part, or of several that are joined.
 struct Volume {
   Shell shell;
-  uint16_t part;
+  uint16_t part;  ///< of several, the largest
+  std::vector<uint16_t> triangle_parts =
+      {};  ///< [own triangles of the shell] where they are of several parts; else empty
 };
 
-/// Closes every part; those that enclose nothing are left out. Smallest first.
+/// Closes every surface (closeSurfaces()); those that enclose nothing are left out. Smallest first.
 /// @throws MeshError  none encloses anything
 std::vector<Volume> closeParts(const TriangleMesh& mesh, VoxelReport& report);
 
@@ -30,8 +32,11 @@ std::pair<int, int> centresWithin(const InsideStretch& stretch, int cells);
 /// Labels the cells whose centre is inside and that no other volume has.
 void fillCentres(const Volume& volume, Solid& solid);
 
-/// Looks for parts without a cell.
-void countDropped(const Solid& solid, VoxelReport& report);
+/// Gives the cells of volumes of several parts to the part whose surface is nearest, as a flood from it finds it.
+void nameJoinedParts(const std::vector<Volume>& volumes, Solid& solid);
+
+/// Looks for parts of the mesh without a cell.
+void countDropped(const TriangleMesh& mesh, const Solid& solid, VoxelReport& report);
 
 /// For a spacing at which a mesh filled no cell.
 /// @param fills  (spacing_m) -> whether it fills any at that one

@@ -3,7 +3,7 @@
 //
 // The fill rule: which cells of the grid are tissue. Meshes are dirty, so the rule is stated for any set of triangles.
 //
-//  1. Parts are filled one by one; the solid is their union.
+//  1. Parts are filled one by one; the solid is their union. Parts whose open borders meet are one (joined_parts.h).
 //  2. Within a part, triangles that share an edge are first turned to agree (the majority of a connected piece wins).
 //     Then every boundary loop is closed by a fan about its middle. A part whose caps have more than 0.6 of its own
 //     area (a plane, a sheet, a shallow bowl) is an open sheet: it has no inside and is left out.
@@ -88,6 +88,10 @@ std::string VoxelReport::text() const {
       << holes_closed << " holes closed, " << thin_cells << " thin-wall cells, " << crumbs_removed
       << " crumbs removed, " << parts_dropped << " parts dropped";
   for (size_t i = 0; i < dropped_names.size(); ++i) out << (i == 0 ? ": " : ", ") << dropped_names[i];
+  constexpr double kMost = 0.5;
+  if (dropped_surface > kMost)
+    out << "; parts with " << std::lround(100 * dropped_surface) << " % of the surface were dropped: if all parts "
+        << "enclose the body together, set fill: enclosed";
   return out.str();
 }
 
@@ -101,9 +105,10 @@ Solid voxelise(const TriangleMesh& mesh, double spacing_m, VoxelReport* report, 
     refuseEmpty(volumes, mesh, spacing_m,
                 [&](double h) { return fill(volumes, mesh, h, ignored, {}).filledCells() > 0; });
   }
+  nameJoinedParts(volumes, solid);
   found.crumbs_removed = removeCrumbs(solid, kCrumb);
   found.filled_volume_m3 = solid.volumeM3();
-  countDropped(solid, found);
+  countDropped(mesh, solid, found);
   if (report != nullptr) *report = found;
   return solid;
 }
