@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/model/fitted_scene.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -11,6 +12,7 @@
 #include "model/scene/yaml_overrides.h"
 #include "model/scene/yaml_reader.h"
 #include "model/shape/organ/tissue.h"
+#include "model/shape/organ/unit_question.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -76,6 +78,8 @@ void followSpacing(const OrganFit& fit, const BodyConfig& was, Keys& keys) {
   keys.set("bodies[0].spacing_m", was.spacing_m * std::cbrt(fit.stretch.prod()));
 }
 
+constexpr double kLeastSize_m = 1e-4;  ///< that keys of tools and obstacles accept, scene_fields.h
+
 void followObstacles(const OrganFit& fit, const Scene& made, Keys& keys) {
   const double scale = fit.stretch.minCoeff();  // nothing grows into the organ
   for (size_t i = 0; i < made.obstacles.size(); ++i) {
@@ -85,12 +89,12 @@ void followObstacles(const OrganFit& fit, const Scene& made, Keys& keys) {
     keys.set(key + "position_m", fit.moved(obstacle.position_m));
     if (!obstacle.velocity_m_per_s.isZero()) keys.set(key + "velocity_m_per_s", scale * obstacle.velocity_m_per_s);
     const bool is_round = obstacle.shape == ObstacleShape::kSphere || obstacle.shape == ObstacleShape::kCapsule;
-    if (is_round) keys.set(key + "radius_m", scale * obstacle.radius_m);
+    if (is_round) keys.set(key + "radius_m", std::max(kLeastSize_m, scale * obstacle.radius_m));
     if (obstacle.shape == ObstacleShape::kCapsule) keys.set(key + "length_m", scale * obstacle.length_m);
     if (obstacle.shape != ObstacleShape::kBox) continue;
     const bool is_turned = !obstacle.rotation_deg.isZero() || !obstacle.rotation_deg_per_s.isZero();
     const Vector3d stretch = is_turned ? Vector3d::Constant(scale) : fit.stretch;
-    keys.set(key + "size_m", stretch.cwiseProduct(obstacle.size_m));
+    keys.set(key + "size_m", stretch.cwiseProduct(obstacle.size_m).cwiseMax(kLeastSize_m));
   }
 }
 
@@ -133,7 +137,8 @@ constexpr std::array<ToolSize, 11> kToolSizes = {{
 void followTools(const OrganFit& fit, const Scene& made, Keys& keys) {
   for (size_t i = 0; i < made.styluses.size(); ++i) {
     const std::string key = item("styluses", i);
-    for (const ToolSize& size : kToolSizes) keys.set(key + size.key, fit.hand_scale * size.value_m(made.styluses[i]));
+    for (const ToolSize& size : kToolSizes)
+      keys.set(key + size.key, std::max(kLeastSize_m, fit.hand_scale * size.value_m(made.styluses[i])));
   }
 }
 
@@ -143,20 +148,32 @@ Vector3d sightOf(const Scene& scene) {
   return Vector3d::UnitY();
 }
 
-Eigen::AlignedBox3d boxOf(const Scene& scene) {
+/// None if the organ cannot be read, which making a model of it says better.
+std::optional<Eigen::AlignedBox3d> boxOf(const Scene& scene) {
   BodyConfig body = scene.bodies[0];
   body.textures = false;  // shape alone
-  return makeTissue(body, scene.folder)->bounds();
+  try {
+    return makeTissue(body, scene.folder)->bounds();
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
 }
 
-/// None if one of the organs cannot be read, which making a model of it says better.
-std::optional<OrganFit> fitOf(const Scene& made, const Scene& scene) {
-  try {
-    const OrganFit fit = OrganFit::between(boxOf(made), boxOf(scene), sightOf(made));
-    if (fit.isSound()) return fit;
-  } catch (const std::exception&) {
-  }
-  return std::nullopt;
+/// A mesh whose unit is not set, and that is far too large: the next step would be a grid of it.
+/// @throws MeshError
+void requireLikelyUnit(const Scene& scene, const Eigen::AlignedBox3d& made_m, const Eigen::AlignedBox3d& box_m,
+                       const Overrides& own) {
+  constexpr double kMostTimes = 20;
+  const std::string key = "bodies[0].unit_scale_m";
+  for (const std::string& text : own)
+    if (text.compare(0, key.size() + 1, key + "=") == 0) return;
+  const double usual_m = made_m.sizes().maxCoeff(), times = box_m.sizes().maxCoeff() / usual_m;
+  if (!(times > kMostTimes)) return;
+  std::ostringstream out;
+  out.precision(3);
+  out << unitQuestion(scene.bodies[0], box_m.sizes(), usual_m) << " It is " << times
+      << " times as wide as the scene's body; a mesh of that size in metres needs " << key << "=1";
+  throw MeshError(out.str());
 }
 
 /// The scene as its file alone has it; none if it waits for a mesh.
@@ -181,17 +198,20 @@ FittedScene loadFittedScene(const std::string& path, const Overrides& mesh, cons
   out.scene = loadScene(path, out.overrides);
   if (mesh.empty()) return out;
   const std::optional<Scene> made = madeScene(path);
-  const std::optional<OrganFit> fit = made ? fitOf(*made, out.scene) : std::nullopt;
-  if (!fit) return out;
+  const auto was_m = made ? boxOf(*made) : std::nullopt, is_m = made ? boxOf(out.scene) : std::nullopt;
+  if (!was_m || !is_m) return out;
+  requireLikelyUnit(out.scene, *was_m, *is_m, own);
+  const OrganFit fit = OrganFit::between(*was_m, *is_m, sightOf(*made));
+  if (!fit.isSound()) return out;
   const bool is_alone = made->bodies.size() == 1;
   Keys keys;
-  followFixed(*fit, made->bodies[0], out.scene.bodies[0], keys);
-  followSpacing(*fit, made->bodies[0], keys);
+  followFixed(fit, made->bodies[0], out.scene.bodies[0], keys);
+  followSpacing(fit, made->bodies[0], keys);
   if (is_alone) {
-    followObstacles(*fit, *made, keys);
-    followThreads(*fit, *made, keys);
-    followCameras(*fit, *made, keys);
-    followTools(*fit, *made, keys);
+    followObstacles(fit, *made, keys);
+    followThreads(fit, *made, keys);
+    followCameras(fit, *made, keys);
+    followTools(fit, *made, keys);
   }
   out.overrides = joined(joined(mesh, keys.take()), own);
   out.scene = loadScene(path, out.overrides);

@@ -21,6 +21,7 @@
 #include "model/scene/tissue_presets.h"
 #include "model/scene/tool_kinds.h"
 #include "model/shape/organ/tissue.h"
+#include "model/shape/organ/unit_question.h"
 #include "viscera/math/error.h"
 #include "viscera/model/body/elasticity.h"
 
@@ -39,9 +40,12 @@ Progress progressOf(const BodyConfig& config, const Progress& progress) {
   };
 }
 
-void addPiecesNote(Body& body) {
-  const std::string note = piecesNote(body);
-  if (!note.empty()) body.notes.push_back(note);
+void addPiecesNote(const BodyConfig& config, Body& body) {
+  std::string note = piecesNote(body);
+  if (note.empty()) return;
+  const bool of_parts = config.source == TissueSource::kMesh && config.fill == Fill::kParts;
+  if (of_parts && body.hasCells()) note += "; fill: enclosed bridges gaps between parts that belong together";
+  body.notes.push_back(note);
 }
 
 void addToughnessNotes(Body& body) {
@@ -70,7 +74,7 @@ Body buildLatticeBody(const BodyConfig& config, const Scene& scene, const Tissue
   addToughnessNotes(body);
   const std::string walls = wallsNote(tissue.walls(), solid.spacing_m);
   if (!walls.empty()) body.notes.push_back(walls);
-  addPiecesNote(body);
+  addPiecesNote(config, body);
   if (progress) progress("extract skin", 0);
   const TriangleMesh surface =
       detailedSurface(surfaceOf(tissue, config, solid),
@@ -93,7 +97,7 @@ Body buildNetworkBody(const BodyConfig& config, const Tissue& tissue, bool can_b
   body.notes.push_back(networkNote(body, fixed_nodes));
   addToughnessNotes(body);
   addPrestress(body);
-  addPiecesNote(body);
+  addPiecesNote(config, body);
   if (progress) progress("extract skin", 0);
   body.skin = bindNetworkSkin(*body.network, can_be_cut);
   body.skin.can_be_cut = can_be_cut;
@@ -109,6 +113,10 @@ std::string sizeKey(const BodyConfig& config) {
   return config.auto_spacing ? "spacing_m auto" : out.str();
 }
 
+bool isTooWide(const BodyConfig& config, const Tissue& tissue) {
+  return config.source == TissueSource::kMesh && tissue.bounds().sizes().maxCoeff() > kWidestOrgan_m;
+}
+
 Body buildBody(const BodyConfig& config, const Scene& scene, bool can_be_cut, const Progress& all_progress) {
   const Progress told = progressOf(config, all_progress);
   std::string stage = "read";
@@ -116,17 +124,22 @@ Body buildBody(const BodyConfig& config, const Scene& scene, bool can_be_cut, co
     stage = name;
     if (told) told(name, fraction);
   };
-  return memoryFor<LatticeError>([&] { return "stage '" + stage + "' with " + sizeKey(config); },
-                                 [&] {
-                                   progress("read", 0);
-                                   const std::unique_ptr<Tissue> tissue = makeTissue(config, scene.folder);
-                                   Body body = isNetwork(config.structure)
-                                                   ? buildNetworkBody(config, *tissue, can_be_cut, progress)
-                                                   : buildLatticeBody(config, scene, *tissue, can_be_cut, progress);
-                                   addNotes(tissueNotes(config), body);
-                                   if (!config.parts.empty()) elasticityByLabel(body);  // are there such parts?
-                                   return body;
-                                 });
+  std::unique_ptr<Tissue> tissue;
+  const auto build = [&] {
+    progress("read", 0);
+    tissue = makeTissue(config, scene.folder);
+    Body body = isNetwork(config.structure) ? buildNetworkBody(config, *tissue, can_be_cut, progress)
+                                            : buildLatticeBody(config, scene, *tissue, can_be_cut, progress);
+    addNotes(tissueNotes(config), body);
+    if (!config.parts.empty()) elasticityByLabel(body);  // are there such parts?
+    return body;
+  };
+  try {
+    return memoryFor<LatticeError>([&] { return "stage '" + stage + "' with " + sizeKey(config); }, build);
+  } catch (const LatticeError& error) {
+    if (!tissue || !isTooWide(config, *tissue)) throw;
+    throw LatticeError(unitQuestion(config, tissue->bounds().sizes()) + " " + error.what());
+  }
 }
 
 bool canMove(const Model& model) {

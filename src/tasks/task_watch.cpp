@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "math/float_bits.h"
-#include "math/number_text.h"
 #include "tasks/task_kinds.h"
 
 namespace viscera {

@@ -90,13 +90,17 @@ TEST_F(BadInput, SceneThatCannotBeStepped) {
 }
 
 TEST_F(BadInput, MeshFile) {
-  const std::string plane = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
+  const std::string plane = "v 0 0 0\nv .1 0 0\nv .1 .1 0\nv 0 .1 0\nf 1 2 3\nf 1 3 4\n";
   expectRunRefusal({"--mesh", folder_.file("none.obj")}, {folder_.file("none.obj"), "no such file"});
   expectRunRefusal({"--mesh", folder_.path()}, {folder_.path(), "directory"});
   expectRunRefusal({"--mesh", folder_.write("empty.obj", "")}, {"empty.obj", "empty"});
   expectRunRefusal({"--mesh", folder_.write("text.obj", "I am no mesh\n")}, {"text.obj"});
   expectRunRefusal({"--mesh", folder_.write("corrupt.glb", "glTF\2\0\0\0 and then noise")}, {"corrupt.glb"});
   expectRunRefusal({"--mesh", folder_.write("plane.obj", plane)}, {"plane.obj", "volume"});
+  expectRunRefusal({"--mesh", folder_.write("inch.obj",
+                                            "v 0 0 0\nv 3.937 0 0\nv 0 2.362 0\nv 0 0 1.575\nf 1 3 2\n"
+                                            "f 1 2 4\nf 1 4 3\nf 2 3 4\n")},
+                   {"inch.obj", "3.937 m wide: unit_scale_m=", "0.0254 (inches)?"});
   expectRunRefusal({"--mesh", folder_.write("nan.obj", "v nan 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n")}, {"nan.obj"});
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "support/temporary_folder.h"
+#include "viscera/math/error.h"
 #include "viscera/model/model.h"
 
 namespace viscera {
@@ -101,9 +102,47 @@ TEST_F(Fit, UnitsAndTurnsCountBeforeTheBoxIsTaken) {
 TEST_F(Fit, NothingFollowsWithoutAMeshOrAnOrganOutOfAllProportion) {
   EXPECT_FALSE(loadFittedScene(scene_, {}, {"bodies[0].spacing_m=0.02"}).scene.fit);
   EXPECT_TRUE(loadFittedScene(scene_, {}, {}).overrides.empty());
-  EXPECT_FALSE(fitted(Vector3d::Constant(100)).scene.fit);
+  EXPECT_FALSE(fitted(Vector3d::Constant(100), {"bodies[0].unit_scale_m=1"}).scene.fit);
   EXPECT_FALSE(fitted({0.1, 0.1, 0}).scene.fit);
   EXPECT_FALSE(loadFittedScene(scene_, meshOverrides(folder_.file("none.obj")), {}).scene.fit);
+}
+
+TEST_F(Fit, WhatIsNotFilledIsNoPartOfTheBox) {
+  const std::string box = boxMesh(Vector3d(0.1, 0.08, 0.06));
+  const std::string fin = "o fin\nv 0 -0.04 0.03\nv 0 0.04 0.03\nv 0 0 0.2\nf 9 10 11\n";
+  const std::string crumb =  // of 1 mm, 0.3 m to the side
+      "o crumb\nv 0.3 0 0\nv 0.301 0 0\nv 0.3 0.001 0\nv 0.3 0 0.001\nf -4 -2 -3\nf -4 -3 -1\nf -4 -1 -2\nf -3 -2 -1\n";
+  for (const std::string& more : {fin, crumb, fin + crumb}) {
+    const FittedScene scene = loadFittedScene(scene_, meshOverrides(folder_.write("more.obj", box + more)), {});
+    ASSERT_TRUE(scene.scene.fit);
+    expectNear(scene.scene.fit->to_m.sizes(), {0.1, 0.08, 0.06});
+    EXPECT_NO_THROW(buildModel(scene.scene)) << "it is held from above";
+  }
+}
+
+TEST_F(Fit, ToolsOfTheSmallestOrgansAreAsSmallAsToolsCanBe) {
+  const Scene scene = fitted({0.004, 0.003, 0.0025}).scene;
+  EXPECT_EQ(scene.styluses[0].cautery.radius_m, 1e-4);
+  EXPECT_NO_THROW(buildModel(scene));
+}
+
+TEST_F(Fit, AMeshInAnotherUnitIsAskedForIt) {
+  const auto question = [&](const Vector3d& size_m) -> std::string {
+    try {
+      fitted(size_m);
+    } catch (const MeshError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  for (const auto& [width, parts] : std::vector<std::pair<double, std::vector<std::string>>>{
+           {100, {"organ.obj", "100 m wide", "unit_scale_m=0.001 (millimetres)?", "bodies[0].unit_scale_m=1"}},
+           {3.937, {"3.937 m wide", "unit_scale_m=0.0254 (inches) or 0.01 (centimetres)?"}},
+           {12, {"12 m wide", "unit_scale_m=0.01 (centimetres)"}}}) {
+    const std::string said = question({0.6 * width, width, 0.4 * width});
+    for (const std::string& part : parts) EXPECT_NE(said.find(part), std::string::npos) << said;
+  }
+  EXPECT_TRUE(fitted(Vector3d::Constant(1.9)).scene.fit) << "a whole body is no mistake";
 }
 
 TEST_F(Fit, OfSeveralBodiesTheHeldRegionAloneFollows) {

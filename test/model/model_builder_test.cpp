@@ -144,6 +144,12 @@ TEST(BuildModel, SpacingOutOfRangeNamesTheBodyAndWhatWouldDo) {
   }
 }
 
+TEST(BuildModel, AMeshInMillimetresThatDoesNotFitIsAskedForItsUnit) {
+  const BodyConfig config = meshConfig(boxMesh({0, 0, 0}, {100, 60, 50}), 0.001);
+  const std::string message = errorOf<LatticeError>(config);
+  EXPECT_TRUE(contains(message, "organ.obj' is 100 m wide: unit_scale_m=0.001 (millimetres)?")) << message;
+}
+
 TEST(BuildModel, AMeshWithoutVolumeIsRefusedByItsFile) {
   TriangleMesh plane;
   plane.positions_m = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};

@@ -89,7 +89,8 @@ size_t countNodes(const Solid& solid) {
 
 Filling fillToNodes(const Tissue& tissue, int target_nodes, const Progress& progress) {
   const Vector3d size_m = tissue.bounds().sizes();
-  const double start_m = std::cbrt(kUsualFill * size_m.prod() / target_nodes);
+  const double start_m = size_m.minCoeff() > 0 ? std::cbrt(kUsualFill * size_m.prod() / target_nodes)
+                                               : size_m.maxCoeff() / std::cbrt(target_nodes);  // flat: filling says so
   return toNodes(
       target_nodes, start_m, size_m.maxCoeff(), std::cbrt,
       [&](double spacing_m) { return tissue.fill(spacing_m, progress); },
