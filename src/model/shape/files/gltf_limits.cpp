@@ -148,6 +148,37 @@ void requireTriangles(const GltfTree& tree, const std::vector<double>& instances
   requireAtMost(std::ceil(std::max(once, shown)), limits.max_triangles, "triangles", "max_triangles");
 }
 
+/// Extensions that say how a surface looks, or that are read. Without any other a shape is as the file has it.
+bool isReadOrLook(const std::string& extension) {
+  constexpr const char* kBegin[] = {
+      "KHR_materials_",       "KHR_texture_", "EXT_texture_", "MSFT_texture_",
+      "KHR_lights_",          "EXT_lights_",  "KHR_xmp",      "KHR_draco_mesh_compression",
+      "KHR_mesh_quantization"};
+  return std::any_of(std::begin(kBegin), std::end(kBegin),
+                     [&](const char* begin) { return extension.rfind(begin, 0) == 0; });
+}
+
+void requireKnownExtensions(const GltfTree& tree) {
+  for (const std::string& extension : tree.required) {
+    if (isReadOrLook(extension)) continue;
+    const bool packed = extension == "EXT_meshopt_compression";
+    throw MeshError("requires the extension " + extension + ", which is not read; write it without" +
+                    (packed ? ", as by gltfpack without -c" : ""));
+  }
+}
+
+bool isQuantised(const GltfTree& tree) {
+  constexpr uint64_t kFloat = 5126;
+  const auto isWhole = [&](uint64_t accessor) {
+    const uint64_t type = accessor < tree.component_types.size() ? tree.component_types[accessor] : 0;
+    return type != 0 && type != kFloat;
+  };
+  for (const auto& mesh : tree.meshes)
+    for (const GltfTree::Primitive& primitive : mesh)
+      if (std::any_of(primitive.reals.begin(), primitive.reals.end(), isWhole)) return true;
+  return false;
+}
+
 }  // namespace
 
 bool looksLikeGltf(const std::string& path) {
@@ -163,8 +194,11 @@ bool looksLikeGltf(const std::string& path) {
   return file >> first && first == '{';
 }
 
-void requireGltfWithin(const std::string& path, const ImportLimits& limits) {
+GltfFacts requireGltfWithin(const std::string& path, const ImportLimits& limits) {
   const GltfTree tree = treeOf(path);
+  requireKnownExtensions(tree);
+  if (tree.scenes.empty())
+    throw MeshError("has no scene: nothing says which of its nodes are shown; export it with a scene");
   const double bytes = std::accumulate(tree.buffer_bytes.begin(), tree.buffer_bytes.end(), 0.0);
   requireAtMost(bytes / kGltfBytesPerMb, limits.max_file_mb, "size of its buffers in MB", "max_file_mb");
   const std::vector<size_t> order = parentsFirst(tree);
@@ -173,6 +207,11 @@ void requireGltfWithin(const std::string& path, const ImportLimits& limits) {
   requireAtMost(std::accumulate(instances.begin(), instances.end(), 0.0), limits.max_instances,
                 "instances of nodes, with what they share copied", "max_instances");
   requireTriangles(tree, instances, limits);
+  GltfFacts facts;
+  facts.is_quantised = isQuantised(tree);
+  facts.is_draco =
+      std::find(tree.required.begin(), tree.required.end(), "KHR_draco_mesh_compression") != tree.required.end();
+  return facts;
 }
 
 }  // namespace viscera

@@ -8,13 +8,20 @@
 
 namespace viscera {
 
+/// What a library gets wrong of a glTF file.
+struct GltfFacts {
+  bool is_draco = false;      ///< it requires KHR_draco_mesh_compression
+  bool is_quantised = false;  ///< some attribute that is usually real has whole numbers
+};
+
 /// Does a file begin as glTF's JSON or as GLB does, whatever its name?
 bool looksLikeGltf(const std::string& path);
 
 /// Looks at a glTF or GLB file's own tree before a library does, which would recurse into it and unroll what its nodes
 /// share. Reads the text once, without recursion, and keeps but numbers of it.
 /// @throws MeshError  it is cut short, no JSON or another version than 2; nodes are nested in a circle; or there is
-/// more than the limits accept: number found, range and key. The caller names the file.
-void requireGltfWithin(const std::string& path, const ImportLimits& limits);
+/// more than the limits accept: number found, range and key; or it requires what is not read. The caller names the
+/// file.
+GltfFacts requireGltfWithin(const std::string& path, const ImportLimits& limits);
 
 }  // namespace viscera

@@ -56,7 +56,12 @@ bool GltfTreeReader::key(string_t& name) {
 
 bool GltfTreeReader::string(string_t& text) {
   value();
-  if (levels_.size() == 2 && path() == "asset.version" && tree_.version.empty()) tree_.version = text;
+  constexpr size_t kMostRequired = 64, kLongestName = 64;
+  if (levels_.size() != 2) return true;
+  const std::string where = path();
+  if (where == "asset.version" && tree_.version.empty()) tree_.version = text;
+  if (where == "extensionsRequired.*" && tree_.required.size() < kMostRequired)
+    tree_.required.push_back(text.substr(0, kLongestName));
   return true;
 }
 
@@ -77,6 +82,7 @@ void GltfTreeReader::keep(uint64_t number) {
   if (where == "nodes.*.mesh") itemAt(tree_.nodes, at(1)).meshes.push_back(number);
   if (where == "scenes.*.nodes.*") itemAt(tree_.scenes, at(1)).push_back(number);
   if (where == "accessors.*.count") itemAt(tree_.accessor_counts, at(1)) = static_cast<double>(number);
+  if (where == "accessors.*.componentType") itemAt(tree_.component_types, at(1)) = number;
   if (where == "buffers.*.byteLength") itemAt(tree_.buffer_bytes, at(1)) = static_cast<double>(number);
   if (where.rfind("meshes.*.primitives.*.", 0) == 0) keepOfMesh(number, where);
 }
@@ -85,6 +91,8 @@ void GltfTreeReader::keepOfMesh(uint64_t number, const std::string& where) {
   GltfTree::Primitive& primitive = itemAt(itemAt(tree_.meshes, at(1)), at(3));
   const std::string inside = where.substr(std::string("meshes.*.primitives.*.").size());
   if (inside == "mode") primitive.mode = number;
+  for (const char* real : {"attributes.POSITION", "attributes.NORMAL", "attributes.TANGENT", "attributes.TEXCOORD_"})
+    if (inside.rfind(real, 0) == 0) primitive.reals.push_back(number);
   if (inside == "indices" || inside.rfind("attributes.", 0) == 0) primitive.accessors.push_back(number);
   if (inside.rfind("targets.*.", 0) == 0) primitive.of_targets.push_back(number);
 }

@@ -19,15 +19,18 @@ struct GltfTree {
   /// Accessors by number. Those of attributes and indices are as long as each other, those of targets come on top.
   struct Primitive {
     std::vector<uint64_t> accessors, of_targets;
+    std::vector<uint64_t> reals;  ///< accessors of what readers expect as real numbers
     uint64_t mode = kTriangles;
   };
   static constexpr uint64_t kTriangles = 4;
 
   std::string version;
+  std::vector<std::string> required;  ///< extensions without which the file cannot be read
   std::vector<Node> nodes;
   std::vector<std::vector<uint64_t>> scenes;  ///< their root nodes
   std::vector<std::vector<Primitive>> meshes;
   std::vector<double> accessor_counts, buffer_bytes;
+  std::vector<uint64_t> component_types;  ///< [accessors] as OpenGL numbers them; 0: not said
 };
 
 /// Fills a GltfTree while the JSON goes by. Its memory does not grow with what it does not keep.

@@ -7,6 +7,7 @@
 #include <assimp/scene.h>
 
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
@@ -19,10 +20,12 @@
 #include "math/number_text.h"
 #include "math/one_line.h"
 #include "model/scene/file_bounds.h"
+#include "model/shape/files/float_gltf.h"
 #include "model/shape/files/gltf_limits.h"
 #include "model/shape/files/import_limits.h"
 #include "model/shape/files/mesh_look.h"
 #include "model/shape/files/ply_reader.h"
+#include "model/shape/files/stl_reader.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -212,34 +215,55 @@ void requireVerticesInFaces(const aiScene& scene) {
 /// Opens nothing but ordinary files within the limit, whatever a file refers to: a pipe could be waited for for ever.
 class BoundedFiles : public Assimp::DefaultIOSystem {
  public:
-  explicit BoundedFiles(const ImportLimits& limits) : limits_(limits) {}
+  /// @param made  files that are in memory alone, by path
+  BoundedFiles(const ImportLimits& limits, std::map<std::string, std::string> made)
+      : limits_(limits), made_(std::move(made)) {}
 
-  bool Exists(const char* file) const override {
-    requireWithinBounds(file);
-    std::error_code error;
-    return fs::is_regular_file(file, error);
-  }
+  bool Exists(const char* file) const override { return made_.count(file) > 0 || !nameOf(file).empty(); }
   Assimp::IOStream* Open(const char* file, const char* mode) override {
-    if (!Exists(file)) return nullptr;
-    requireFileSize(file, limits_);
-    return DefaultIOSystem::Open(file, mode);
+    const auto made = made_.find(file);
+    if (made != made_.end())
+      return new Assimp::MemoryIOStream(reinterpret_cast<const uint8_t*>(made->second.data()), made->second.size());
+    const std::string name = nameOf(file);
+    if (name.empty()) return nullptr;
+    requireFileSize(name, limits_);
+    return DefaultIOSystem::Open(name.c_str(), mode);
   }
 
  private:
+  /// The ordinary file of that name, or of that URI as glTF has it; empty: there is none.
+  static std::string nameOf(const std::string& file) {
+    for (const std::string& name : {file, unescaped(file)}) {
+      requireWithinBounds(name);
+      std::error_code error;
+      if (fs::is_regular_file(name, error)) return name;
+    }
+    return "";
+  }
+
   ImportLimits limits_;
+  std::map<std::string, std::string> made_;
 };
 
 /// The scene that assimp makes of a file, polygons as triangles; it belongs to the importer.
 const aiScene& readScene(Assimp::Importer& importer, const std::string& path, const ImportLimits& limits) {
   requireKnownFormat(path, limits);
-  if (looksLikeGltf(path)) requireGltfWithin(path, limits);
-  importer.SetIOHandler(new BoundedFiles(limits));  // the importer's from now on
+  GltfFacts gltf;
+  if (looksLikeGltf(path)) gltf = requireGltfWithin(path, limits);
+  std::map<std::string, std::string> made;
+  if (gltf.is_quantised) made = withFloatAttributes(path, limits);
+  importer.SetIOHandler(new BoundedFiles(limits, std::move(made)));  // the importer's from now on
   const aiScene* scene = importer.ReadFile(path, 0);
   if (scene != nullptr) {
     requireVerticesInFaces(*scene);
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   }
-  if (scene == nullptr) throw MeshError(std::string("cannot be read: ") + importer.GetErrorString());
+  if (scene == nullptr)
+    throw MeshError((gltf.is_draco
+                         ? "requires the extension KHR_draco_mesh_compression, and cannot be unpacked; write it "
+                           "without: "
+                         : "cannot be read: ") +
+                    std::string(importer.GetErrorString()));
   if (scene->mRootNode == nullptr) throw MeshError("holds no scene");
   requireScene(*scene, limits);
   return *scene;
@@ -247,18 +271,21 @@ const aiScene& readScene(Assimp::Importer& importer, const std::string& path, co
 
 void gather(const std::string& path, const ImportLimits& limits, Gatherer& gatherer) {
   requireFileSize(path, limits);
-  if (!isPly(path)) {
+  const bool is_ply = isPly(path);
+  if (!is_ply && !isStl(path)) {
     Assimp::Importer importer;
     return gatherer.visit(readScene(importer, path, limits));
   }
   std::unique_ptr<aiScene> scene;
+  std::vector<std::string> notes;
   try {
-    scene = readPly(path);
+    scene = is_ply ? readPly(path) : readStl(path, notes);
   } catch (const MeshError& error) {
     throw MeshError(std::string("is corrupt or cut short: ") + error.what());
   }
   requireScene(*scene, limits);
   gatherer.visit(*scene);
+  for (const std::string& note : notes) gatherer.report.look_notes.push_back(path + ": " + note);
 }
 
 }  // namespace

@@ -30,18 +30,6 @@ TextureWrap wrapOf(int mode) {
   return mode == aiTextureMapMode_Wrap ? TextureWrap::kRepeat : TextureWrap::kClamp;
 }
 
-/// "%20" is a blank in the names that glTF gives.
-std::string unescaped(const std::string& uri) {
-  std::string out;
-  for (size_t i = 0; i < uri.size(); ++i) {
-    const bool escaped = uri[i] == '%' && i + 2 < uri.size() && std::isxdigit(static_cast<unsigned char>(uri[i + 1])) &&
-                         std::isxdigit(static_cast<unsigned char>(uri[i + 2]));
-    out += escaped ? static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16)) : uri[i] == '\\' ? '/' : uri[i];
-    if (escaped) i += 2;
-  }
-  return out;
-}
-
 /// A picture within the mesh file, still packed or as texels.
 TextureImage embedded(const aiTexture& texture) {
   const auto* const bytes = reinterpret_cast<const uint8_t*>(texture.pcData);
@@ -59,6 +47,17 @@ TextureImage embedded(const aiTexture& texture) {
 }
 
 }  // namespace
+
+std::string unescaped(const std::string& uri) {
+  std::string out;
+  for (size_t i = 0; i < uri.size(); ++i) {
+    const bool escaped = uri[i] == '%' && i + 2 < uri.size() && std::isxdigit(static_cast<unsigned char>(uri[i + 1])) &&
+                         std::isxdigit(static_cast<unsigned char>(uri[i + 2]));
+    out += escaped ? static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16)) : uri[i] == '\\' ? '/' : uri[i];
+    if (escaped) i += 2;
+  }
+  return out;
+}
 
 TextureImage MeshLook::load(const std::string& name) const {
   if (const aiTexture* within = scene_->GetEmbeddedTexture(name.c_str())) return embedded(*within);

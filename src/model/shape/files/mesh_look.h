@@ -14,6 +14,9 @@
 
 namespace viscera {
 
+/// Returns a name of which glTF has a URI: "%20" is a blank in it.
+std::string unescaped(const std::string& uri);
+
 /// Gathers what a mesh file says of the look of its parts: materials, their pictures, texture coordinates. What it
 /// cannot use it leaves out, and says so: nothing is drawn black for want of a picture.
 class MeshLook {

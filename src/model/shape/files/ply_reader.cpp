@@ -11,6 +11,7 @@
 
 #include "math/number_text.h"
 #include "model/shape/files/ply_header.h"
+#include "model/shape/files/read_parts.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -65,17 +66,12 @@ class PlyNumbers {
   std::string word_;
 };
 
-struct PlyMesh {
-  std::vector<aiVector3D> vertices;
-  std::vector<std::array<unsigned, 3>> triangles;
-};
-
 unsigned vertexIndex(double value, size_t vertices) {
   if (value >= 0 && value < static_cast<double>(vertices)) return static_cast<unsigned>(value);
   throw MeshError("a face refers to a vertex that does not exist");
 }
 
-void readVertex(const PlyElement& element, PlyNumbers& numbers, PlyMesh& mesh) {
+void readVertex(const PlyElement& element, PlyNumbers& numbers, ReadPart& mesh) {
   aiVector3D position(0, 0, 0);
   for (const PlyProperty& property : element.properties) {
     const size_t values = property.list_type.empty() ? 1 : numbers.nextLength(property.list_type);
@@ -90,7 +86,7 @@ void readVertex(const PlyElement& element, PlyNumbers& numbers, PlyMesh& mesh) {
 }
 
 /// Faces, and any other element: corners are taken from a list of vertex indices, the rest is passed over.
-void readFace(const PlyElement& element, PlyNumbers& numbers, PlyMesh& mesh) {
+void readFace(const PlyElement& element, PlyNumbers& numbers, ReadPart& mesh) {
   for (const PlyProperty& property : element.properties) {
     const size_t values = property.list_type.empty() ? 1 : numbers.nextLength(property.list_type);
     const bool are_corners = property.name == "vertex_indices" || property.name == "vertex_index";
@@ -106,38 +102,38 @@ void readFace(const PlyElement& element, PlyNumbers& numbers, PlyMesh& mesh) {
   }
 }
 
-void readElement(const PlyElement& element, PlyNumbers& numbers, PlyMesh& mesh) {
+/// Strips of triangles, whose corners turn the other way from one to the next; -1 ends a strip.
+void readStrips(const PlyElement& element, PlyNumbers& numbers, ReadPart& mesh) {
+  for (const PlyProperty& property : element.properties) {
+    const size_t values = property.list_type.empty() ? 1 : numbers.nextLength(property.list_type);
+    std::vector<unsigned> strip;
+    for (size_t i = 0; i < values; ++i) {
+      const double value = numbers.next(property.type);
+      if (property.name != "vertex_indices" && property.name != "vertex_index") continue;
+      if (value == -1) {
+        strip.clear();
+        continue;
+      }
+      strip.push_back(vertexIndex(value, mesh.vertices.size()));
+      const size_t n = strip.size();
+      if (n < 3) continue;
+      const bool turned = n % 2 == 0;
+      mesh.triangles.push_back({strip[n - (turned ? 2 : 3)], strip[n - (turned ? 3 : 2)], strip[n - 1]});
+    }
+  }
+}
+
+void readElement(const PlyElement& element, PlyNumbers& numbers, ReadPart& mesh) {
   if (element.properties.empty()) return;
+  const auto read = element.name == "vertex" ? readVertex : element.name == "tristrips" ? readStrips : readFace;
   for (long long i = 0; i < element.count; ++i) {
     try {
-      (element.name == "vertex" ? readVertex : readFace)(element, numbers, mesh);
+      read(element, numbers, mesh);
     } catch (const MeshError& error) {
       const std::string what = error.what();
       throw MeshError("in " + element.name + " " + std::to_string(i) + ": " + (what.empty() ? "the file ends" : what));
     }
   }
-}
-
-/// Hands a mesh over as the single node of a scene.
-std::unique_ptr<aiScene> sceneOf(const PlyMesh& mesh) {
-  auto scene = std::make_unique<aiScene>();
-  auto out = std::make_unique<aiMesh>();
-  out->mNumVertices = static_cast<unsigned>(mesh.vertices.size());
-  out->mVertices = new aiVector3D[mesh.vertices.size()];
-  std::copy(mesh.vertices.begin(), mesh.vertices.end(), out->mVertices);
-  out->mNumFaces = static_cast<unsigned>(mesh.triangles.size());
-  out->mFaces = new aiFace[mesh.triangles.size()];
-  for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-    out->mFaces[t].mNumIndices = 3;
-    out->mFaces[t].mIndices = new unsigned[3];
-    std::copy(mesh.triangles[t].begin(), mesh.triangles[t].end(), out->mFaces[t].mIndices);
-  }
-  scene->mNumMeshes = 1;
-  scene->mMeshes = new aiMesh* [1] { out.release() };
-  scene->mRootNode = new aiNode;
-  scene->mRootNode->mNumMeshes = 1;
-  scene->mRootNode->mMeshes = new unsigned[1]{0};
-  return scene;
 }
 
 }  // namespace
@@ -152,9 +148,9 @@ std::unique_ptr<aiScene> readPly(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   const PlyHeader header = readPlyHeader(file);
   PlyNumbers numbers(file, header.format);
-  PlyMesh mesh;
+  ReadPart mesh;
   for (const PlyElement& element : header.elements) readElement(element, numbers, mesh);
-  return sceneOf(mesh);
+  return sceneOf({mesh});
 }
 
 }  // namespace viscera

@@ -1,0 +1,22 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <assimp/scene.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace viscera {
+
+/// Whether a file is STL by its name.
+bool isStl(const std::string& path);
+
+/// Reads an STL file, text or binary, whatever it begins with; each solid of a text becomes a mesh of its name.
+/// assimp (5.2) takes a file for neither where a byte too many or too few is at its end.
+/// @param notes  get what is odd and no mistake, one line each
+/// @throws MeshError  the file is corrupt or cut short; says where, without the file's name
+std::unique_ptr<aiScene> readStl(const std::string& path, std::vector<std::string>& notes);
+
+}  // namespace viscera

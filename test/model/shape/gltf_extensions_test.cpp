@@ -1,0 +1,127 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include "model/mesh_files.h"
+#include "model/mesh_samples.h"
+#include "support/temporary_folder.h"
+#include "support/text.h"
+#include "viscera/math/error.h"
+#include "viscera/model/shape/mesh_import.h"
+
+namespace viscera::test {
+namespace {
+
+constexpr double kGltfRounding = 1e-6;  // of a volume: single precision
+
+class GltfExtensions : public ::testing::Test {
+ protected:
+  std::string refusal(const std::string& json) {
+    const std::string path = folder_.write("shape.gltf", json);
+    return messageOf<MeshError>([&] { importMesh(path, 1); });
+  }
+  TemporaryFolder folder_;
+};
+
+/// A box of 1 m whose corners and triangles are in a file.
+std::string boxGltf(const std::string& uri, const std::string& extensions = "") {
+  return R"({"asset":{"version":"2.0"},)" + extensions +
+         R"("scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"accessors":[
+{"bufferView":0,"componentType":5126,"type":"VEC3","count":8},{"bufferView":1,"componentType":5125,"type":"SCALAR","count":36}],
+"bufferViews":[{"buffer":0,"byteLength":96},{"buffer":0,"byteOffset":96,"byteLength":144}],
+"buffers":[{"byteLength":240,"uri":")" +
+         uri + "\"}]}";
+}
+
+std::string boxBytes() {
+  const TriangleMesh box = boxMesh({0, 0, 0}, {1, 1, 1});
+  std::string bytes;
+  for (const Vector3f& p : box.positions_m) bytes += bytesOf(p);
+  for (const auto& t : box.triangles)
+    for (const uint32_t v : t) bytes += bytesOf(v);
+  return bytes;
+}
+
+TEST_F(GltfExtensions, RequiredOnesAreReadOrNamed) {
+  folder_.write("box.bin", boxBytes());
+  const auto with = [&](const std::string& name) {
+    return boxGltf("box.bin", R"("extensionsUsed":[")" + name + R"("],"extensionsRequired":[")" + name + R"("],)");
+  };
+  for (const std::string name : {"EXT_meshopt_compression", "EXT_mesh_gpu_instancing", "FOO_bar"})
+    EXPECT_TRUE(says(refusal(with(name)), {"shape.gltf", "requires the extension " + name, "write it without"}));
+  for (const std::string name : {"KHR_materials_unlit", "KHR_texture_transform", "EXT_texture_webp"})
+    EXPECT_NEAR(signedVolume(importMesh(folder_.write("look.gltf", with(name)), 1)), 1, kGltfRounding) << name;
+}
+
+/// A box as gltfpack has it: whole numbers of 16 bits, eight bytes apart, in the scale of its node.
+std::string quantisedBox(const std::string& buffer, bool is_signed) {
+  const std::string type = is_signed ? "5122" : "5123", normalized = is_signed ? "true" : "false";
+  const std::string scale = is_signed ? "0.1,0.1,0.1" : "0.001,0.001,0.001";
+  return R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_mesh_quantization"],
+"extensionsRequired":["KHR_mesh_quantization"],"scene":0,"scenes":[{"nodes":[0]}],
+"nodes":[{"mesh":0,"scale":[)" +
+         scale + R"(]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
+"accessors":[{"bufferView":0,"componentType":)" +
+         type + R"(,"normalized":)" + normalized + R"(,"type":"VEC3","count":8,
+"min":[0,0,0],"max":[1,1,1]},{"bufferView":1,"componentType":5125,"type":"SCALAR","count":36}],
+"bufferViews":[{"buffer":0,"byteLength":64,"byteStride":8},{"buffer":0,"byteOffset":64,"byteLength":144}],
+"buffers":[{"byteLength":208)" +
+         buffer + "}]}";
+}
+
+std::string quantisedBytes(int16_t one) {
+  const TriangleMesh box = boxMesh({0, 0, 0}, {1, 1, 1});
+  std::string bytes;
+  for (const Vector3f& p : box.positions_m) {
+    for (int c = 0; c < 3; ++c) bytes += bytesOf(static_cast<int16_t>(p[c] * one));
+    bytes += bytesOf(int16_t{77});
+  }
+  for (const auto& t : box.triangles)
+    for (const uint32_t v : t) bytes += bytesOf(v);
+  return bytes;
+}
+
+TEST_F(GltfExtensions, QuantisedPositionsAreRead) {
+  folder_.write("q.bin", quantisedBytes(32767));
+  const std::string uri = R"(,"uri":"q.bin")";
+  EXPECT_NEAR(signedVolume(importMesh(folder_.write("signed.gltf", quantisedBox(uri, true)), 1)), 1e-3, 1e-9);
+  folder_.write("q.bin", quantisedBytes(100));
+  EXPECT_NEAR(signedVolume(importMesh(folder_.write("unsigned.gltf", quantisedBox(uri, false)), 1)), 1e-3, 1e-9);
+  std::string json = quantisedBox("", true);
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const std::string binary = quantisedBytes(32767);
+  const auto word = [](size_t n) { return bytesOf(static_cast<uint32_t>(n)); };
+  const std::string glb = "glTF" + word(2) + word(28 + json.size() + binary.size()) + word(json.size()) + "JSON" +
+                          json + word(binary.size()) + std::string("BIN\0", 4) + binary;
+  EXPECT_NEAR(signedVolume(importMesh(folder_.write("box.glb", glb), 1)), 1e-3, 1e-9);
+  folder_.write("q.bin", quantisedBytes(100).substr(0, 60));
+  EXPECT_TRUE(says(refusal(quantisedBox(uri, true)), {"shape.gltf", "accessor 0 reaches beyond its buffer"}));
+}
+
+TEST_F(GltfExtensions, NamesOfFilesMayBeEscaped) {
+  folder_.write("my bin.bin", boxBytes());
+  folder_.write("50%25.bin", boxBytes());  // a name that looks escaped
+  for (const std::string uri : {"my%20bin.bin", "my bin.bin", "50%25.bin"})
+    EXPECT_NEAR(signedVolume(importMesh(folder_.write("box.gltf", boxGltf(uri)), 1)), 1, kGltfRounding) << uri;
+  EXPECT_TRUE(says(refusal(boxGltf("no%20bin.bin")), {"no%20bin.bin"}));
+}
+
+TEST_F(GltfExtensions, DracoThatCannotBeUnpackedIsNamed) {
+  const std::string bytes = "DRACO and what is none of it";
+  folder_.write("packed.bin", bytes);
+  const std::string length = std::to_string(bytes.size());
+  const std::string path =
+      folder_.write("packed.gltf", R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_draco_mesh_compression"],
+"extensionsRequired":["KHR_draco_mesh_compression"],"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"extensions":{"KHR_draco_mesh_compression":
+{"bufferView":0,"attributes":{"POSITION":0}}}}]}],
+"accessors":[{"componentType":5126,"type":"VEC3","count":4},{"componentType":5125,"type":"SCALAR","count":12}],
+"bufferViews":[{"buffer":0,"byteLength":)" +
+                                       length + R"(}],"buffers":[{"uri":"packed.bin","byteLength":)" + length + "}]}");
+  EXPECT_TRUE(says(messageOf<MeshError>([&] { importMesh(path, 1); }),
+                   {"packed.gltf", "requires the extension KHR_draco_mesh_compression", "write it without"}));
+}
+
+}  // namespace
+}  // namespace viscera::test
