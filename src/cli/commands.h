@@ -88,7 +88,8 @@ struct ImportOptions {
   std::vector<std::string> rigid;  ///< numbers or names of labels that are held in space
   bool list = false;               ///< says what is in the scan, and writes nothing
   bool no_previews = false;
-  std::string grey;  ///< scan that labels were drawn on, for previews; empty: not known
+  bool smooth = false;  ///< a label map that was made finer is read as it was before
+  std::string grey;     ///< scan that labels were drawn on, for previews; empty: not known
   std::string out;
 };
 /// `viscera import`: organs of a scan as meshes and a scene of them.

@@ -33,11 +33,12 @@ namespace fs = std::filesystem;
 constexpr double kNodes = 20000;     ///< that the largest body gets, about
 constexpr double kLeastNodes = 500;  ///< that a smaller one gets: its spacing shrinks before it has fewer
 constexpr double kHeld = 0.2;  ///< of a surface's vertices, from behind: of pointed organs' length it would be little
-constexpr double kFieldOfViewDeg = 28;     ///< of the camera, from the top of a picture to its bottom
-constexpr double kUsualLength = 0.1;       ///< [m] of organs that tools have their usual sizes for
-constexpr double kLargestLabel = 1 << 24;  ///< as labels.h has it
-constexpr size_t kMostListed = 255;        ///< labels of a map
-constexpr double kCm3 = 1e6;               ///< in a cubic metre
+constexpr double kFieldOfViewDeg = 28;                    ///< of the camera, from the top of a picture to its bottom
+constexpr double kUsualLength = 0.1;                      ///< [m] of organs that tools have their usual sizes for
+constexpr double kLargestLabel = 1 << 24;                 ///< as labels.h has it
+constexpr double kLeastSpacing = 1e-5, kLeastTip = 1e-4;  ///< [m] that a scene accepts
+constexpr size_t kMostListed = 255;                       ///< labels of a map
+constexpr double kCm3 = 1e6;                              ///< in a cubic metre
 
 /// A body of the scene.
 struct Organ {
@@ -48,6 +49,7 @@ struct Organ {
   double volume_m3 = 0, spacing_m = 0;
   double held_m = 0;  ///< x, behind which it is held
   bool is_rigid = false;
+  size_t skin_faces = 0;                 ///< that are drawn; 0: all
   const TissuePreset* tissue = nullptr;  ///< null: no preset has the label's name
 };
 
@@ -67,7 +69,9 @@ std::string formatOf(const std::string& path) {
   if (fs::is_directory(path, error)) return "DICOM, a folder";
   const std::string end = fs::path(path).extension().string();
   if (end == ".gz" || end == ".nii") return "NIfTI";
-  return end == ".dcm" ? "DICOM" : end == ".mhd" || end == ".mha" ? "MetaImage" : "NRRD";
+  if (end == ".mhd" || end == ".mha") return "MetaImage";
+  if (end == ".nrrd" || end == ".nhdr") return "NRRD";
+  return end == ".dcm" || isDicomFile(path) ? "DICOM" : "";
 }
 
 void printFrame(const VolumeFrame& frame) {
@@ -102,7 +106,7 @@ void printLabels(const ImportOptions& options) {
 }
 
 int list(const ImportOptions& options) {
-  std::cout << "format: " << formatOf(options.scan) << '\n';
+  if (!formatOf(options.scan).empty()) std::cout << "format: " << formatOf(options.scan) << '\n';
   if (formatOf(options.scan).rfind("DICOM", 0) == 0) {
     const std::vector<DicomSeries> all = listDicom(options.scan);
     for (size_t n = 0; n < all.size(); ++n) {
@@ -124,11 +128,13 @@ int list(const ImportOptions& options) {
   for (int k = 0; k < frame.size.z(); ++k) {
     source->next(values);
     for (const float value : values) {
-      whole = whole && value >= 0 && value <= kLargestLabel && value == std::floor(value);  // false for NaN
+      const float label = std::round(value);
+      whole =
+          whole && label >= 0 && label <= kLargestLabel && std::abs(value - label) <= kNearlyWhole;  // false for NaN
       if (std::isnan(value)) continue;
       least = std::min<double>(least, value);
       largest = std::max<double>(largest, value);
-      if (whole && value > 0 && met.size() <= kMostListed) met.insert(value);
+      if (whole && label > 0 && met.size() <= kMostListed) met.insert(label);
     }
   }
   std::cout << "values: " << (least > largest ? NAN : least) << " to " << (least > largest ? NAN : largest) << '\n';
@@ -195,7 +201,8 @@ std::vector<Organ> organsOf(const ReadScan& read, const ImportOptions& options, 
   const size_t count = map.names.size() - 1;
   if (!options.one_body && count > layout::kMaxBodies)
     throw SceneError(options.scan + ": " + std::to_string(count) + " labels; accepted: a scene has at most " +
-                     std::to_string(layout::kMaxBodies) + " bodies, of labels that --labels chooses");
+                     std::to_string(layout::kMaxBodies) +
+                     " bodies, of labels that --labels chooses; a grey scan needs --window LOW,HIGH");
   const SurfaceNet net = netOf(read, options.window);
   const std::vector<bool> rigid = rigidLabels(map.names, options);
   std::vector<bool> there(map.names.size(), true);
@@ -229,7 +236,8 @@ std::vector<Organ> organsOf(const ReadScan& read, const ImportOptions& options, 
   }
   for (Organ& organ : organs) {
     const double nodes = std::max(kLeastNodes, kNodes * organ.volume_m3 / largest_m3);
-    organ.spacing_m = options.spacing_m > 0 ? options.spacing_m : std::cbrt(organ.volume_m3 / nodes);
+    organ.spacing_m =
+        options.spacing_m > 0 ? options.spacing_m : std::max(kLeastSpacing, std::cbrt(organ.volume_m3 / nodes));
     const double voxel_m = map.frame.spacing_m().maxCoeff();
     if (organ.spacing_m < voxel_m)
       notes.push_back(organ.name + ": a spacing of " + numberText(organ.spacing_m) +
@@ -238,6 +246,21 @@ std::vector<Organ> organsOf(const ReadScan& read, const ImportOptions& options, 
     if (organ.is_rigid) organ.held_m = organ.box_m.max().x() + organ.spacing_m;  // all of it
   }
   return organs;
+}
+
+/// Skins that are too fine to be drawn and to follow tissue live are simplified by the scene, each by the same share.
+void chooseSkins(std::vector<Organ>& organs, std::vector<std::string>& notes) {
+  constexpr size_t kMostFaces = 400000, kLeastFaces = 2000;
+  size_t faces = 0;
+  for (const Organ& organ : organs) faces += organ.mesh.triangles.size();
+  if (faces <= kMostFaces) return;
+  const double share = static_cast<double>(kMostFaces) / static_cast<double>(faces);
+  for (Organ& organ : organs) {
+    const auto own = static_cast<size_t>(share * static_cast<double>(organ.mesh.triangles.size()));
+    organ.skin_faces = std::max(own, std::min(kLeastFaces, organ.mesh.triangles.size()));
+  }
+  notes.push_back("the surfaces have " + std::to_string(faces) + " triangles, of which about " +
+                  std::to_string(kMostFaces) + " are drawn: bodies[].skin_faces of the scene");
 }
 
 void writeFile(const fs::path& path, const std::string& bytes) {
@@ -276,18 +299,19 @@ std::string sceneOf(const std::vector<Organ>& organs, const std::string& scan) {
     const Organ& organ = organs[n];
     out << "  - name: " << organ.name << "  # " << organ.title << "\n    "
         << (organ.source.empty() ? "source: mesh\n    mesh_file: " + organ.file : organ.source)
-        << "\n    spacing_m: " << organ.spacing_m << "\n    position_m: [" << listText(-all.center())
-        << "]\n    color: " << kColors[n % kColors.size()] << "\n    material: {" << materialOf(organ.tissue) << "}"
+        << "\n    spacing_m: " << organ.spacing_m << "\n    position_m: [" << listText(-all.center()) << "]"
+        << (organ.skin_faces > 0 ? "\n    skin_faces: " + std::to_string(organ.skin_faces) : "")
+        << "\n    color: " << kColors[n % kColors.size()] << "\n    material: {" << materialOf(organ.tissue) << "}"
         << "\n    fixed:\n";
     if (organ.held.empty())
       out << "      - {shape: plane, point_m: [" << listText({organ.held_m, 0, 0}) << "], normal: [1, 0, 0]}\n";
     out << organ.held;
   }
-  const double scale = sizeOf(all);
+  const auto tip = [scale = sizeOf(all)](double usual_m) { return std::max(kLeastTip, usual_m * scale); };
   out << "styluses:\n";
   for (const char* hand : {"left", "right"}) {
-    out << "  - {name: " << hand << ", idle: probe, button1: grab, button2: cut, probe: {radius_m: " << 0.006 * scale
-        << "}, grab: {radius_m: " << 0.008 * scale << "}, cut: {blade_length_m: " << 0.022 * scale << "}}\n";
+    out << "  - {name: " << hand << ", idle: probe, button1: grab, button2: cut, probe: {radius_m: " << tip(0.006)
+        << "}, grab: {radius_m: " << tip(0.008) << "}, cut: {blade_length_m: " << tip(0.022) << "}}\n";
   }
   // From before, somewhat from the organ's left and from above.
   const double half = kFieldOfViewDeg / 2 * M_PI / 180;
@@ -330,6 +354,7 @@ int import(const ImportOptions& asked) {
   std::vector<std::string> notes;
   options.labels.notes = &notes;
   if (options.list) {
+    options.labels.guesses = true;
     list(options);
     printNotes(notes);
     return 0;
@@ -340,7 +365,8 @@ int import(const ImportOptions& asked) {
   stages.begin("reading");
   ReadScan read = readScan(options, stages, notes);
   stages.begin("surfaces");
-  const std::vector<Organ> organs = organsOf(read, options, notes);
+  std::vector<Organ> organs = organsOf(read, options, notes);
+  chooseSkins(organs, notes);
   read.map = {};
   stages.begin("scene");
   writeScene(draft, organs, options.scan);

@@ -63,8 +63,13 @@ CLI::App* addImport(CLI::App& app, cli::ImportOptions& o, std::vector<double>& w
   import->add_option("--axes", o.labels.axes, "where i, j, k lead to, where the file does not say, as in LPS");
   import->add_option("--transform", o.labels.transform, "sform or qform, where a NIfTI file has two that differ");
   import->add_option("--volume", o.labels.volume, "0 and up, of a file with several")->check(CLI::Range(0, 1'000'000));
-  import->add_option("--series", o.labels.series, "number or UID of a DICOM series");
+  import->add_option("--series", o.labels.series, "number or UID of a DICOM series; all: they are one volume");
+  import->add_flag("--fill-slices", o.labels.fill_slices, "missing slices of DICOM are like the nearest")
+      ->excludes("--one-body");
   import->add_option("--grey", o.grey, "scan that the labels were drawn on, for the previews")->excludes(values);
+  import->add_flag("--smooth", o.smooth, "read a label map that was made finer, voxel by voxel, as it was before")
+      ->excludes(values)
+      ->excludes("--one-body");
   import->add_flag("--no-previews", o.no_previews, "no pictures of organs and slices");
   import->add_option("--out", o.out, "new folder for scene.yaml and its meshes")->excludes(list);
   return import;

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "cli/dicom/tags.h"
@@ -19,6 +21,7 @@ using gdcm::Tag;
 using Kept = std::vector<gdcm::SmartPointer<gdcm::SequenceOfItems>>;
 
 constexpr size_t kMostFiles = 20000;
+constexpr double kMostSlices = 65534;
 constexpr double kSamePlaceMm = 0.01;                   ///< nearer slices are one place twice
 constexpr double kUnevenMm = 0.1, kUnevenShare = 0.02;  ///< how far a slice may be from its place
 constexpr double kSameDirection = 1e-4, kSameSpacingMm = 1e-3;
@@ -32,6 +35,7 @@ std::string text(double value) {
 
 /// The header, up to the pixels. @returns false: no DICOM file
 bool readHead(gdcm::Reader& reader, const std::string& file) {
+  nowReading(file);
   reader.SetFileName(file.c_str());
   return reader.CanRead() && reader.ReadUpToTag(Tag(0x7fe0, 0x0010), {Tag(0x7fe0, 0x0010)});
 }
@@ -59,11 +63,57 @@ void place(Frame& frame, const gdcm::DataSet& position, const gdcm::DataSet& ori
   frame.down_column = Vector3d(o[3], o[4], o[5]);
   frame.between_rows = s[0];
   frame.between_columns = s[1];
-  frame.thickness = b.size() == 1 ? std::abs(b[0]) : t.size() == 1 ? t[0] : 0;
+  if (b.size() == 1) frame.between = std::abs(b[0]);
+  if (t.size() == 1) frame.thickness = t[0];
   if (!(std::abs(frame.normal().norm() - 1) < 1e-2))
     throw SceneError(
         frame.file +
         ": its rows and columns are not perpendicular unit vectors; accepted: ImageOrientationPatient of such");
+}
+
+bool beginsAsDicom(const std::string& file, std::string& head) {
+  constexpr size_t kMagicAt = 128, kHead = 1024;
+  head.assign(kHead, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(head.data(), kHead);
+  head.resize(static_cast<size_t>(stream.gcount()));
+  return head.compare(std::min(kMagicAt, head.size()), 4, "DICM") == 0;
+}
+
+/// Folders below that hold DICOM files, the first few.
+std::vector<std::string> foldersBelow(const std::string& path) {
+  constexpr int kMostEntries = 5000;
+  constexpr size_t kMostFolders = 3;
+  std::vector<std::string> found;
+  std::error_code error;
+  int entries = 0;
+  for (fs::recursive_directory_iterator at(path, error), end; at != end && !error; at.increment(error)) {
+    if (++entries > kMostEntries || found.size() == kMostFolders) break;
+    const std::string folder = at->path().parent_path().string();
+    std::string head;
+    if (!at->is_regular_file(error) || folder == path || (!found.empty() && found.back() == folder)) continue;
+    if (beginsAsDicom(at->path().string(), head)) found.push_back(folder);
+  }
+  return found;
+}
+
+/// Why a folder or file has no series that is read.
+[[noreturn]] void refuseEmpty(const std::string& path, const std::vector<std::string>& files) {
+  const std::string deflated = "1.2.840.10008.1.2.1.99", directory = "1.2.840.10008.1.3.10";
+  std::string why, head;
+  for (const std::string& file : files) {
+    if (!beginsAsDicom(file, head)) continue;
+    if (head.find(deflated) != std::string::npos)
+      why = "; " + file + " is deflated as a whole, which is not read: dcmconv +te undoes it";
+    else if (why.empty() && head.find(directory) != std::string::npos)
+      why = "; " + file + " is the index of a medium: name the folder that holds the pictures";
+  }
+  if (fs::is_directory(path)) {
+    const std::vector<std::string> below = foldersBelow(path);
+    for (size_t n = 0; n < below.size(); ++n)
+      why += (n == 0 ? "; folders in it are not read: name " : " or ") + below[n];
+  }
+  throw SceneError(path + ": no DICOM file with pictures" + (why.empty() ? "; accepted: files of DICOM part 10" : why));
 }
 
 }  // namespace
@@ -93,7 +143,7 @@ std::vector<Series> seriesOf(const std::string& path) {
     series.description = textOf(data, Tag(0x0008, 0x103e)).substr(0, 64);
     series.files.push_back(file);
   }
-  if (all.empty()) throw SceneError(path + ": no DICOM file with pictures; accepted: files of DICOM part 10");
+  if (all.empty()) refuseEmpty(path, files);
   std::vector<Series> list;
   for (auto& [uid, series] : all) list.push_back(std::move(series));
   return list;
@@ -108,6 +158,10 @@ std::vector<Frame> framesOf(const std::string& file) {
   gdcm::Reader reader;
   if (!readHead(reader, file)) throw SceneError(file + ": no DICOM file");
   const gdcm::DataSet& data = reader.GetFile().GetDataSet();
+  const std::string kind = textOf(data, Tag(0x0008, 0x0008));
+  if (kind.find("MOSAIC") != std::string::npos)
+    throw SceneError(file + ": is a mosaic of slices in one picture (ImageType " + kind +
+                     "), which is not read; accepted: a picture a slice, or NIfTI, as dcm2niix makes of it");
   Kept kept;
   Frame frame;
   frame.file = file;
@@ -142,47 +196,100 @@ std::vector<Frame> framesOf(const std::string& file) {
   return frames;
 }
 
-Vector3d stepOf(const std::vector<Frame>& frames, bool gaps) {
+namespace {
+
+[[noreturn]] void refuseUneven(const Frame& frame, double usual) {
+  throw SceneError(frame.file + ": uneven slices: the one at " + text(frame.height()) + " mm along the normal is not " +
+                   text(usual) + " mm from that before; accepted: steps that are equal within 0.1 mm or 2 %");
+}
+
+/// How far a slice may be from its place.
+double mostOff(double step) {
+  return std::max(kUnevenMm, kUnevenShare * step);
+}
+
+/// The step where every slice is some times `height` above the one before; none: that is no step of theirs.
+/// @param off  how far slices may be from such places
+std::optional<Vector3d> stepOfHeight(const std::vector<Frame>& frames, double height, double off) {
+  std::vector<double> places = {0};
+  for (size_t n = 1; n < frames.size(); ++n) {
+    const double step = frames[n].height() - frames[n - 1].height(), times = std::round(step / height);
+    if (times < 1 || std::abs(step - times * height) > off) return {};
+    places.push_back(places.back() + times);
+  }
+  const Vector3d step = (frames.back().position - frames.front().position) / places.back();
+  for (size_t n = 0; n < frames.size(); ++n)
+    if ((frames.front().position + places[n] * step - frames[n].position).norm() > off) return {};
+  if (places.back() > kMostSlices)
+    throw SceneError(frames.front().file + ": its slices are not on a grid; accepted: even steps");
+  return step;
+}
+
+/// The largest step that leads from each slice to the next in whole steps. What is said of it counts where positions
+/// leave it open: whether planes between slices are empty, or there are none.
+Vector3d sparseStep(const std::vector<Frame>& frames, double least) {
+  constexpr int kMostParts = 3;  // of the least step: more would fit anything
+  if (const auto step = stepOfHeight(frames, least, mostOff(least))) return *step;
+  const double said = frames.front().between;
+  if (said > kSamePlaceMm)
+    if (const auto step = stepOfHeight(frames, said, mostOff(said))) return *step;
+  for (int parts = 2; parts <= kMostParts; ++parts)
+    if (const auto step = stepOfHeight(frames, least / parts, kUnevenShare * least / parts)) return *step;
+  for (size_t n = 1; n < frames.size(); ++n) {
+    const double step = frames[n].height() - frames[n - 1].height();
+    if (std::abs(step - std::round(step / least) * least) > mostOff(least)) refuseUneven(frames[n], least);
+  }
+  refuseUneven(frames.back(), least);
+}
+
+Vector3d evenStep(const std::vector<Frame>& frames, const std::vector<double>& steps) {
   const Frame &first = frames.front(), &last = frames.back();
-  const size_t count = frames.size();
-  if (count == 1) {
-    if (!(first.thickness > 0))
-      throw SceneError(first.file + ": one slice that does not say how thick it is; accepted: SliceThickness");
-    return first.normal() * first.thickness;
-  }
-  std::vector<double> steps;
-  for (size_t n = 1; n < count; ++n) {
-    steps.push_back(frames[n].height() - frames[n - 1].height());
-    if (steps.back() < kSamePlaceMm)
-      throw SceneError(frames[n].file + ": a slice is there twice, at " + text(frames[n].height()) +
-                       " mm along the normal (and in " + frames[n - 1].file + "); accepted: one slice a place");
-  }
   std::vector<double> sorted = steps;
   std::sort(sorted.begin(), sorted.end());
-  double slices = static_cast<double>(count - 1);
-  if (gaps) slices = std::round((last.height() - first.height()) / (first.thickness > 0 ? first.thickness : sorted[0]));
-  if (slices < 1 || slices > 65534)
-    throw SceneError(first.file + ": its slices are not on a grid; accepted: even steps");
-  const Vector3d step = (last.position - first.position) / slices;
-  const double usual = gaps ? first.normal().dot(step) : sorted[sorted.size() / 2],
-               most = std::max(kUnevenMm, kUnevenShare * usual);
-  for (size_t n = 1; n < count && !gaps; ++n) {
+  const Vector3d step = (last.position - first.position) / static_cast<double>(steps.size());
+  const double usual = sorted[sorted.size() / 2], most = mostOff(usual);
+  for (size_t n = 1; n < frames.size(); ++n) {
     const double times = std::round(steps[n - 1] / usual);
     if (times > 1.5 && std::abs(steps[n - 1] - times * usual) <= most)
       throw SceneError(frames[n].file + ": slices are missing, " + std::to_string(static_cast<int>(times) - 1) +
                        ", between " + text(frames[n - 1].height()) + " and " + text(frames[n].height()) +
-                       " mm along the normal; accepted: steps of " + text(usual) + " mm");
+                       " mm along the normal; accepted: steps of " + text(usual) +
+                       " mm, or --fill-slices, which puts the nearest there");
   }
-  for (size_t n = 1; n < count; ++n) {
-    const double at = gaps ? std::round((frames[n].height() - first.height()) / usual) : static_cast<double>(n);
-    if ((gaps || std::abs(steps[n - 1] - usual) <= most) &&
-        (first.position + at * step - frames[n].position).norm() <= most)
-      continue;
-    throw SceneError(frames[n].file + ": uneven slices: the one at " + text(frames[n].height()) +
-                     " mm along the normal is not " + text(usual) +
-                     " mm from that before; accepted: steps that are equal within 0.1 mm or 2 %");
-  }
+  for (size_t n = 1; n < frames.size(); ++n)
+    if (std::abs(steps[n - 1] - usual) > most ||
+        (first.position + static_cast<double>(n) * step - frames[n].position).norm() > most)
+      refuseUneven(frames[n], usual);
   return step;
+}
+
+}  // namespace
+
+Vector3d stepOf(const std::vector<Frame>& frames, bool gaps) {
+  const Frame& first = frames.front();
+  if (frames.size() == 1) {
+    const double height = first.between > 0 ? first.between : first.thickness;
+    if (!(height > 0))
+      throw SceneError(first.file + ": one slice that does not say how thick it is; accepted: SliceThickness");
+    return first.normal() * height;
+  }
+  std::vector<double> steps;
+  for (size_t n = 1; n < frames.size(); ++n) {
+    steps.push_back(frames[n].height() - frames[n - 1].height());
+    if (steps.back() < kSamePlaceMm)
+      throw SceneError(frames[n].file + ": a slice is there twice, at " + text(frames[n].height()) +
+                       " mm along the normal (and in " + frames[n - 1].file +
+                       "); accepted: one slice a place; take one of them out of the folder");
+  }
+  return gaps ? sparseStep(frames, *std::min_element(steps.begin(), steps.end())) : evenStep(frames, steps);
+}
+
+std::vector<int> slicesOf(const std::vector<Frame>& frames, const Vector3d& step) {
+  const double height = frames.front().normal().dot(step);
+  std::vector<int> slices;
+  for (const Frame& frame : frames)
+    slices.push_back(static_cast<int>(std::lround((frame.height() - frames.front().height()) / height)));
+  return slices;
 }
 
 Stack stackOf(std::vector<Frame>& frames) {
@@ -193,7 +300,7 @@ Stack stackOf(std::vector<Frame>& frames) {
         std::abs(f.between_rows - one.between_rows) > kSameSpacingMm ||
         std::abs(f.between_columns - one.between_columns) > kSameSpacingMm)
       throw SceneError(f.file + ": a slice of another size, direction or spacing than in " + one.file +
-                       "; accepted: slices of one volume");
+                       "; accepted: slices of one volume; take it out of the folder");
   std::stable_sort(frames.begin(), frames.end(),
                    [](const Frame& a, const Frame& b) { return a.height() < b.height(); });
   Stack stack;

@@ -73,14 +73,11 @@ void writeSegmentation(const std::string& file, int layer) {
   for (const Frame& frame : frames)
     if (places.empty() || frame.height() - places.back().height() > 0.01) places.push_back(frame);
   stack.axes.col(2) = stepOf(places, true);
-  const double step = places[0].normal().dot(stack.axes.col(2));
-  const auto slice = [&](const Frame& f) {
-    return static_cast<int>(std::lround((f.height() - places[0].height()) / step));
-  };
-  stack.size[2] = slice(places.back()) + 1;
+  const std::vector<int> slices = slicesOf(frames, stack.axes.col(2));
+  stack.size[2] = slices.back() + 1;
   std::multimap<int, const Frame*> of_layer;
-  for (const Frame& frame : frames)
-    if (frame.segment == numbers[static_cast<size_t>(layer)]) of_layer.emplace(slice(frame), &frame);
+  for (size_t n = 0; n < frames.size(); ++n)
+    if (frames[n].segment == numbers[static_cast<size_t>(layer)]) of_layer.emplace(slices[n], &frames[n]);
   writeHeader(stack, static_cast<int>(numbers.size()), lines);
   std::vector<float> values(planes.pixels);
   for (int k = 0; k < stack.size[2]; ++k) {

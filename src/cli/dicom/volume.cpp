@@ -15,6 +15,7 @@ using gdcm::Tag;
 constexpr uint64_t kMostTail = 1 << 20;  ///< bytes of a file's end in which packed pixels must end
 
 void requireWhole(const std::string& file) {
+  nowReading(file);
   std::ifstream head(file, std::ios::binary);
   gdcm::Reader reader;
   reader.SetStream(head);
@@ -46,14 +47,28 @@ void requireWhole(const std::string& file) {
 
 namespace {
 
+struct Rescale {
+  double slope = 1, intercept = 0;
+  int shift = 0;  ///< bits below the lowest that is stored
+};
+
 template <typename T>
-void convert(const char* from, double slope, double intercept, std::vector<float>& values) {
+void convert(const char* from, const Rescale& rescale, std::vector<float>& values) {
+  const auto [slope, intercept, shift] = rescale;
   for (float& value : values) {
     T x;
     std::memcpy(&x, from, sizeof(T));
     from += sizeof(T);
+    x = static_cast<T>(x >> shift);
     value = static_cast<float>(static_cast<double>(x) * slope + intercept);
   }
+}
+
+/// Bits below the lowest that is stored, of pixels that are not packed.
+int shiftOf(const gdcm::File& file) {
+  if (file.GetHeader().GetDataSetTransferSyntax().IsEncapsulated()) return 0;
+  const gdcm::DataSet& data = file.GetDataSet();
+  return std::max(0, shortOf(data, Tag(0x0028, 0x0102)) + 1 - shortOf(data, Tag(0x0028, 0x0101)));
 }
 
 /// The pixels of a file; of the last one that was asked for they are kept.
@@ -67,17 +82,17 @@ class Pixels {
     const char* from = buffer_.data() + at;
     switch (format_.GetScalarType()) {
       case gdcm::PixelFormat::UINT8:
-        return convert<uint8_t>(from, slope_, intercept_, values);
+        return convert<uint8_t>(from, rescale_, values);
       case gdcm::PixelFormat::INT8:
-        return convert<int8_t>(from, slope_, intercept_, values);
+        return convert<int8_t>(from, rescale_, values);
       case gdcm::PixelFormat::UINT16:
-        return convert<uint16_t>(from, slope_, intercept_, values);
+        return convert<uint16_t>(from, rescale_, values);
       case gdcm::PixelFormat::INT16:
-        return convert<int16_t>(from, slope_, intercept_, values);
+        return convert<int16_t>(from, rescale_, values);
       case gdcm::PixelFormat::UINT32:
-        return convert<uint32_t>(from, slope_, intercept_, values);
+        return convert<uint32_t>(from, rescale_, values);
       case gdcm::PixelFormat::INT32:
-        return convert<int32_t>(from, slope_, intercept_, values);
+        return convert<int32_t>(from, rescale_, values);
       default:
         throw SceneError(frame.file +
                          ": pixels of a kind that is not read; accepted: whole numbers of 8, 16 or 32 bits");
@@ -99,23 +114,27 @@ class Pixels {
     if (format_.GetSamplesPerPixel() != 1 || (colours != gdcm::PhotometricInterpretation::MONOCHROME1 &&
                                               colours != gdcm::PhotometricInterpretation::MONOCHROME2))
       throw SceneError(file + ": colours (" + colours.GetString() + ")" + kinds);
+    const gdcm::DataElement& raw = reader.GetFile().GetDataSet().GetDataElement(Tag(0x7fe0, 0x0010));
+    const gdcm::ByteValue* bytes = raw.GetByteValue();
+    const int shift = shiftOf(reader.GetFile());
     buffer_.resize(image.GetBufferLength());
-    if (!image.GetBuffer(buffer_.data()))
+    if (shift > 0 && bytes)  // GDCM takes the lowest bits for those that are stored
+      buffer_.assign(bytes->GetPointer(), bytes->GetPointer() + bytes->GetLength());
+    else if (!image.GetBuffer(buffer_.data()))
       throw SceneError(file + ": its pixels, of transfer syntax " + syntax + ", cannot be unpacked" + kinds);
-    slope_ = image.GetSlope();
-    intercept_ = image.GetIntercept();
+    rescale_ = {image.GetSlope(), image.GetIntercept(), shift};
     file_ = file;
   }
 
   std::string file_;
   std::vector<char> buffer_;
   gdcm::PixelFormat format_;
-  double slope_ = 1, intercept_ = 0;
+  Rescale rescale_;
 };
 
 }  // namespace
 
-void writeVolume(const std::vector<std::string>& files) {
+void writeVolume(const std::vector<std::string>& files, bool fill) {
   std::vector<Frame> frames;
   for (const std::string& file : files)
     for (Frame& frame : framesOf(file)) frames.push_back(std::move(frame));
@@ -124,13 +143,21 @@ void writeVolume(const std::vector<std::string>& files) {
       throw SceneError(frame.file +
                        ": frames with slopes of their own; accepted: one RescaleSlope and RescaleIntercept of all");
   Stack stack = stackOf(frames);
-  stack.axes.col(2) = stepOf(frames, false);
+  stack.axes.col(2) = stepOf(frames, fill);
+  const std::vector<int> slices = slicesOf(frames, stack.axes.col(2));
+  stack.size[2] = slices.back() + 1;
+  const size_t missing = static_cast<size_t>(stack.size[2]) - frames.size();
+  if (missing > 0)
+    writeNote(frames.front().file + ": " + std::to_string(missing) + " missing slices, of " +
+              std::to_string(stack.size[2]) + ", are like the nearest");
   writeHeader(stack, 1, {});
   Pixels pixels;
   std::vector<float> values(static_cast<size_t>(stack.size[0]) * static_cast<size_t>(stack.size[1]));
-  for (const Frame& frame : frames) {
-    pixels.slice(frame, values);
-    writeSlice(values);
+  for (size_t n = 0; n < frames.size(); ++n) {
+    pixels.slice(frames[n], values);
+    const int before = n == 0 ? 0 : slices[n] - slices[n - 1] - 1;
+    const int after = n + 1 == frames.size() ? 0 : slices[n + 1] - slices[n] - 1;
+    for (int copies = before / 2 + 1 + (after + 1) / 2; copies > 0; --copies) writeSlice(values);
   }
 }
 

@@ -3,6 +3,10 @@
 #include "cli/import/read_scan.h"
 
 #include <iostream>
+#include <sstream>
+
+#include "model/scan/repeated_voxels.h"
+#include "viscera/math/error.h"
 
 namespace viscera::cli {
 namespace {
@@ -29,9 +33,25 @@ ReadScan inWindow(const ImportOptions& options, Stages& stages) {
   return read;
 }
 
+/// A map that was made finer has stairs of so many voxels, which no net of its borders smooths.
+void takeRepeats(LabelVolume& map, const ImportOptions& options, std::vector<std::string>& notes) {
+  const std::array<Repeats, 3> repeats = repeatsOf(map);
+  std::string along;
+  for (size_t axis = 0; axis < 3; ++axis)
+    if (repeats[axis].times > 1)
+      along += (along.empty() ? "" : ", ") + std::to_string(repeats[axis].times) + " along " + "ijk"[axis];
+  if (along.empty()) return;
+  notes.push_back(
+      options.scan + ": its labels change every few voxels only (" + along +
+      "): it was made finer without more detail; " +
+      (options.smooth ? "read as it was before" : "--smooth reads it as it was before, for smooth surfaces"));
+  if (options.smooth) map = withoutRepeats(map, repeats);
+}
+
 ReadScan byLabels(const ImportOptions& options, Stages& stages, std::vector<std::string>& notes) {
   ReadScan read;
   read.map = readLabels(options.scan, options.labels);
+  takeRepeats(read.map, options, notes);
   if (options.no_previews) return read;
   if (!options.grey.empty()) {
     stages.begin("reading the scan below");
@@ -46,10 +66,25 @@ ReadScan byLabels(const ImportOptions& options, Stages& stages, std::vector<std:
   return read;
 }
 
+/// Before surfaces are made, which takes longest. @throws SceneError  a scene cannot hold organs that are so far away
+void requireNear(const VolumeFrame& frame, const std::string& scan) {
+  constexpr double kFarthest_m = 10;  // as bodies[].position_m
+  const Vector3d last = (frame.size.array() - 1).matrix().cast<double>();
+  const Vector3d middle_m = frame.axes * (0.5 * last) + frame.origin;
+  if (middle_m.cwiseAbs().maxCoeff() <= kFarthest_m) return;
+  std::ostringstream out;
+  out << scan << ": its middle is at " << middle_m.x() << ", " << middle_m.y() << ", " << middle_m.z()
+      << " m; accepted: within " << kFarthest_m << " m of its origin: set the offset of its sform, its qform or its "
+      << "space origin to 0";
+  throw SceneError(out.str());
+}
+
 }  // namespace
 
 ReadScan readScan(const ImportOptions& options, Stages& stages, std::vector<std::string>& notes) {
-  return options.by_window ? inWindow(options, stages) : byLabels(options, stages, notes);
+  ReadScan read = options.by_window ? inWindow(options, stages) : byLabels(options, stages, notes);
+  requireNear(read.map.frame, options.scan);
+  return read;
 }
 
 SurfaceNet netOf(const ReadScan& read, const WindowOptions& window) {

@@ -48,7 +48,8 @@ bool beginsAsGzip(const std::string& path) {
   return first[0] == 0x1f && first[1] == 0x8b;
 }
 
-std::string dataFileBeside(const std::string& header, const std::string& name, const std::string& key) {
+std::string dataFileBeside(const std::string& header, const std::string& told, const std::string& key) {
+  const std::string name = told.rfind("./", 0) == 0 ? told.substr(2) : told;  // as teem writes them
   const auto refuse = [&](const std::string& why) -> SceneError {
     return SceneError(header + ": " + key + " names '" + name + "', which " + why +
                       "; accepted: the plain name of a file in the header's own folder");

@@ -46,8 +46,9 @@ class ByteStream {
 bool beginsAsGzip(const std::string& path);
 /// [bytes] @throws SceneError  it is no plain file
 uint64_t fileBytes(const std::string& path);
-/// The file that a header names for its data: a plain name, in the header's own folder, wherever links lead.
+/// The file that a header names for its data: a plain name, or one after ./, in the header's own folder, wherever links
+/// lead.
 /// @param key  of the header, for errors   @throws SceneError
-std::string dataFileBeside(const std::string& header, const std::string& name, const std::string& key);
+std::string dataFileBeside(const std::string& header, const std::string& told, const std::string& key);
 
 }  // namespace viscera

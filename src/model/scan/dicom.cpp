@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 
 #include "math/number_text.h"
 #include "model/scan/child_process.h"
@@ -26,6 +27,11 @@ std::string program() {
   return !error && std::filesystem::exists(beside, error) ? beside.string() : kProgram;
 }
 
+/// What is odd in the slices, as src/cli/dicom writes it ahead of them; empty: nothing.
+std::string noteIn(const std::string& line) {
+  return line.rfind("note ", 0) == 0 ? line.substr(5) : "";
+}
+
 std::unique_ptr<ChildProcess> start(std::vector<std::string> arguments, const DicomLimits& limits,
                                     const std::string& path) {
   requireWithinBounds(path);
@@ -42,9 +48,12 @@ std::unique_ptr<ChildProcess> start(std::vector<std::string> arguments, const Di
 /// What src/cli/dicom writes: sizes, where voxels are, segments; then float32 slices.
 class DicomSlices : public ScanSource {
  public:
-  DicomSlices(std::unique_ptr<ChildProcess> child, const std::string& path, int layer)
+  DicomSlices(std::unique_ptr<ChildProcess> child, const std::string& path, int layer, std::vector<std::string>* notes)
       : child_(std::move(child)), path_(path) {
-    TextIn first(child_->line());
+    std::string line = child_->line();
+    for (std::string note = noteIn(line); !note.empty(); note = noteIn(line = child_->line()))
+      if (notes) notes->push_back(note);
+    TextIn first(line);
     std::string magic;
     std::array<int64_t, 3> size{};
     int segments = 0;
@@ -92,6 +101,17 @@ class DicomSlices : public ScanSource {
 
 }  // namespace
 
+bool isDicomFile(const std::string& path) {
+  constexpr int kMagicAt = 128;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return false;
+  std::ifstream file(path, std::ios::binary);
+  char magic[4] = {};
+  file.seekg(kMagicAt);
+  file.read(magic, sizeof magic);
+  return file && std::string(magic, sizeof magic) == "DICM";
+}
+
 std::vector<DicomSeries> listDicom(const std::string& path, const DicomLimits& limits) {
   auto child = start({"list", path}, limits, path);
   int count = 0;
@@ -113,8 +133,9 @@ std::vector<DicomSeries> listDicom(const std::string& path, const DicomLimits& l
 std::unique_ptr<ScanSource> openDicom(const std::string& path, const ScanOptions& options, const DicomLimits& limits) {
   if (!options.axes.empty()) throw SceneError(path + ": the axes of DICOM are LPS; accepted: no key axes");
   const int layer = std::max(options.volume, 0);
-  return std::make_unique<DicomSlices>(start({"read", path, options.series, std::to_string(layer)}, limits, path), path,
-                                       layer);
+  const std::string gaps = options.fill_slices ? "fill" : "refuse";
+  return std::make_unique<DicomSlices>(start({"read", path, options.series, std::to_string(layer), gaps}, limits, path),
+                                       path, layer, options.notes);
 }
 
 }  // namespace viscera

@@ -22,6 +22,9 @@ struct DicomSeries {
   int files = 0;
 };
 
+/// Whether a file is one of DICOM, whatever its name.
+bool isDicomFile(const std::string& path);
+
 /// The series of a folder, or of one file, in order of their UIDs.
 /// @throws SceneError  no DICOM file is there, or viscera-dicom is missing
 std::vector<DicomSeries> listDicom(const std::string& path, const DicomLimits& limits = {});

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <optional>
 
 #include "math/number_text.h"
 #include "model/scan/text_header.h"
@@ -17,6 +18,7 @@ namespace {
 constexpr size_t kMostLabels = 255;
 constexpr float kLargestValue = 1 << 24;  ///< above, float32 does not tell whole numbers apart
 constexpr size_t kMostListed = 20;        ///< labels in an error
+constexpr char kGreyScan[] = "; a grey scan needs viscera import --window LOW,HIGH";
 
 using Key = std::pair<int, int64_t>;  ///< layer, value
 
@@ -70,12 +72,42 @@ std::string listed(const std::vector<Segment>& segments) {
   return text.empty() ? "none" : text;
 }
 
+constexpr size_t kMostNumbers = 65536;  ///< of values that are remembered for errors
+
+/// The nearest whole number; none: it is too large, or no number.
+std::optional<int64_t> wholeOf(float value) {
+  if (!(std::abs(value) <= kLargestValue)) return {};
+  return std::llround(value);
+}
+
+/// The values that a scan has, for an error that was found before it was read.
+std::map<Key, int64_t> valuesOf(const std::string& path, const LabelOptions& options) {
+  std::map<Key, int64_t> met;
+  try {
+    ScanOptions quiet = options;
+    quiet.progress = nullptr;
+    quiet.notes = nullptr;
+    const auto source = openScan(path, quiet);
+    std::vector<float> values;
+    for (int k = 0; k < source->frame().size.z(); ++k) {
+      source->next(values);
+      for (const float value : values) {
+        const auto whole = wholeOf(value);
+        if (whole && *whole != 0 && met.size() < kMostNumbers) ++met[{0, *whole}];
+      }
+    }
+  } catch (const SceneError&) {  // which is not what the user asked
+    met.clear();
+  }
+  return met;
+}
+
 /// Numbers of labels while they are met: asked ones are known before, of all the others come as they are met.
 class Numbering {
  public:
   Numbering(const std::string& path, const LabelOptions& options, std::vector<Segment> segments)
-      : path_(path), all_(options.labels.empty()), segments_(std::move(segments)) {
-    for (const std::string& asked : options.labels) add(asked);
+      : path_(path), all_(options.labels.empty()), segments_(std::move(segments)), options_(options) {
+    for (const std::string& asked : options.labels) add(trimmed(asked));
   }
 
   uint8_t of(int layer, float value) {
@@ -88,11 +120,26 @@ class Numbering {
   size_t count() const { return labels_.size(); }
   const Segment& label(size_t number) const { return labels_[number - 1]; }
   const std::map<Key, int64_t>& met() const { return met_; }
+  /// @throws SceneError  a value that is no label, or no voxel of one that was asked for
   void requireMet() const {
+    if (farthest_ > kNearlyWhole) {
+      TextOut out;
+      out << path_ << ": is no label map: a voxel is " << farthest_value_;
+      if (std::isfinite(farthest_)) out << ", " << farthest_ << " from a whole number";
+      out << "; accepted: whole numbers, at most 2^24, within " << kNearlyWhole << kGreyScan;
+      throw SceneError(out.str());
+    }
     for (const Segment& label : labels_)
       if (!met_.count({label.layer, label.label.value}))
         refuse("no voxel has label " + std::to_string(label.label.value));
     if (labels_.empty()) refuse("no voxel has a label");
+  }
+  /// What was done to values; empty: nothing.
+  std::string note() const {
+    if (farthest_ == 0) return "";
+    TextOut out;
+    out << path_ << ": values were rounded to labels, by up to " << farthest_;
+    return out.str();
   }
   /// Of all labels: numbers by value and layer. @returns [old number] new one
   std::vector<uint8_t> sorted() {
@@ -113,7 +160,7 @@ class Numbering {
  private:
   [[noreturn]] void refuse(const std::string& what) const {
     std::vector<Segment> known = segments_;
-    for (const auto& [key, count] : met_) {
+    for (const auto& [key, count] : met_.empty() ? valuesOf(path_, options_) : met_) {
       const auto same = [&](const Segment& s) { return s.layer == key.first && s.label.value == key.second; };
       if (std::none_of(known.begin(), known.end(), same)) known.push_back({key.first, {key.second, ""}});
     }
@@ -140,15 +187,19 @@ class Numbering {
       refuse("label " + std::to_string(segment.label.value) + " is asked for twice");
     labels_.push_back(segment);
     if (labels_.size() > kMostLabels)
-      throw SceneError(path_ + ": has more labels than accepted: at most 255; ask for some of them");
+      throw SceneError(path_ + ": has more labels than accepted: at most 255; ask for some of them" + kGreyScan);
   }
 
   uint8_t find(int layer, float value) {
     if (value == 0) return 0;
-    if (!(std::abs(value) <= kLargestValue) || value != std::floor(value))
-      throw SceneError(path_ + ": is no label map: a voxel is " + numberText(value) +
-                       "; accepted: whole numbers, at most 2^24");
-    const Key key(layer, static_cast<int64_t>(value));
+    const auto whole = wholeOf(value);
+    const float off = whole ? std::abs(value - static_cast<float>(*whole)) : INFINITY;
+    if (off > farthest_) {
+      farthest_ = off;
+      farthest_value_ = value;
+    }
+    if (off > kNearlyWhole || *whole == 0) return 0;
+    const Key key(layer, *whole);
     if (met_.size() < kMostNumbers) ++met_[key];
     const auto known = numbers_.find(key);
     if (known != numbers_.end()) return static_cast<uint8_t>(known->second);
@@ -160,17 +211,17 @@ class Numbering {
     return static_cast<uint8_t>(labels_.size());
   }
 
-  static constexpr size_t kMostNumbers = 65536;  ///< of values that are remembered for errors
-
   const std::string path_;
   const bool all_;
   std::vector<Segment> segments_;
+  const LabelOptions& options_;
   std::vector<Segment> labels_;  ///< [number - 1]
   std::map<Key, size_t> numbers_;
   std::map<Key, int64_t> met_;
   float last_value_ = 0;
   int last_layer_ = 0;
   uint8_t last_ = 0;
+  float farthest_ = 0, farthest_value_ = 0;  ///< from a whole number
 };
 
 /// Fills voxels of one layer. @returns of how many others had labels already
@@ -211,6 +262,7 @@ LabelVolume readLabels(const std::string& path, const LabelOptions& options) {
     overlaps += readLayer(*source, layer, numbering, volume.labels);
   }
   numbering.requireMet();
+  if (options.notes && !numbering.note().empty()) options.notes->push_back(numbering.note());
   if (numbering.all()) {
     const std::vector<uint8_t> number = numbering.sorted();
     for (uint8_t& label : volume.labels) label = number[label];

@@ -14,6 +14,9 @@ struct LabelOptions : ScanOptions {
   std::string names_file;  ///< an ITK-SNAP table (.txt, .label) or a YAML map; empty: one beside the scan, if any
 };
 
+/// How far a voxel of a label map may be from a whole number: what slopes and resampling leave.
+constexpr float kNearlyWhole = 1e-3F;
+
 /// A label map of a byte a voxel: labels renumbered 1, 2, ... in the order asked for. Where labels of several layers
 /// overlap, the first of that order has the voxel, which is noted.
 /// @throws SceneError  naming the file, and the labels that it has

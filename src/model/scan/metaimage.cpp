@@ -20,7 +20,15 @@ MetaHeader readMetaHeader(const std::string& path) {
   ByteStream stream(path, 0, false);
   uint64_t left = kMostHeaderBytes;
   while (!header.has("elementdatafile")) {
-    const std::string line = headerLine(stream, left);
+    std::string line;
+    try {
+      line = headerLine(stream, left);
+    } catch (const SceneError&) {  // the data were taken for lines
+      if (!header.has("ndims")) throw;
+      throw SceneError(path +
+                       ": its header has no ElementDataFile, which says where its data are; accepted: LOCAL, or the "
+                       "name of one file");
+    }
     const size_t equals = line.find('=');
     if (equals == std::string::npos) throw SceneError(path + ": no MetaImage file: a line of its header has no '='");
     header.fields[lower(trimmed(line.substr(0, equals)))] = trimmed(line.substr(equals + 1));
@@ -117,7 +125,7 @@ std::unique_ptr<ScanSource> openMetaImage(const std::string& path, const ScanOpt
   const int64_t volumes = dims == 4 ? sizes[3] : 1;
   if (volumes < 1 || volumes > 65535) header.refuse("dimsize", "1 .. 65535 volumes");
   layout.volumes = static_cast<uint64_t>(volumes);
-  layout.volume = chosenVolume(path, options.volume, layout.volumes);
+  layout.volume = chosenVolume(path, options.volume, layout.volumes, options);
   const uint64_t bytes = layout.frame.voxels() * layout.volumes * bytesOf(layout.type);
   auto stream = dataOf(header, isTrue(header, "compresseddata", false), bytes);
   return slicesOf(std::move(stream), std::move(layout), 0);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <cstring>
+#include <sstream>
 
 #include "math/number_text.h"
 #include "model/scan/voxels.h"
@@ -38,7 +39,9 @@ class Fields {
   }
   int64_t dim(size_t n) const { return second_ ? get<int64_t>(16 + 8 * n) : get<int16_t>(40 + 2 * n); }
   int64_t code(size_t place1, size_t place2) const { return second_ ? get<int32_t>(place2) : get<int16_t>(place1); }
-  double pixdim(size_t n) const { return real(76, 104, n); }
+  double pixdim(size_t n) const { return n == 0 ? real(76, 104, n) : unit_mm * real(76, 104, n); }
+
+  double unit_mm = 1;  ///< of lengths
 
  private:
   std::vector<uint8_t> bytes_;
@@ -112,7 +115,7 @@ std::array<int64_t, 3> sizeOf(const std::string& path, const Fields& fields, uin
 
 Affine sform(const Fields& fields) {
   Affine affine;
-  for (int n = 0; n < 12; ++n) affine(n / 4, n % 4) = fields.real(280, 400, static_cast<size_t>(n));
+  for (int n = 0; n < 12; ++n) affine(n / 4, n % 4) = fields.unit_mm * fields.real(280, 400, static_cast<size_t>(n));
   return affine;
 }
 
@@ -123,12 +126,41 @@ Affine qform(const Fields& fields) {
   affine.leftCols<3>() = Quaterniond(a, b, c, d).normalized().toRotationMatrix();
   for (int axis = 0; axis < 3; ++axis) affine.col(axis) *= fields.pixdim(static_cast<size_t>(axis) + 1);
   if (fields.pixdim(0) < 0) affine.col(2) *= -1;  // qfac
-  affine.col(3) = Vector3d(fields.real(268, 376), fields.real(272, 384), fields.real(276, 392));
+  affine.col(3) = fields.unit_mm * Vector3d(fields.real(268, 376), fields.real(272, 384), fields.real(276, 392));
   return affine;
 }
 
 void requireFinite(const std::string& path, const Affine& affine, const char* which) {
   if (!affine.allFinite()) throw SceneError(path + ": " + which + " is not finite; accepted: 12 finite numbers");
+}
+
+/// For errors.
+const char* stepsOf(const Fields& fields, bool sform) {
+  if (fields.unit_mm == 1) return sform ? "steps of its sform" : "pixdim";
+  return sform ? "steps of its sform in the unit of xyzt_units" : "pixdim in the unit of xyzt_units";
+}
+
+/// Whether pixdim can be the steps of a volume.
+bool hasSteps(const Fields& fields) {
+  bool all = true;
+  for (size_t axis = 1; axis <= 3; ++axis) all = all && isSpacing(fields.pixdim(axis));  // false for NaN
+  return all;
+}
+
+/// sform goes before pixdim, which others take for the size of voxels. @returns a line; empty: they agree
+std::string stepsNote(const std::string& path, const Fields& fields, const Affine& affine) {
+  constexpr double kAlike = 0.01;
+  bool alike = true;
+  std::ostringstream out;
+  out << path << ": pixdim says voxels of";
+  for (int axis = 0; axis < 3; ++axis) {
+    const double said = fields.pixdim(static_cast<size_t>(axis) + 1), step = affine.col(axis).norm();
+    alike = alike && std::abs(said - step) <= kAlike * step;
+    out << (axis > 0 ? " x " : " ") << said;
+  }
+  out << " mm, sform of " << affine.col(0).norm() << " x " << affine.col(1).norm() << " x " << affine.col(2).norm()
+      << " mm: sform is taken";
+  return alike ? "" : out.str();
 }
 
 /// Whether both put the corners of the volume within half a voxel of each other.
@@ -146,8 +178,11 @@ bool agree(const Affine& a, const Affine& b, const std::array<int64_t, 3>& size)
 /// Voxels to RAS [mm].
 Affine affineOf(const std::string& path, const Fields& fields, const std::array<int64_t, 3>& size,
                 const ScanOptions& options) {
-  const bool has_s = fields.code(254, 348) > 0, has_q = fields.code(252, 344) > 0;
   const std::string& told = options.transform;
+  const bool has_s = fields.code(254, 348) > 0, said_q = fields.code(252, 344) > 0;
+  const bool has_q = said_q && (hasSteps(fields) || !has_s || told == "qform");
+  if (!has_s || told == "qform")  // what is made of pixdim
+    for (size_t axis = 1; axis <= 3; ++axis) requireSpacing(path, stepsOf(fields, false), fields.pixdim(axis));
   if (!told.empty() && told != "sform" && told != "qform")
     throw SceneError(path + ": transform '" + told + "'; accepted: sform or qform");
   if ((told == "sform" && !has_s) || (told == "qform" && !has_q))
@@ -158,20 +193,37 @@ Affine affineOf(const std::string& path, const Fields& fields, const std::array<
   if (has_s) requireFinite(path, sform(fields), "sform (srow_x, srow_y, srow_z)");
   if (has_q) requireFinite(path, qform(fields), "qform (quatern_b, c, d and qoffset)");
   if (!has_s && !has_q) {
-    if (options.axes.empty())
+    const bool guessed =
+        options.axes.empty() && isGuessed(path, options, "does not say where left and right are: axes RAS are a guess");
+    if (options.axes.empty() && !guessed)
       throw SceneError(path +
                        ": does not say where left and right are (sform_code and qform_code are 0); accepted: axes, "
                        "where i, j, k lead to, such as axes: RAS");
     Affine affine = Affine::Zero();
-    affine.leftCols<3>() = Vector3d(-1, -1, 1).asDiagonal() * lpsFromAxes(path, options.axes);
+    affine.leftCols<3>() = Vector3d(-1, -1, 1).asDiagonal() * lpsFromAxes(path, guessed ? "RAS" : options.axes);
     for (int axis = 0; axis < 3; ++axis) affine.col(axis) *= fields.pixdim(static_cast<size_t>(axis) + 1);
     return affine;
   }
   if (!options.axes.empty()) throw SceneError(path + ": says itself where its axes lead to; accepted: no key axes");
-  if (has_s && has_q && told.empty() && !agree(sform(fields), qform(fields), size))
+  if (has_s && has_q && told.empty() && !agree(sform(fields), qform(fields), size) &&
+      !isGuessed(path, options, "its sform and its qform are more than half a voxel apart: this is the sform"))
     throw SceneError(path +
                      ": its sform and its qform are more than half a voxel apart; accepted: transform, sform or qform");
-  return told == "qform" || !has_s ? qform(fields) : sform(fields);
+  if (told == "qform" || !has_s) return qform(fields);
+  for (int axis = 0; axis < 3; ++axis) requireSpacing(path, stepsOf(fields, true), sform(fields).col(axis).norm());
+  const std::string note = stepsNote(path, fields, sform(fields));
+  if (options.notes && !note.empty()) options.notes->push_back(note);
+  return sform(fields);
+}
+
+/// What a unit of the header's lengths is [mm].
+double unitMm(const std::string& path, const Fields& fields) {
+  const int64_t code = (fields.second() ? fields.get<int32_t>(500) : *fields.at(123)) & 7;
+  if (code == 0 || code == 2) return 1;
+  if (code == 1) return 1000;
+  if (code == 3) return 1e-3;
+  throw SceneError(path + ": xyzt_units is " + std::to_string(code) +
+                   "; accepted: 1 (m), 2 (mm), 3 (um), or 0, which is taken for mm");
 }
 
 void scaling(const std::string& path, const Fields& fields, VoxelLayout& layout) {
@@ -186,17 +238,13 @@ void scaling(const std::string& path, const Fields& fields, VoxelLayout& layout)
 
 std::unique_ptr<ScanSource> openNifti(const std::string& path, const ScanOptions& options) {
   auto stream = std::make_unique<ByteStream>(path, 0, beginsAsGzip(path));
-  const Fields fields = readHeader(*stream);
+  Fields fields = readHeader(*stream);
   VoxelLayout layout;
   const std::array<int64_t, 3> size = sizeOf(path, fields, &layout.volumes);
   layout.type = voxelType(path, fields.get<int16_t>(fields.second() ? 12 : 70));
   layout.big_endian = fields.bigEndian();
-  layout.volume = chosenVolume(path, options.volume, layout.volumes);
-  for (size_t axis = 1; axis <= 3; ++axis) requireSpacing(path, "pixdim", fields.pixdim(axis));
-  const int64_t units = (fields.second() ? fields.get<int32_t>(500) : *fields.at(123)) & 7;
-  if (units != 0 && units != 2)
-    throw SceneError(path + ": xyzt_units is " + std::to_string(units) +
-                     "; accepted: 2 (mm), or 0, which is taken for mm");
+  layout.volume = chosenVolume(path, options.volume, layout.volumes, options);
+  fields.unit_mm = unitMm(path, fields);
   const Affine ras = affineOf(path, fields, size, options);
   const Eigen::DiagonalMatrix<double, 3> lps(-1, -1, 1);
   layout.frame = frameFromLps(path, size, lps * ras.leftCols<3>(), lps * ras.col(3));

@@ -38,6 +38,8 @@ NrrdHeader readNrrdHeader(const std::string& path) {
       header.keys[line.substr(0, key)] = line.substr(key + 2);
     else if (line.find(':') != std::string::npos)
       header.fields[lower(line.substr(0, line.find(':')))] = trimmed(line.substr(line.find(':') + 1));
+    else if (header.textOr("data file", header.textOr("datafile", "")).rfind("LIST", 0) == 0)
+      break;  // names follow, to the end
     else
       throw SceneError(path + ": a line of its header is neither 'field: value' nor 'key:=value'");
   }
@@ -163,18 +165,22 @@ void requireMillimetres(const TextHeader& header, const std::string& name, size_
 }
 
 VolumeFrame frameOf(const NrrdHeader& header, const std::array<int64_t, 3>& size, int list, size_t dims,
-                    const std::vector<std::string>& directions, const std::string& told) {
+                    const std::vector<std::string>& directions, const ScanOptions& options) {
+  const std::string& told = options.axes;
   requireMillimetres(header, "space units", 3);
   if (directions.empty()) requireMillimetres(header, "units", dims);
   Vector3d signs(1, 1, 1);
   const bool said = !directions.empty() && header.has("space") && lpsOfSpace(header.text("space"), signs);
-  if (!said && told.empty())
+  const bool guessed = !said && told.empty() &&
+                       isGuessed(header.path, options, "does not say where left and right are: axes LPS are a guess");
+  if (!said && told.empty() && !guessed)
     throw SceneError(header.path + ": does not say where left and right are (space '" + header.textOr("space", "") +
                      "'" + (directions.empty() ? ", no space directions" : "") +
                      "); accepted: a space of RAS, LAS or LPS with space directions, or axes, such as axes: RAS");
   if (said && !told.empty())
     throw SceneError(header.path + ": says itself where its axes lead to; accepted: no key axes");
-  const Eigen::Matrix3d to_lps = said ? Eigen::Matrix3d(signs.asDiagonal()) : lpsFromAxes(header.path, told);
+  const Eigen::Matrix3d to_lps =
+      said ? Eigen::Matrix3d(signs.asDiagonal()) : lpsFromAxes(header.path, guessed ? "LPS" : told);
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   Vector3d origin = Vector3d::Zero();
   std::vector<double> spacings;
@@ -193,8 +199,9 @@ VolumeFrame frameOf(const NrrdHeader& header, const std::array<int64_t, 3>& size
   return frameFromLps(header.path, size, to_lps * axes, to_lps * origin);
 }
 
-/// Segment0_LabelValue:=1 and the like. Without values: 0, 1, ... have a layer each in files before Slicer 4.11.
-std::vector<Segment> segmentsOf(const NrrdHeader& header) {
+/// Segment0_LabelValue:=1 and the like. Without values: 0, 1, ... have a layer each in files before Slicer 4.11; in one
+/// layer they are 1, 2, ...
+std::vector<Segment> segmentsOf(const NrrdHeader& header, int64_t layers) {
   std::vector<Segment> segments;
   for (int n = 0;; ++n) {
     const std::string prefix = "Segment" + std::to_string(n) + "_";
@@ -203,7 +210,7 @@ std::vector<Segment> segmentsOf(const NrrdHeader& header) {
       return found == header.keys.end() ? std::string() : trimmed(found->second);
     };
     if (key("ID").empty() && key("Name").empty() && key("LabelValue").empty()) return segments;
-    Segment segment{n, {1, key("Name")}};
+    Segment segment{n, {layers > 1 ? 1 : n + 1, key("Name")}};  // as each has a layer, or all have one
     int64_t layer = n;
     const bool value = key("LabelValue").empty() || parseInteger(key("LabelValue"), segment.label.value);
     if (!value || (!key("Layer").empty() && !parseInteger(key("Layer"), layer)) || layer < 0 || layer > 65535)
@@ -212,6 +219,18 @@ std::vector<Segment> segmentsOf(const NrrdHeader& header) {
     segment.layer = static_cast<int>(layer);
     segments.push_back(segment);
   }
+}
+
+constexpr int64_t kMostLines = 1000000;
+
+/// Where a file goes on after so many lines, of text that stands before the data. @throws SceneError  it ends before
+uint64_t afterLines(const std::string& file, uint64_t offset, int64_t lines) {
+  ByteStream stream(file, offset, false);
+  for (char c = 0; lines > 0; lines -= c == '\n') {
+    stream.read(&c, 1);
+    ++offset;
+  }
+  return offset;
 }
 
 std::unique_ptr<ByteStream> dataOf(const NrrdHeader& header, uint64_t bytes) {
@@ -223,10 +242,11 @@ std::unique_ptr<ByteStream> dataOf(const NrrdHeader& header, uint64_t bytes) {
       (words(name).empty() || words(name)[0] == "LIST" || name.find('%') != std::string::npos))
     header.refuse("data file", "the name of one file; lists of slices are not read");
   const std::string file = header.has("data file") ? dataFileBeside(header.path, name, "data file") : header.path;
-  if (header.has("line skip") && header.integers("line skip", 1)[0] != 0) header.refuse("line skip", "0");
+  const int64_t lines = header.has("line skip") ? header.integers("line skip", 1)[0] : 0;
+  if (lines < 0 || lines > kMostLines) header.refuse("line skip", "0 .. 1000000");
   const int64_t skip = header.has("byte skip") ? header.integers("byte skip", 1)[0] : 0;
   if (skip < -1 || (packed && skip < 0)) header.refuse("byte skip", "0 or more, or -1: raw data are at the file's end");
-  uint64_t offset = file == header.path ? header.end : 0;
+  uint64_t offset = afterLines(file, file == header.path ? header.end : 0, lines);
   const uint64_t held = fileBytes(file);
   if (skip < 0) {
     if (held < offset + bytes)
@@ -261,18 +281,18 @@ std::unique_ptr<ScanSource> openNrrd(const std::string& path, const ScanOptions&
     if (axis != list) size.at(static_cast<size_t>(n++)) = sizes[static_cast<size_t>(axis)];
   VoxelLayout layout;
   layout.type = nrrdVoxelType(header);
-  layout.frame = frameOf(header, size, list, axes, directions, options.axes);
+  layout.frame = frameOf(header, size, list, axes, directions, options);
   if (bytesOf(layout.type) > 1) {
     const std::string endian = lower(header.text("endian"));
     if (endian != "little" && endian != "big") header.refuse("endian", "little or big");
     layout.big_endian = endian == "big";
   }
-  layout.segments = segmentsOf(header);
   const int64_t volumes = list == kNone ? 1 : sizes[static_cast<size_t>(list)];
+  layout.segments = segmentsOf(header, volumes);
   if (volumes < 1 || volumes > 65535) header.refuse("sizes", "1 .. 65535 volumes");
   const int asked =
       options.volume < 0 && !layout.segments.empty() ? 0 : options.volume;  // layers: readLabels() takes all
-  const uint64_t chosen = chosenVolume(path, asked, static_cast<uint64_t>(volumes));
+  const uint64_t chosen = chosenVolume(path, asked, static_cast<uint64_t>(volumes), options);
   (list == 0 ? layout.components : layout.volumes) = static_cast<uint64_t>(volumes);
   (list == 0 ? layout.component : layout.volume) = chosen;
   if (volumes == 1)

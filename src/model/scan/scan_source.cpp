@@ -43,7 +43,9 @@ std::unique_ptr<ScanSource> openByName(const std::string& path, const ScanOption
   if (ends(".nrrd") || ends(".nhdr")) return openNrrd(path, options);
   if (ends(".mhd") || ends(".mha")) return openMetaImage(path, options);
   std::error_code error;
-  if (ends(".dcm") || std::filesystem::is_directory(path, error)) return openDicom(path, options);
+  if (ends(".dcm") || std::filesystem::is_directory(path, error) || isDicomFile(path)) return openDicom(path, options);
+  if (ends(".hdr") || ends(".img"))
+    throw SceneError(path + ": pairs of .hdr and .img are not read; accepted: one file, .nii or .nii.gz");
   throw SceneError(path + ": accepted: .nii, .nii.gz, .nrrd, .nhdr, .mhd, .mha, .dcm, or a folder of DICOM files");
 }
 

@@ -16,7 +16,9 @@ struct ScanOptions {
   int volume = -1;        ///< of a file with several: 0 .. ; -1: it must have one
   std::string axes;       ///< where i, j, k lead to, such as LPS or RAS, where the file does not say
   std::string transform;  ///< sform or qform, where a NIfTI file has two that differ
-  std::string series;     ///< of a folder of DICOM files: its number, 0 .. , or its UID
+  std::string series;     ///< of a folder of DICOM files: its number, 0 .. , or its UID; all: one volume of all of them
+  bool fill_slices = false;                    ///< of DICOM: missing slices are like the nearest, which is noted
+  bool guesses = false;                        ///< for a listing: what the file leaves open is guessed, which is noted
   std::vector<std::string>* notes = nullptr;   ///< gets what is odd and no mistake
   std::function<void(double share)> progress;  ///< told how much of a volume has been read, slice by slice
 };

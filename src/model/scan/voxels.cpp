@@ -135,13 +135,24 @@ void requireSize(const std::string& path, const std::array<int64_t, 3>& size) {
                      std::to_string(kMostVoxels));
 }
 
+bool isSpacing(double spacing_mm) {
+  return spacing_mm >= kLeastSpacingMm && spacing_mm <= kMostSpacingMm;  // NaN is neither
+}
+
 void requireSpacing(const std::string& path, const char* key, double spacing_mm) {
-  if (spacing_mm >= kLeastSpacingMm && spacing_mm <= kMostSpacingMm) return;  // NaN is neither
+  if (isSpacing(spacing_mm)) return;
   throw SceneError(path + ": " + key + ": voxels " + numberText(spacing_mm) + " mm apart; accepted: 0.001 .. 100 mm");
 }
 
-uint64_t chosenVolume(const std::string& path, int asked, uint64_t volumes) {
+bool isGuessed(const std::string& path, const ScanOptions& options, const std::string& what) {
+  if (options.guesses && options.notes) options.notes->push_back(path + ": " + what);
+  return options.guesses;
+}
+
+uint64_t chosenVolume(const std::string& path, int asked, uint64_t volumes, const ScanOptions& options) {
   if (asked < 0 && volumes == 1) return 0;
+  if (asked < 0 && isGuessed(path, options, "holds " + std::to_string(volumes) + " volumes: this is volume 0"))
+    return 0;
   if (asked >= 0 && static_cast<uint64_t>(asked) < volumes) return static_cast<uint64_t>(asked);
   throw SceneError(path + ": holds " + std::to_string(volumes) + " volumes" +
                    (asked < 0 ? ": say which" : ", not number " + std::to_string(asked)) + "; accepted: volume 0 .. " +

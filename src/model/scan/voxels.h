@@ -33,10 +33,14 @@ std::unique_ptr<ScanSource> slicesOf(std::unique_ptr<ByteStream> stream, VoxelLa
 
 /// The accepted numbers of voxels. @throws SceneError  naming the file
 void requireSize(const std::string& path, const std::array<int64_t, 3>& size);
+/// Whether voxels may be so far apart: 1e-3 .. 100 mm.
+bool isSpacing(double spacing_mm);
 /// @throws SceneError  naming the file, the steps and what is accepted, 1e-3 .. 100 mm
 void requireSpacing(const std::string& path, const char* key, double spacing_mm);
 /// The one that is asked for of several. @param asked  -1: not told   @throws SceneError  they are several, or fewer
-uint64_t chosenVolume(const std::string& path, int asked, uint64_t volumes);
+uint64_t chosenVolume(const std::string& path, int asked, uint64_t volumes, const ScanOptions& options);
+/// Notes what a listing guesses. @returns whether it may
+bool isGuessed(const std::string& path, const ScanOptions& options, const std::string& what);
 
 /// x_ros = (-y, x, z) of LPS / 1000. @throws SceneError  not finite, steps out of range, or all in one plane
 VolumeFrame frameFromLps(const std::string& path, const std::array<int64_t, 3>& size, const Eigen::Matrix3d& axes_mm,

@@ -16,9 +16,11 @@ constexpr const char* kEnhancedCt = "1.2.840.10008.5.1.4.1.1.2.1";
 constexpr const char* kSegmentation = "1.2.840.10008.5.1.4.1.1.66.4";
 
 /// A file of frames. @param groups  of each frame   @param bits  a voxel: 16, or 1 of segments
+/// @param measures  elements beside PixelSpacing
 std::string frames(const TestVolume& v, const std::string& kind, const std::string& segments,
-                   const std::vector<std::string>& groups, unsigned bits, const std::string& pixels) {
-  const std::string shared = sequence(0x20, 0x9116, {orientation(v)}) + sequence(0x28, 0x9110, {spacing(v)});
+                   const std::vector<std::string>& groups, unsigned bits, const std::string& pixels,
+                   const std::string& measures = "") {
+  const std::string shared = sequence(0x20, 0x9116, {orientation(v)}) + sequence(0x28, 0x9110, {measures + spacing(v)});
   const auto size = [&](int axis) { return us(static_cast<unsigned>(v.size[axis])); };
   return head() + element(8, 0x16, "UI", kind) + element(8, 0x60, "CS", "CT") + element(0x20, 0xe, "UI", "1.2.3") +
          element(0x28, 2, "US", us(1)) + element(0x28, 4, "CS", "MONOCHROME2") +
@@ -90,6 +92,39 @@ TEST_F(Dicom, SegmentsOfBitsMayOverlap) {
   options.labels = {"duct"};
   const LabelVolume duct = readLabels(path, options);
   EXPECT_EQ(std::count(duct.labels.begin(), duct.labels.end(), 1), 5);
+}
+
+/// A file of one segment whose frames are at these heights, in steps of the volume's third axis.
+std::string segmentAt(const TestVolume& v, const std::vector<double>& places, const std::string& measures) {
+  std::vector<std::string> groups;
+  for (const double place : places)
+    groups.push_back(sequence(0x20, 0x9113, {position(v, place)}) +
+                     sequence(0x62, 0xa, {element(0x62, 0xb, "US", us(1))}));
+  const std::string names = element(0x62, 1, "CS", "BINARY") +
+                            sequence(0x62, 2, {element(0x62, 4, "US", us(1)) + element(0x62, 5, "LO", "liver")});
+  const size_t bytes = (12 * places.size() + 7) / 8;
+  return frames(v, kSegmentation, names, groups, 1, std::string(bytes + bytes % 2, '\xff'), measures);
+}
+
+TEST_F(Dicom, PlacesOfSegmentsGoBeforeWhatIsSaidOfTheirStep) {
+  TestVolume v;
+  v.lps.col(2) = Eigen::Vector3d(0, 0, 1.25);
+  const std::string thick = element(0x18, 0x50, "DS", "2.0"), thin = element(0x18, 0x50, "DS", "0.625"),
+                    between = element(0x18, 0x88, "DS", "0.625");
+  for (const std::string& measures : {std::string(), thick, thin, between, thick + between}) {
+    const auto source = openScan(test::written("even.dcm", segmentAt(v, {0, 1, 2, 3}, measures)));
+    EXPECT_EQ(source->frame().size.z(), 4);
+    EXPECT_NEAR(source->frame().axes.col(2).norm(), 1.25e-3, 1e-9);
+  }
+  const auto slices = [&](const std::vector<double>& places, const std::string& measures) {
+    const auto source = openScan(test::written("gaps.dcm", segmentAt(v, places, measures)));
+    return source->frame().size.z();
+  };
+  EXPECT_EQ(slices({0, 1, 4, 5}, thick), 6) << "two slices without the segment";
+  EXPECT_EQ(slices({0, 2, 5}, thin), 6) << "no two frames are neighbours";
+  EXPECT_EQ(slices({0, 5, 9}, element(0x18, 0x88, "DS", "1.25")), 10) << "positions leave it open";
+  const std::string uneven = test::written("uneven.dcm", segmentAt(v, {0, 1, 2.3, 3}, thin));
+  EXPECT_NE(test::errorOf(uneven).find("uneven.dcm: uneven slices"), std::string::npos) << test::errorOf(uneven);
 }
 
 }  // namespace

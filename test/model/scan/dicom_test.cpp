@@ -81,7 +81,7 @@ TEST_F(Dicom, SeveralSeriesAreListedAndChosen) {
   EXPECT_EQ(list[1].uid, "1.2.4");
   EXPECT_EQ(list[1].description, "made 1.2.4");
   EXPECT_EQ(list[1].files, 2);
-  expectError(folder, "accepted: a number or UID of");
+  expectError(folder, "accepted: all, which joins them, or a number or UID of: 0: 1.2.3, CT, 2 files, made 1.2.3; 1: ");
   ScanOptions options;
   for (const char* chosen : {"1", "1.2.4"}) {
     options.series = chosen;
@@ -89,6 +89,93 @@ TEST_F(Dicom, SeveralSeriesAreListedAndChosen) {
   }
   options.series = "7";
   expectError(folder, "has no series '7'", options);
+}
+
+TEST_F(Dicom, SeriesOfASliceEachAreJoined) {
+  TestVolume v;
+  v.size[2] = 4;
+  v.fill();
+  const std::string folder = series(v, {0});
+  for (int k = 1; k < 4; ++k)
+    test::written("series/b" + std::to_string(k) + ".dcm", slice(v, k, k, "1.2.4." + std::to_string(k)));
+  ScanOptions options;
+  options.series = "all";
+  const std::vector<float> all = test::allOf(folder, options);
+  ASSERT_EQ(all.size(), v.voxels.size());
+  for (size_t n = 0; n < all.size(); ++n) ASSERT_EQ(all[n], 2 * v.voxels[n] - 3) << n;
+}
+
+TEST_F(Dicom, MissingSlicesAreFilledWhereThatIsAsked) {
+  TestVolume v;
+  v.size[2] = 5;
+  v.fill();
+  std::vector<std::string> notes;
+  ScanOptions options;
+  options.fill_slices = true;
+  options.notes = &notes;
+  const std::vector<float> all = test::allOf(series(v, {0, 1, 2, 5, 6}), options);
+  const size_t pixels = 12;
+  ASSERT_EQ(all.size(), 7 * pixels);
+  const int from[] = {0, 1, 2, 2, 3, 3, 4};  // which of the five each is
+  for (size_t n = 0; n < all.size(); ++n)
+    ASSERT_EQ(all[n], 2 * v.voxels[static_cast<size_t>(from[n / pixels]) * pixels + n % pixels] - 3) << n;
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find("2 missing slices, of 7, are like the nearest"), std::string::npos) << notes[0];
+}
+
+TEST_F(Dicom, MosaicsAreNamed) {
+  TestVolume v;
+  const std::string folder = series(v, {0, 1});
+  std::string mosaic = slice(v, 0, 0);
+  mosaic.insert(head().size(), element(8, 8, "CS", "ORIGINAL\\PRIMARY\\M\\ND\\MOSAIC"));
+  test::written("series/100.dcm", mosaic);
+  expectError(folder, "100.dcm: is a mosaic of slices in one picture");
+}
+
+TEST_F(Dicom, ValuesInTheUpperBitsAreShifted) {
+  TestVolume v;
+  const std::string folder = series(v, {0, 1});
+  for (int k = 0; k < 2; ++k) {
+    TestVolume shifted = v;
+    for (int16_t& value : shifted.voxels) value = static_cast<int16_t>(16 * (value - 5));
+    const std::string file = slice(shifted, k, k);
+    test::written("series/" + std::to_string(100 - k) + ".dcm",
+                  test::replaced(file, element(0x28, 0x101, "US", us(16)), element(0x28, 0x101, "US", us(12))));
+  }
+  const std::vector<float> all = test::allOf(folder);
+  for (size_t n = 0; n < all.size(); ++n) ASSERT_EQ(all[n], 2 * (v.voxels[n] - 5) - 3) << n;
+}
+
+TEST_F(Dicom, FilesWithoutAnEndingAreKnownByTheirBytes) {
+  TestVolume v;
+  v.size[2] = 1;
+  v.fill();
+  std::string one = slice(v, 0, 0);
+  one.insert(one.find(us(0x20) + us(0xe)), element(0x18, 0x50, "DS", "3"));
+  EXPECT_EQ(test::allOf(test::written("I10", one)).size(), v.voxels.size());
+}
+
+TEST_F(Dicom, WhatAFolderHasInsteadOfPicturesIsSaid) {
+  const std::string folder = test::temporaryPath("disc");
+  std::filesystem::create_directories(folder + "/ST0/SE1");
+  test::written("disc/ST0/SE1/I0", slice(TestVolume(), 0, 0));
+  const std::string syntax = "1.2.840.10008.1.2.1";
+  test::written("disc/DICOMDIR", std::string(128, '\0') + "DICM" + element(2, 2, "UI", "1.2.840.10008.1.3.10") +
+                                     element(2, 0x10, "UI", syntax) + element(4, 0x1130, "CS", "DISC"));
+  expectError(folder, "DICOMDIR is the index of a medium");
+  expectError(folder, "folders in it are not read: name " + folder + "/ST0/SE1");
+  const std::string deflated = test::replaced(slice(TestVolume(), 0, 0), syntax + std::string(1, '\0'), syntax + ".99");
+  expectError(test::written("deflated.dcm", deflated), "deflated.dcm is deflated as a whole");
+}
+
+TEST_F(Dicom, AFileThatEndsInItsHeaderIsNamed) {
+  const std::string whole = slice(TestVolume(), 0, 0);
+  for (size_t bytes = 132; bytes < whole.size(); bytes += 9) {
+    const std::string folder = series(TestVolume(), {0, 1});
+    test::written("series/stub.dcm", whole.substr(0, bytes));
+    const std::string text = test::errorOf(folder);
+    EXPECT_TRUE(text.empty() || text.find("stub.dcm") != std::string::npos) << bytes << ": " << text;
+  }
 }
 
 TEST_F(Dicom, SpoiltFilesEndInOneError) {

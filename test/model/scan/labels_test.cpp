@@ -48,11 +48,13 @@ TEST(Labels, AreRenumberedInTheOrderAskedFor) {
   options.labels = {"50"};
   EXPECT_NE(said(path, options).find("no voxel has label 50; accepted: 10, 20, 30, 40"), std::string::npos);
   options.labels = {"liver"};
-  EXPECT_NE(said(path, options).find("has no label 'liver'"), std::string::npos);
+  EXPECT_NE(said(path, options).find("has no label 'liver'; accepted: 10, 20, 30, 40"), std::string::npos);
   options.labels = {"10", "10"};
-  EXPECT_NE(said(path, options).find("asked for twice"), std::string::npos);
+  EXPECT_NE(said(path, options).find("asked for twice; accepted: 10, 20"), std::string::npos);
   options.labels = {"0"};
-  EXPECT_NE(said(path, options).find("is what is outside"), std::string::npos);
+  EXPECT_NE(said(path, options).find("is what is outside; accepted: 10, 20"), std::string::npos);
+  options.labels = {"10", " 20 "};  // as "10, 20 " on a command line is split
+  EXPECT_EQ(readLabels(path, options).names[2].value, 20);
 }
 
 TEST(Labels, NamesFromTablesBesideAndGiven) {
@@ -114,6 +116,26 @@ TEST(Labels, SegmentsOfSeveralLayersOverlap) {
   const std::string one_layer = written("b.seg.nrrd", test::replaced(header, "Layer:=1", "Layer:=0") + v.bytes());
   options.labels = {"liver"};
   EXPECT_FALSE(said(one_layer, options).empty());  // no voxel has 1
+}
+
+TEST(Labels, ThatAreNearlyWholeAreRoundedWithANote) {
+  const TestVolume v = organs();
+  test::NiftiHeader header(v);
+  header.put<float>(112, 0, 0.29999F);  // labels 2.9999, 5.9998, 8.9997 and 11.9996
+  std::vector<std::string> notes;
+  LabelOptions options;
+  options.notes = &notes;
+  const LabelVolume map = readLabels(written("near.nii", header.bytes() + v.bytes()), options);
+  ASSERT_EQ(map.names.size(), 5U);
+  EXPECT_EQ(map.names[1].value, 3);
+  EXPECT_EQ(map.names[4].value, 12);
+  EXPECT_EQ(count(map, 1), 6U);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].find("near.nii: values were rounded to labels, by up to 0.000"), std::string::npos) << notes[0];
+  header.put<float>(112, 0, 0.2999F);
+  const std::string far = said(written("far.nii", header.bytes() + v.bytes()), {});
+  EXPECT_NE(far.find("a voxel is 11.996, 0.00"), std::string::npos) << far;
+  EXPECT_NE(far.find("--window"), std::string::npos) << far;
 }
 
 TEST(Labels, WhatIsNoLabelMapIsRefused) {

@@ -129,6 +129,65 @@ TEST(ScanFrame, QformIsTakenWithoutSform) {
   }
 }
 
+TEST(ScanFrame, SformGoesBeforePixdimWithANote) {
+  const TestVolume v;
+  for (const float said : {0.F, -2.F, 5.F, 1e9F}) {
+    for (const int16_t q_code : {0, 1}) {
+      test::NiftiHeader header(v);
+      for (size_t a = 0; a < 3; ++a) header.real(268, 376, a, v.ras()(static_cast<int>(a), 3));
+      header.put<float>(84, 0, said);  // pixdim[2]
+      if (said != 5) header.put<int16_t>(252, 0, q_code);
+      std::vector<std::string> notes;
+      ScanOptions options;
+      options.notes = &notes;
+      const auto source = openScan(test::written("pixdim.nii", header.bytes() + v.bytes()), options);
+      EXPECT_LT((source->frame().axes - columns({0, .001, 0}, {-.002, 0, 0}, {0, 0, .003})).norm(), kSameFrameM);
+      ASSERT_EQ(notes.size(), 1U);
+      EXPECT_NE(notes[0].find("sform of 1 x 2 x 3 mm: sform is taken"), std::string::npos) << notes[0];
+    }
+  }
+}
+
+TEST(ScanFrame, LengthsHaveTheUnitOfTheHeader) {
+  for (const auto& [code, per_mm] : {std::pair(1, 1e-3), {3, 1e3}}) {
+    TestVolume v;
+    v.lps *= per_mm;
+    for (const bool with_sform : {true, false}) {
+      test::NiftiHeader header(v);
+      header.put<uint8_t>(123, 0, static_cast<uint8_t>(code));
+      header.put<int16_t>(with_sform ? 254 : 252, 0, 1);
+      if (!with_sform) header.put<int16_t>(254, 0, 0);
+      const VolumeFrame frame = openScan(test::written("unit.nii", header.bytes() + v.bytes()))->frame();
+      EXPECT_LT((frame.spacing_m() - Vector3d(.001, .002, .003)).norm(), kSameFrameM) << code;
+      const double off = (frame.origin - Vector3d(.020, -.010, .030)).norm();
+      EXPECT_LT(with_sform ? off : 0, kSameFrameM) << code;
+    }
+  }
+}
+
+TEST(ScanFrame, DataOfNrrdBehindLinesAndNamedWithItsFolder) {
+  const TestVolume v;
+  const std::vector<float> wanted(v.voxels.begin(), v.voxels.end());
+  test::written("lines.raw", "one\ntwo\n" + v.bytes());
+  const std::string beside = test::nrrdHeader(v, "LPS", "encoding: raw\nline skip: 2\ndata file: ./lines.raw\n");
+  EXPECT_EQ(test::allOf(test::written("beside.nhdr", beside)), wanted);
+  test::written("packed.nii.gz", test::packed(test::NiftiHeader(v).bytes() + v.bytes()));
+  const std::string nifti = test::nrrdHeader(v, "LPS", "encoding: gzip\nbyte skip: 352\ndata file: packed.nii.gz\n");
+  EXPECT_EQ(test::allOf(test::written("nifti.nhdr", nifti)), wanted);
+}
+
+TEST(ScanFrame, SegmentsWithoutValuesAreNumberedInOneLayer) {
+  TestVolume v;
+  for (size_t n = 0; n < v.voxels.size(); ++n) v.voxels[n] = static_cast<int16_t>(n % 3);
+  const std::string lines = "encoding: raw\nSegment0_Name:=liver\nSegment1_Name:=spleen\n";
+  const std::vector<Segment> segments =
+      openScan(test::written("other.seg.nrrd", test::nrrdHeader(v, "LPS", lines) + v.bytes()))->segments();
+  ASSERT_EQ(segments.size(), 2U);
+  EXPECT_EQ(segments[0].label.value, 1);
+  EXPECT_EQ(segments[1].label.value, 2);
+  EXPECT_EQ(segments[1].layer, 0);
+}
+
 TEST(ScanFrame, AVolumeOfSeveralKeepsItsDirections) {
   TestVolume v;
   v.lps << 1, 0, 0, -10, 0, -2, 0, -20, 0, 0, 3, 30;  // RAS steps -1 +2 +3

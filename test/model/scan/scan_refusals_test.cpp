@@ -95,9 +95,16 @@ TEST(ScanRefusals, VolumesThatAreNotThereTakeNoMemory) {
 TEST(ScanRefusals, NumbersThatAreNone) {
   scanRefusalsExpectError(nifti("s.nii", [](auto& h) { h.template put<float>(300, 0, kNan); }), "sform");
   for (const float bad : {0.F, kNan, -1.F, 1e-4F, 200.F})
-    scanRefusalsExpectError(nifti("p.nii", [&](auto& h) { h.template put<float>(84, 0, bad); }),
+    scanRefusalsExpectError(nifti("p.nii",
+                                  [&](auto& h) {
+                                    h.template put<float>(84, 0, bad);
+                                    h.template put<int16_t>(254, 0, 0);  // the qform alone, which is made of pixdim
+                                    h.template put<int16_t>(252, 0, 1);
+                                  }),
                             "accepted: 0.001 .. 100 mm");
-  scanRefusalsExpectError(nifti("u.nii", [](auto& h) { h.template put<uint8_t>(123, 0, 1); }), "xyzt_units");
+  scanRefusalsExpectError(nifti("u.nii", [](auto& h) { h.template put<uint8_t>(123, 0, 1); }),
+                          "in the unit of xyzt_units: voxels 1000.000000 mm apart");
+  scanRefusalsExpectError(nifti("v.nii", [](auto& h) { h.template put<uint8_t>(123, 0, 5); }), "xyzt_units is 5");
   scanRefusalsExpectError(nifti("d0.nii", [](auto& h) { h.dim(0, 9); }), "accepted: 3 .. 7");
   scanRefusalsExpectError(nifti("d1.nii", [](auto& h) { h.dim(1, 0); }), "accepted: 1 .. 65535");
   scanRefusalsExpectError(nifti("d2.nii", [](auto& h) { h.dim(2, -3); }), "accepted: 1 .. 65535");
@@ -117,6 +124,17 @@ TEST(ScanRefusals, NumbersThatAreNone) {
                           "0.001 .. 100 mm");
   scanRefusalsExpectError(
       written("w.mha", test::replaced(mha, "ElementSpacing = 1", "ElementSpacing = one") + v.bytes()), "3 numbers");
+}
+
+TEST(ScanRefusals, WhatIsNotReadIsNamed) {
+  const TestVolume v;
+  const std::string list = test::nrrdHeader(v, "LPS", "encoding: raw\n");
+  scanRefusalsExpectError(written("list.nhdr", list.substr(0, list.size() - 1) + "data file: LIST\na.raw\nb.raw\n"),
+                          "'data file: LIST'; accepted: the name of one file");
+  scanRefusalsExpectError(written("pair.hdr", ""), "pairs of .hdr and .img are not read");
+  const std::string mha = test::replaced(test::metaHeader(v), "ElementDataFile = LOCAL\n", "");
+  scanRefusalsExpectError(written("no_data.mha", mha + std::string(2000, 'x')), "has no ElementDataFile");
+  scanRefusalsExpectError(written("what.xyz", "hello"), "accepted: .nii, .nii.gz");
 }
 
 TEST(ScanRefusals, SlopesAsTheStandardSays) {
