@@ -13,6 +13,7 @@
 #include "surface/network_surface.h"
 #include "surface/skins/joined_skins.h"
 #include "surface/skins/part_colors.h"
+#include "surface/skins/skin_fits.h"
 #include "surface/surface_kernels.h"
 
 namespace viscera {
@@ -95,6 +96,7 @@ float shareAt(const std::vector<float>& shares, const layout::SkinBinding& b) {
 Surface::Surface(const Model& model) {
   JoinedSkins skins = joinSkins(model);
   vertices_ = whole_vertices_ = skins.bindings.size();
+  requireSkinFits(vertices_);
   const size_t triangles = skins.triangles.size() / 3;
   carried_nodes_ = gpu::Buffer<layout::SurfaceNode>(skins.carried_nodes, "surface nodes");
   summed_nodes_ = gpu::Buffer<layout::SurfaceNode>(skins.summed_nodes, "surface nodes");

@@ -41,14 +41,13 @@ bool anyMaterial(const TriangleMesh& mesh, bool textured) {
   });
 }
 
-/// Paint is on the skin of a body by itself, so that one too fine for detail_px takes more. @return side of its square
-/// [px]
-int paintedSide(size_t faces, int detail_px, std::vector<std::string>& notes) {
+/// A skin with too many faces for detail_px takes more. @return side of its square [px]
+int neededSide(size_t faces, int detail_px, std::vector<std::string>& notes) {
   constexpr int kMost_px = 16384;  // detail_px at most
   const int needed_px = std::min(DetailAtlas::leastSide(faces), kMost_px);
   if (needed_px <= detail_px) return detail_px;
   const std::string side = std::to_string(needed_px);
-  notes.push_back("skin: " + std::to_string(faces) + " faces are painted in " + side + " x " + side +
+  notes.push_back("skin: " + std::to_string(faces) + " faces have their detail in " + side + " x " + side +
                   " texels, more than detail_px");
   return needed_px;
 }
@@ -69,14 +68,15 @@ TriangleMesh detailedSurface(TriangleMesh surface, const DetailWanted& wanted, s
   // Refined before it is baked: the shading normals between its vertices are those that will be bound.
   skin = refine(skin, wanted.longest_edge_m);
   if (!fewer && config.detail_mesh.empty()) {
-    return paintDetail(skin, wanted.paint, paintedSide(skin.triangles.size(), config.detail_px, notes), progress);
+    return paintDetail(skin, wanted.paint, neededSide(skin.triangles.size(), config.detail_px, notes), progress);
   }
   const std::string path = (std::filesystem::path(wanted.folder) / config.detail_mesh).string();
   const bool own = config.detail_mesh.empty();
   const TriangleMesh detailed = own ? std::move(surface) : readDetail(path, wanted, notes);
   skin.charts.clear();
   BakeReport report;
-  TriangleMesh baked = bakeDetail({skin, detailed, anyMaterial(detailed, own), config.detail_px}, &report, progress);
+  const int side_px = neededSide(skin.triangles.size(), config.detail_px, notes);
+  TriangleMesh baked = bakeDetail({skin, detailed, anyMaterial(detailed, own), side_px}, &report, progress);
   if (report.uncovered_share > kElsewhere) {
     throw MeshError("detail_mesh '" + path + "' lies elsewhere: it is not near " +
                     std::to_string(static_cast<int>(100 * report.uncovered_share)) +

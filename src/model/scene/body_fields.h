@@ -193,8 +193,8 @@ void visitFields(V& v, BodyConfig& c) {
             "above 0: the surface is simplified to about so many faces, and what it was is baked onto them as by "
             "detail_mesh; the lattice is made of all of it");
   v.integer("detail_px", c.detail_px, {64, 16384},
-            "side of the square of texels that detail is baked to, at most; paint takes more where the skin has too "
-            "many faces");
+            "side of the square of texels that detail is baked to, at most; more is taken where the skin has too many "
+            "faces");
   v.number("phantom_length_m", c.phantom_length_m, {0.01, 1}, "m", "phantom: base to apex");
   v.number("phantom_wall_scale", c.phantom_wall_scale, {0.1, 2}, "1", "phantom: multiplies every wall thickness");
   v.vector("box_size_m", c.box_size_m, {1e-4, 10}, "m",

@@ -1,0 +1,25 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/skins/skin_fits.h"
+
+#include <sstream>
+
+#include "gpu/limits.h"
+#include "viscera/layout/skin.h"
+#include "viscera/math/error.h"
+
+namespace viscera {
+
+void requireSkinFits(size_t vertices) {
+  const size_t block_bytes = gpu::driverLimits().storage_block_bytes, most = block_bytes / sizeof(layout::SkinBinding);
+  if (vertices <= most) return;
+  constexpr double kFacesPerVertex = 2, kMargin = 0.8;  // of a closed surface; seams have vertices twice
+  std::ostringstream out;
+  out << "the skins have " << vertices << " vertices, and this driver shows at most " << most
+      << " (GL_MAX_SHADER_STORAGE_BLOCK_SIZE = " << block_bytes << "): set bodies[].skin_faces, of all bodies together "
+      << static_cast<size_t>(kMargin * kFacesPerVertex * static_cast<double>(most)) << " or less, or run without "
+      << "pictures (--no-view)";
+  throw GpuError(out.str());
+}
+
+}  // namespace viscera

@@ -1,0 +1,26 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "surface/skins/skin_fits.h"
+
+#include <gtest/gtest.h>
+
+#include "gpu/limits.h"
+#include "support/text.h"
+#include "viscera/layout/skin.h"
+#include "viscera/math/error.h"
+
+namespace viscera {
+namespace {
+
+TEST(SkinFits, ASkinThatIsTooFineIsToldHowManyFacesItMayHave) {
+  gpu::Limits limits;
+  limits.storage_block_bytes = 1000 * sizeof(layout::SkinBinding) + 5;
+  gpu::pretendDriverLimits(limits);
+  EXPECT_NO_THROW(requireSkinFits(1000));
+  EXPECT_TRUE(test::says(test::messageOf<GpuError>([] { requireSkinFits(1001); }),
+                         {"1001 vertices", "at most 1000", "bodies[].skin_faces", "1600", "--no-view"}));
+  gpu::forgetDriverLimits();
+}
+
+}  // namespace
+}  // namespace viscera
