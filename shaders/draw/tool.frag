@@ -10,6 +10,8 @@ in vec3 normal;
 in vec4 color;
 layout(location = 0) out vec4 image;
 
+const float kSolid = 0.99;  // least alpha of what is solid: between vertices 1 may come out a little smaller
+
 /// What metal mirrors: the fill light with a dark horizon, by which its roundness is seen.
 vec3 surroundings(vec3 direction) { return fill(direction) * (1.0 - smoothstep(-0.6, 0.7, direction.y)); }
 
@@ -23,5 +25,5 @@ void main() {
   vec3 diffuse = 0.55 * color.rgb * (light.key * max(dot(n, light.to_key), 0.0) + light.fill * fill(n));
   vec3 gloss = color.rgb * (0.8 * light.key * highlight(n_h, 0.40) + 1.6 * light.fill * surroundings(reflect(-to_eye, n)));
   float rim = (1.0 - n_v) * (1.0 - n_v);
-  image = vec4(shoulder(diffuse + gloss), color.a < 1.0 ? color.a * (0.08 + 0.92 * rim) : 1.0);
+  image = vec4(shoulder(diffuse + gloss), color.a < kSolid ? color.a * (0.08 + 0.92 * rim) : 1.0);
 }
