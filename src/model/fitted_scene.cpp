@@ -3,12 +3,16 @@
 #include "viscera/model/fitted_scene.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <optional>
 
+#include "math/number_text.h"
 #include "model/scene/file_bounds.h"
+#include "model/scene/structure_rules.h"
+#include "model/scene/tool_size.h"
+#include "model/scene/within_ranges.h"
 #include "model/scene/yaml_overrides.h"
 #include "model/scene/yaml_reader.h"
 #include "model/shape/organ/tissue.h"
@@ -72,29 +76,41 @@ void followFixed(const OrganFit& fit, const BodyConfig& was, const BodyConfig& i
   }
 }
 
-/// As many cells as the scene's organ has, about: tools that are smaller still find nodes.
-void followSpacing(const OrganFit& fit, const BodyConfig& was, Keys& keys) {
-  if (was.auto_spacing || was.target_nodes > 0 || was.spacing_m <= 0) return;
-  keys.set("bodies[0].spacing_m", was.spacing_m * std::cbrt(fit.stretch.prod()));
+bool hasSpacing(const BodyConfig& body) {
+  return !body.auto_spacing && body.target_nodes == 0 && body.spacing_m > 0;
 }
 
-constexpr double kLeastSize_m = 1e-4;  ///< that keys of tools and obstacles accept, scene_fields.h
+/// As many cells as the scene's organ has, about: tools that are smaller still find nodes.
+double cellScale(const OrganFit& fit) {
+  return std::cbrt(fit.stretch.prod());
+}
+
+void followSpacing(const OrganFit& fit, const BodyConfig& was, Keys& keys) {
+  if (hasSpacing(was)) keys.set("bodies[0].spacing_m", was.spacing_m * cellScale(fit));
+}
+
+ObstacleConfig followed(const OrganFit& fit, ObstacleConfig obstacle) {
+  const double scale = fit.stretch.minCoeff();  // nothing grows into the organ
+  const bool is_turned = !obstacle.rotation_deg.isZero() || !obstacle.rotation_deg_per_s.isZero();
+  obstacle.position_m = fit.moved(obstacle.position_m);
+  obstacle.velocity_m_per_s *= scale;
+  obstacle.radius_m *= scale;
+  obstacle.length_m *= scale;
+  obstacle.size_m = obstacle.size_m.cwiseProduct(is_turned ? Vector3d::Constant(scale) : fit.stretch);
+  return withinRanges(obstacle);
+}
 
 void followObstacles(const OrganFit& fit, const Scene& made, Keys& keys) {
-  const double scale = fit.stretch.minCoeff();  // nothing grows into the organ
   for (size_t i = 0; i < made.obstacles.size(); ++i) {
-    const ObstacleConfig& obstacle = made.obstacles[i];
-    if (!obstacle.frame.empty()) continue;
+    if (!made.obstacles[i].frame.empty()) continue;
+    const ObstacleConfig obstacle = followed(fit, made.obstacles[i]);
     const std::string key = item("obstacles", i);
-    keys.set(key + "position_m", fit.moved(obstacle.position_m));
-    if (!obstacle.velocity_m_per_s.isZero()) keys.set(key + "velocity_m_per_s", scale * obstacle.velocity_m_per_s);
+    keys.set(key + "position_m", obstacle.position_m);
+    if (!obstacle.velocity_m_per_s.isZero()) keys.set(key + "velocity_m_per_s", obstacle.velocity_m_per_s);
     const bool is_round = obstacle.shape == ObstacleShape::kSphere || obstacle.shape == ObstacleShape::kCapsule;
-    if (is_round) keys.set(key + "radius_m", std::max(kLeastSize_m, scale * obstacle.radius_m));
-    if (obstacle.shape == ObstacleShape::kCapsule) keys.set(key + "length_m", scale * obstacle.length_m);
-    if (obstacle.shape != ObstacleShape::kBox) continue;
-    const bool is_turned = !obstacle.rotation_deg.isZero() || !obstacle.rotation_deg_per_s.isZero();
-    const Vector3d stretch = is_turned ? Vector3d::Constant(scale) : fit.stretch;
-    keys.set(key + "size_m", stretch.cwiseProduct(obstacle.size_m).cwiseMax(kLeastSize_m));
+    if (is_round) keys.set(key + "radius_m", obstacle.radius_m);
+    if (obstacle.shape == ObstacleShape::kCapsule) keys.set(key + "length_m", obstacle.length_m);
+    if (obstacle.shape == ObstacleShape::kBox) keys.set(key + "size_m", obstacle.size_m);
   }
 }
 
@@ -115,30 +131,14 @@ void followCameras(const OrganFit& fit, const Scene& made, Keys& keys) {
   }
 }
 
-/// What a kind of tool is told of its size.
-struct ToolSize {
-  const char* key;
-  double (*value_m)(const StylusConfig&);
-};
-constexpr std::array<ToolSize, 11> kToolSizes = {{
-    {"probe.radius_m", [](const StylusConfig& c) { return c.probe.radius_m; }},
-    {"grab.radius_m", [](const StylusConfig& c) { return c.grab.radius_m; }},
-    {"cut.blade_length_m", [](const StylusConfig& c) { return c.cut.blade_length_m; }},
-    {"cut_particles.eraser_radius_m", [](const StylusConfig& c) { return c.cut_particles.eraser_radius_m; }},
-    {"suction.radius_m", [](const StylusConfig& c) { return c.suction.radius_m; }},
-    {"scissors.blade_length_m", [](const StylusConfig& c) { return c.scissors.blade_length_m; }},
-    {"grasper.radius_m", [](const StylusConfig& c) { return c.grasper.radius_m; }},
-    {"grasper.jaw_length_m", [](const StylusConfig& c) { return c.grasper.jaw_length_m; }},
-    {"clip.jaw_length_m", [](const StylusConfig& c) { return c.clip.jaw_length_m; }},
-    {"clip.opening_m", [](const StylusConfig& c) { return c.clip.opening_m; }},
-    {"cautery.radius_m", [](const StylusConfig& c) { return c.cautery.radius_m; }},
-}};
-
-void followTools(const OrganFit& fit, const Scene& made, Keys& keys) {
+/// @param is  the body with the keys that were set
+void followTools(const OrganFit& fit, const Scene& made, const BodyConfig& is, Keys& keys) {
+  const BodyConfig& was = made.bodies[0];
+  const bool is_set = hasSpacing(was) && hasSpacing(is) && is.spacing_m != was.spacing_m;
+  const double cells = is_set ? is.spacing_m / was.spacing_m : cellScale(fit);
   for (size_t i = 0; i < made.styluses.size(); ++i) {
-    const std::string key = item("styluses", i);
-    for (const ToolSize& size : kToolSizes)
-      keys.set(key + size.key, std::max(kLeastSize_m, fit.hand_scale * size.value_m(made.styluses[i])));
+    StylusConfig stylus = scaledTools(made.styluses[i], fit.hand_scale, cells);
+    for (const ToolSize& size : kToolSizes) keys.set(item("styluses", i) + size.key, size.of(stylus));
   }
 }
 
@@ -148,16 +148,62 @@ Vector3d sightOf(const Scene& scene) {
   return Vector3d::UnitY();
 }
 
-/// None if the organ cannot be read, which making a model of it says better.
-std::optional<Eigen::AlignedBox3d> boxOf(const Scene& scene) {
-  BodyConfig body = scene.bodies[0];
-  body.textures = false;  // shape alone
-  try {
-    return makeTissue(body, scene.folder)->bounds();
-  } catch (const std::exception&) {
-    return std::nullopt;
-  }
+/// Box of what is tissue in a cell, from its middle and over its edge: that of the slab that has its moments.
+Eigen::AlignedBox3d boxWithin(const CellFill& fill) {
+  const Vector3d middle = fill.first / fill.share;
+  const Vector3d half = (3 * (fill.second.diagonal() / fill.share - middle.cwiseAbs2())).cwiseMax(0).cwiseSqrt();
+  return {(middle - half).cwiseMax(-0.5), (middle + half).cwiseMin(0.5)};
 }
+
+/// Box of a solid's tissue [m].
+Eigen::AlignedBox3d filledBox(const Solid& solid) {
+  Eigen::AlignedBox3d box;
+  size_t next = 0;  // of the partial cells, which come in the same order
+  for (int z = 0; z < solid.cells.z(); ++z) {
+    for (int y = 0; y < solid.cells.y(); ++y) {
+      for (int x = 0; x < solid.cells.x(); ++x) {
+        const size_t cell = solid.index(x, y, z);
+        if (solid.labels[cell] == 0) continue;
+        while (next < solid.partial.size() && solid.partial[next].cell < cell) ++next;
+        const bool is_partial = next < solid.partial.size() && solid.partial[next].cell == cell;
+        const Eigen::AlignedBox3d within = boxWithin(is_partial ? solid.partial[next].fill : CellFill{});
+        const Vector3d middle = Vector3d(x, y, z) + Vector3d::Constant(0.5);
+        box.extend(solid.origin_m + solid.spacing_m * (middle + within.min()));
+        box.extend(solid.origin_m + solid.spacing_m * (middle + within.max()));
+      }
+    }
+  }
+  return box;
+}
+
+/// The first body of a scene, as far as its shape goes.
+class Shape {
+ public:
+  explicit Shape(const Scene& scene) : body_(scene.bodies[0]) {
+    body_.textures = false;
+    body_.fixed.clear();  // which may be another body's
+    tissue_ = makeTissue(body_, scene.folder);
+  }
+  Eigen::AlignedBox3d bounds() const { return tissue_->bounds(); }
+  /// Box of its tissue: what of a file encloses nothing, or falls off when it is filled, is not of the body.
+  Eigen::AlignedBox3d filled(double spacing_m) const {
+    if (isNetwork(body_.structure)) return bounds();
+    constexpr double kSliver = 0.1;  // of a cell: thinner ones than about this are filled with the cell beside them
+    const Eigen::AlignedBox3d all_m = bounds();
+    Eigen::AlignedBox3d box_m = filledBox(tissue_->fill(spacing_m, {}).solid).intersection(all_m);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (box_m.min()[axis] - all_m.min()[axis] < kSliver * spacing_m) box_m.min()[axis] = all_m.min()[axis];
+      if (all_m.max()[axis] - box_m.max()[axis] < kSliver * spacing_m) box_m.max()[axis] = all_m.max()[axis];
+    }
+    return box_m;
+  }
+  /// Its own spacing [m]; 0: none is given.
+  double spacing_m() const { return hasSpacing(body_) ? body_.spacing_m : 0; }
+
+ private:
+  BodyConfig body_;
+  std::unique_ptr<Tissue> tissue_;
+};
 
 /// A mesh whose unit is not set, and that is far too large: the next step would be a grid of it.
 /// @throws MeshError
@@ -169,11 +215,38 @@ void requireLikelyUnit(const Scene& scene, const Eigen::AlignedBox3d& made_m, co
     if (text.compare(0, key.size() + 1, key + "=") == 0) return;
   const double usual_m = made_m.sizes().maxCoeff(), times = box_m.sizes().maxCoeff() / usual_m;
   if (!(times > kMostTimes)) return;
-  std::ostringstream out;
-  out.precision(3);
-  out << unitQuestion(scene.bodies[0], box_m.sizes(), usual_m) << " It is " << times
-      << " times as wide as the scene's body; a mesh of that size in metres needs " << key << "=1";
-  throw MeshError(out.str());
+  throw MeshError(unitQuestion(scene.bodies[0], box_m.sizes(), usual_m) + " It is " + numberText(times, 3) +
+                  " times as wide as the scene's body; a mesh of that size in metres needs " + key + "=1");
+}
+
+/// None if the organ cannot be read, which making a model of it says better.
+std::optional<Shape> shapeOf(const Scene& scene) {
+  try {
+    return Shape(scene);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+/// None if one of the organs cannot be read or filled, which making a model of it says better.
+/// @throws MeshError  of requireLikelyUnit()
+std::optional<OrganFit> fitOf(const Scene& made, const Scene& scene, const Overrides& own) {
+  constexpr double kCellsAcross = 30;  // of an organ whose spacing is not given
+  const std::optional<Shape> from = shapeOf(made), to = shapeOf(scene);
+  if (!from || !to) return std::nullopt;
+  requireLikelyUnit(scene, from->bounds(), to->bounds(), own);
+  try {
+    const Vector3d sight = sightOf(made);
+    const OrganFit by_files = OrganFit::between(from->bounds(), to->bounds(), sight);
+    if (!by_files.isSound()) return std::nullopt;
+    const double from_m = from->spacing_m() > 0 ? from->spacing_m() : from->bounds().sizes().maxCoeff() / kCellsAcross;
+    const double set_m = to->spacing_m() == from->spacing_m() ? 0 : to->spacing_m();
+    const double to_m = std::max(set_m, from_m * std::cbrt(by_files.stretch.prod()));
+    const OrganFit fit = OrganFit::between(from->filled(from_m), to->filled(to_m), sight);
+    if (fit.isSound()) return fit;
+  } catch (const std::exception&) {
+  }
+  return std::nullopt;
 }
 
 /// The scene as its file alone has it; none if it waits for a mesh.
@@ -198,20 +271,17 @@ FittedScene loadFittedScene(const std::string& path, const Overrides& mesh, cons
   out.scene = loadScene(path, out.overrides);
   if (mesh.empty()) return out;
   const std::optional<Scene> made = madeScene(path);
-  const auto was_m = made ? boxOf(*made) : std::nullopt, is_m = made ? boxOf(out.scene) : std::nullopt;
-  if (!was_m || !is_m) return out;
-  requireLikelyUnit(out.scene, *was_m, *is_m, own);
-  const OrganFit fit = OrganFit::between(*was_m, *is_m, sightOf(*made));
-  if (!fit.isSound()) return out;
+  const std::optional<OrganFit> fit = made ? fitOf(*made, out.scene, own) : std::nullopt;
+  if (!fit) return out;
   const bool is_alone = made->bodies.size() == 1;
   Keys keys;
-  followFixed(fit, made->bodies[0], out.scene.bodies[0], keys);
-  followSpacing(fit, made->bodies[0], keys);
+  followFixed(*fit, made->bodies[0], out.scene.bodies[0], keys);
+  followSpacing(*fit, made->bodies[0], keys);
   if (is_alone) {
-    followObstacles(fit, *made, keys);
-    followThreads(fit, *made, keys);
-    followCameras(fit, *made, keys);
-    followTools(fit, *made, keys);
+    followObstacles(*fit, *made, keys);
+    followThreads(*fit, *made, keys);
+    followCameras(*fit, *made, keys);
+    followTools(*fit, *made, out.scene.bodies[0], keys);
   }
   out.overrides = joined(joined(mesh, keys.take()), own);
   out.scene = loadScene(path, out.overrides);

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/temporary_folder.h"
 #include "viscera/math/error.h"
 #include "viscera/model/model.h"
@@ -22,7 +24,8 @@ constexpr const char* kScene =
     "          {shape: box, min_m: [-0.05, -0.05, 0.04], max_m: [0, 0.05, 0.05]}]}]\n"
     "styluses: [{name: left}, {name: right, cut: {blade_length_m: 0.03}}]\n"
     "cameras: [{name: eye, position_m: [0, -0.3, 0.1], target_m: [0, 0, 0.01]}]\n"
-    "obstacles: [{name: floor, shape: plane, position_m: [0, 0, -0.06]}]\n";
+    "obstacles:\n"
+    "  - {name: floor, shape: plane, position_m: [0, 0, -0.06]}\n";
 
 /// A mesh file of a box around the origin.
 std::string boxMesh(const Vector3d& size_m) {
@@ -38,6 +41,12 @@ std::string boxMesh(const Vector3d& size_m) {
 void expectNear(const Vector3d& is, const Vector3d& wanted) {
   EXPECT_LT((is - wanted).norm(), kRounding * std::max(1.0, wanted.norm()))
       << is.transpose() << " instead of " << wanted.transpose();
+}
+
+size_t heldNodes(const Body& body) {
+  const std::vector<uint32_t>& slots = body.lattice.active_slots;
+  return static_cast<size_t>(
+      std::count_if(slots.begin(), slots.end(), [&](uint32_t slot) { return isFixed(body.lattice.nodes[slot]); }));
 }
 
 class Fit : public ::testing::Test {
@@ -59,7 +68,7 @@ TEST_F(Fit, PlacesFollowFromBoxToBoxAndToolsTheSmallerStretch) {
   expectNear(scene.bodies[0].fixed[1].max_m, {0, 0.15, 0.025});
   expectNear(scene.obstacles[0].position_m, {0, 0, -0.03});
   EXPECT_NEAR(scene.fit->hand_scale, 0.5, kRounding);  // of x and z: the camera looks along y
-  EXPECT_NEAR(scene.styluses[0].grab.radius_m, 0.004, kRounding);
+  EXPECT_NEAR(scene.styluses[0].clip.jaw_length_m, 0.5 * 0.012, kRounding);
   EXPECT_NEAR(scene.styluses[1].cut.blade_length_m, 0.015, kRounding);
   EXPECT_NEAR(scene.bodies[0].spacing_m, 0.01 * std::cbrt(3.0), kRounding);
   EXPECT_GE(scene.fit->view_scale, 3);
@@ -68,12 +77,61 @@ TEST_F(Fit, PlacesFollowFromBoxToBoxAndToolsTheSmallerStretch) {
 }
 
 TEST_F(Fit, OrgansOfAnySizeAreHeldWithoutAWord) {
-  for (const double size_m : {0.01, 0.05, 0.1, 0.2, 1.0}) {
+  for (const double size_m : {0.004, 0.01, 0.05, 0.1, 0.2, 1.0}) {
     SCOPED_TRACE(size_m);
     const Model model = buildModel(fitted(Vector3d(1, 0.7, 0.8) * size_m).scene);
     const std::vector<std::string>& notes = model.bodies[0].notes;
     EXPECT_NE(notes.back().find("fitted to the organ's box"), std::string::npos) << notes.back();
   }
+}
+
+TEST_F(Fit, ReachesThatMeetNodesAreNoSmallerBesideTheCells) {
+  const auto ratio = [](const Scene& scene) { return scene.styluses[0].probe.radius_m / scene.bodies[0].spacing_m; };
+  const double was = ratio(loadScene(scene_));
+  for (const Vector3d& size_m : {Vector3d(0.2, 0.3, 0.05), Vector3d(0.1, 0.1, 0.002), Vector3d(0.05, 0.05, 0.05)})
+    EXPECT_NEAR(ratio(fitted(size_m).scene), was, 10 * kRounding) << size_m.transpose();
+  EXPECT_NEAR(ratio(fitted(Vector3d::Constant(0.1), {"bodies[0].spacing_m=0.02"}).scene), was, 10 * kRounding);
+  EXPECT_NEAR(fitted(Vector3d::Constant(0.1), {"bodies[0].spacing_m=0.005"}).scene.styluses[0].grab.radius_m, 0.008,
+              kRounding);
+}
+
+TEST_F(Fit, ToolsAreNoSmallerThanTheirKeysAccept) {
+  const Scene scene = fitted({0.01, 0.006, 0.0025}).scene;  // a fortieth of the scene's block
+  ASSERT_TRUE(scene.fit);
+  EXPECT_EQ(scene.styluses[0].cautery.radius_m, 1e-4);
+  EXPECT_NEAR(scene.styluses[0].cut_particles.eraser_radius_m, 0.002 / 40, kRounding);
+}
+
+TEST_F(Fit, NorAreObstacles) {
+  const std::string rod =
+      folder_.write("rod.yaml", std::string(kScene) +
+                                    "  - {name: rod, shape: capsule, radius_m: 0.001, position_m: [0, 0, -0.06]}\n");
+  const std::string organ = folder_.write("organ.obj", boxMesh(Vector3d::Constant(0.004)));
+  const Scene scene = loadFittedScene(rod, meshOverrides(organ), {}).scene;
+  ASSERT_TRUE(scene.fit);
+  EXPECT_EQ(scene.obstacles[1].radius_m, 1e-4);
+}
+
+TEST_F(Fit, AThinPlateIsHeldByItsTop) {
+  const Scene scene = fitted({0.1, 0.1, 0.0015}).scene;
+  ASSERT_TRUE(scene.fit);
+  const Model model = buildModel(scene);
+  EXPECT_GT(heldNodes(model.bodies[0]), 0U);
+}
+
+TEST_F(Fit, WhatIsNotFilledDoesNotCount) {
+  // A sheet, which encloses nothing, stands 0.1 m high on a box of 0.05 m.
+  const std::string box = boxMesh(Vector3d::Constant(0.05));
+  const std::string sheet = "o fin\nv -0.02 0 0.02\nv 0.02 0 0.02\nv 0.02 0 0.12\nv -0.02 0 0.12\nf 9 10 11 12\n";
+  const Scene scene = loadFittedScene(scene_, meshOverrides(folder_.write("fin.obj", "o box\n" + box + sheet)),
+                                      {"bodies[0].centered=false"})
+                          .scene;
+  ASSERT_TRUE(scene.fit);
+  expectNear(scene.fit->to_m.max(), Vector3d::Constant(0.025));
+  expectNear(scene.bodies[0].fixed[0].point_m, {0, 0, 0.015});
+  const Model model = buildModel(scene);
+  EXPECT_GT(heldNodes(model.bodies[0]), 0U);
+  EXPECT_LT(2 * heldNodes(model.bodies[0]), model.bodies[0].lattice.active_slots.size());
 }
 
 TEST_F(Fit, WhatIsSetGoesBefore) {

@@ -7,7 +7,8 @@
 namespace viscera {
 namespace {
 
-constexpr double kLeastStretch = 1.0 / 50, kMostStretch = 20;  ///< of an organ of 0.1 m: 2 mm to 2 m
+constexpr double kLeastStretch = 1.0 / 50, kMostStretch = 20;  ///< at the most: of an organ of 0.1 m 2 mm to 2 m
+constexpr double kThinnest = 1e-3;                             ///< at the least: a plate
 /// An organ that fills its box needs more of a picture than one with corners that are empty, as a heart's.
 constexpr double kRoom = 1.15;
 
@@ -42,7 +43,8 @@ Vector3d OrganFit::viewed(const Vector3d& point_m) const {
 }
 
 bool OrganFit::isSound() const {
-  return stretch.minCoeff() >= kLeastStretch && stretch.maxCoeff() <= kMostStretch;  // false for NaN
+  const double most = stretch.maxCoeff();
+  return stretch.minCoeff() >= kThinnest && most >= kLeastStretch && most <= kMostStretch;  // false for NaN
 }
 
 std::string OrganFit::text() const {
