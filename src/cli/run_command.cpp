@@ -189,11 +189,12 @@ int run(const RunOptions& options) {
   Session& session = *made;
   requireOutputs(outputs);  // by now all is known that is read
   requireSomethingToWrite(options, session, ticks);
-  resolveAnchors(strokes, session.model(), scene.fit);
+  const std::vector<std::string> stroke_notes = resolveAnchors(strokes, session.model(), scene.fit);
   sayFarHands(strokes, scene);
   for (const Body& body : session.model().bodies) {
     for (const std::string& note : body.notes) std::cout << body.name << ": " << oneLine(note) << '\n';
   }
+  for (const std::string& note : stroke_notes) std::cout << "strokes: " << oneLine(note) << '\n';
   std::cout << "stepped by: " << session.backendNote() << '\n';
   const RunFolder folder(options.out);
   Album album(options.out, session.scene(), strokes, ticks, picturesOf(options), {options.depth, options.labels});

@@ -2,13 +2,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/anchor_search.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace viscera {
 namespace {
 
 constexpr double kNone = -std::numeric_limits<double>::infinity();
+
+/// What a viewer along -z sees at a point.
+struct Skinned {
+  double height_m = kNone;  ///< kNone: no skin
+  bool is_held = false;
+};
+
+/// How many of some places the skin lies under.
+struct Met {
+  size_t free = 0, all = 0;  ///< where it can move; anywhere
+  bool operator<(const Met& other) const { return std::tie(free, all) < std::tie(other.free, other.all); }
+  void add(const Skinned& skin) {
+    free += skin.is_held ? 0 : 1;
+    ++all;
+  }
+};
 
 /// How near to a viewer along -z the skins are, on a grid of points across.
 class HeightMap {
@@ -17,26 +35,29 @@ class HeightMap {
     for (const Body& body : model.bodies)
       for (const Vector3f& p : body.skin.mesh.positions_m) box_m_.extend(to_anchor * p.cast<double>());
     step_m_ = std::max(box_m_.sizes().x(), box_m_.sizes().y()) / (kPoints - 1);
-    height_m_.assign(kPoints * kPoints, kNone);
+    skins_.assign(kPoints * kPoints, {});
     if (step_m_ <= 0) return;
     for (const Body& body : model.bodies) {
       const TriangleMesh& mesh = body.skin.mesh;
       const auto at = [&](uint32_t vertex) -> Vector3d { return to_anchor * mesh.positions_m[vertex].cast<double>(); };
-      for (const auto& t : mesh.triangles) add(at(t[0]), at(t[1]), at(t[2]));
+      for (const auto& t : mesh.triangles) {
+        const bool is_held = std::any_of(t.begin(), t.end(), [&](uint32_t vertex) { return isHeld(body, vertex); });
+        add(at(t[0]), at(t[1]), at(t[2]), is_held);
+      }
     }
   }
 
-  double at(double x_m, double y_m) const {
+  Skinned at(double x_m, double y_m) const {
     const Vector3d cell = (Vector3d(x_m, y_m, 0) - box_m_.min()) / step_m_;
     const double column = std::round(cell.x()), row = std::round(cell.y());
-    if (!(column >= 0 && row >= 0 && column < kPoints && row < kPoints)) return kNone;
-    return height_m_[static_cast<size_t>(row) * kPoints + static_cast<size_t>(column)];
+    if (!(column >= 0 && row >= 0 && column < kPoints && row < kPoints)) return {};
+    return skins_[static_cast<size_t>(row) * kPoints + static_cast<size_t>(column)];
   }
   double step_m() const { return step_m_; }
   static constexpr int kPoints = 96;  ///< along the longer side: strokes span a quarter of an organ
 
  private:
-  void add(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  void add(const Vector3d& a, const Vector3d& b, const Vector3d& c, bool is_held) {
     const Vector3d ab = b - a, ac = c - a;
     const double area = ab.x() * ac.y() - ab.y() * ac.x();
     if (area == 0) return;
@@ -47,18 +68,25 @@ class HeightMap {
         const double x = box_m_.min().x() + column * step_m_ - a.x(), y = box_m_.min().y() + row * step_m_ - a.y();
         const double u = (x * ac.y() - y * ac.x()) / area, v = (ab.x() * y - ab.y() * x) / area;
         if (u < 0 || v < 0 || u + v > 1) continue;
-        double& height_m = height_m_[static_cast<size_t>(row * kPoints + column)];
-        height_m = std::max(height_m, a.z() + u * ab.z() + v * ac.z());
+        const double height_m = a.z() + u * ab.z() + v * ac.z();
+        Skinned& skin = skins_[static_cast<size_t>(row * kPoints + column)];
+        if (height_m > skin.height_m) skin = {height_m, is_held};
       }
     }
   }
 
   Eigen::AlignedBox3d box_m_;
   double step_m_ = 0;
-  std::vector<double> height_m_;  ///< [rows][columns]; kNone: no skin
+  std::vector<Skinned> skins_;  ///< [rows][columns]
 };
 
 }  // namespace
+
+bool isHeld(const Body& body, uint32_t vertex) {
+  const layout::SkinBinding& binding = body.skin.bindings[vertex];
+  const auto is_held = [&](uint32_t slot) { return isFixed(body.lattice.nodes[slot]); };
+  return is_held(binding.slot0) && is_held(binding.slot1) && is_held(binding.slot2);
+}
 
 Quaterniond frameAlong(const Vector3d& back) {
   const Vector3d up = std::abs(back.z()) < 1 - 1e-6 ? Vector3d::UnitZ() : Vector3d::UnitY();
@@ -78,19 +106,22 @@ Vector3d shiftOntoSkin(const Model& model, const Anchor& anchor, const std::vect
   double reach_m = 0;
   for (const Vector3d& spot : spots_m) reach_m = std::max(reach_m, spot.head<2>().norm());
   const auto met = [&](double x_m, double y_m) {
-    const double height_m = map.at(x_m, y_m);
-    size_t count = height_m == kNone ? 0 : 1;
-    for (const Vector3d& spot : spots_m)
-      count += std::abs(map.at(x_m + spot.x(), y_m + spot.y()) - height_m) <= kSlope * reach_m ? 1 : 0;
+    const Skinned middle = map.at(x_m, y_m);
+    Met count;
+    if (middle.height_m != kNone) count.add(middle);
+    for (const Vector3d& spot : spots_m) {
+      const Skinned skin = map.at(x_m + spot.x(), y_m + spot.y());
+      if (std::abs(skin.height_m - middle.height_m) <= kSlope * reach_m) count.add(skin);
+    }
     return count;
   };
-  size_t most = met(origin.x(), origin.y());
+  Met most = met(origin.x(), origin.y());
   Vector3d shift = Vector3d::Zero();
   for (int row = -HeightMap::kPoints; row <= HeightMap::kPoints; ++row) {
     for (int column = -HeightMap::kPoints; column <= HeightMap::kPoints; ++column) {
       const Vector3d by(column * map.step_m(), row * map.step_m(), 0);
-      const size_t count = met(origin.x() + by.x(), origin.y() + by.y());
-      if (count < most || (count == most && by.norm() >= shift.norm())) continue;
+      const Met count = met(origin.x() + by.x(), origin.y() + by.y());
+      if (count < most || (!(most < count) && by.norm() >= shift.norm())) continue;
       most = count;
       shift = by;
     }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -30,22 +31,36 @@ double hitDistance(const Vector3d& from, const Vector3d& direction, const Vector
   return u >= -kBorder && v >= -kBorder && u + v <= 1 + kBorder && t > 0 ? t : kMiss;
 }
 
-double firstHit(const Model& model, const Vector3d& from, const Vector3d& direction) {
-  double nearest = std::numeric_limits<double>::infinity();
+/// Where a ray first meets a skin.
+struct Hit {
+  double distance_m = std::numeric_limits<double>::infinity();
+  bool is_held = false;  ///< no corner of the triangle can move
+};
+
+Hit firstHit(const Model& model, const Vector3d& from, const Vector3d& direction) {
+  Hit nearest;
   for (const Body& body : model.bodies) {
     const TriangleMesh& mesh = body.skin.mesh;
     const auto at = [&](uint32_t vertex) { return mesh.positions_m[vertex].cast<double>(); };
-    for (const auto& t : mesh.triangles)
-      nearest = std::min(nearest, hitDistance(from, direction, at(t[0]), at(t[1]), at(t[2])));
+    for (const auto& t : mesh.triangles) {
+      const double distance_m = hitDistance(from, direction, at(t[0]), at(t[1]), at(t[2]));
+      if (distance_m >= nearest.distance_m) continue;
+      const bool is_held = std::all_of(t.begin(), t.end(), [&](uint32_t vertex) { return isHeld(body, vertex); });
+      nearest = {distance_m, is_held};
+    }
   }
   return nearest;
 }
 
-std::string rayText(const Anchor& anchor) {
+std::string pointText(const Vector3d& point_m) {
   const Eigen::IOFormat list(6, Eigen::DontAlignCols, ", ", ", ", "", "", "[", "]");
   TextOut out;
-  out << "from " << anchor.from_m.transpose().format(list) << " towards " << anchor.towards_m.transpose().format(list);
+  out << point_m.transpose().format(list);
   return out.str();
+}
+
+std::string rayText(const Anchor& anchor) {
+  return "from " + pointText(anchor.from_m) + " towards " + pointText(anchor.towards_m);
 }
 
 /// Where a stroke works on the skin, in its anchor's frame: keys that are not far above it.
@@ -59,6 +74,21 @@ void addSpots(const Stroke& stroke, std::vector<Vector3d>& spots_m) {
 
 bool same(const Anchor& a, const Anchor& b) {
   return a.from_m == b.from_m && a.towards_m == b.towards_m;
+}
+
+/// @param frame  of the stroke's anchor   @param above_m  above all skins, along z of it
+/// @returns empty, unless all that a stroke meets is held
+std::string heldNote(const Stroke& stroke, const Model& model, const Pose& frame, double above_m) {
+  std::vector<Vector3d> spots_m = {Vector3d::Zero()};
+  addSpots(stroke, spots_m);
+  for (Vector3d spot_m : spots_m) {
+    spot_m.z() = above_m;
+    const Hit hit = firstHit(model, frame * spot_m, frame.orientation * -Vector3d::UnitZ());
+    if (std::isfinite(hit.distance_m) && !hit.is_held) return "";
+  }
+  return "the stroke of stylus '" + stroke.stylus + "', anchored at " + pointText(frame.position_m) +
+         " m, meets only tissue that is held, which neither moves nor pushes back: give it another anchor, or hold " +
+         "less (bodies[].fixed)";
 }
 
 /// Anchored strokes on an organ in the place of another. Those with one anchor stay together.
@@ -82,20 +112,24 @@ void follow(const OrganFit& fit, const Model& model, std::vector<Stroke>& stroke
 
 }  // namespace
 
-void resolveAnchors(Strokes& strokes, const Model& model, const std::optional<OrganFit>& fit) {
+std::vector<std::string> resolveAnchors(Strokes& strokes, const Model& model, const std::optional<OrganFit>& fit) {
+  std::vector<std::string> notes;
   if (fit) follow(*fit, model, strokes.strokes);
   for (Stroke& stroke : strokes.strokes) {
     if (!stroke.anchor) continue;
     const Vector3d direction = (stroke.anchor->towards_m - stroke.anchor->from_m).normalized();
-    const double distance = firstHit(model, stroke.anchor->from_m, direction);
+    const double distance = firstHit(model, stroke.anchor->from_m, direction).distance_m;
     if (!std::isfinite(distance)) {
       throw StrokesError((strokes.file.empty() ? "" : strokes.file + ": ") + "the anchor of stylus '" + stroke.stylus +
                          "', a ray " + rayText(*stroke.anchor) + " (m), meets no tissue");
     }
     const Pose frame{stroke.anchor->from_m + distance * direction, frameAlong(-direction)};
+    const std::string note = heldNote(stroke, model, frame, distance);
+    if (!note.empty()) notes.push_back(note);
     for (Stroke::Key& key : stroke.keys) key.pose = frame * key.pose;
     stroke.anchor.reset();
   }
+  return notes;
 }
 
 std::string strokesYaml(const Strokes& strokes) {

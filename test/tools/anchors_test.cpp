@@ -131,6 +131,37 @@ TEST(Anchor, OfAnotherOrganMovesToWhereTheSkinIsBroadEnoughForAllStrokes) {
   EXPECT_THROW(resolveAnchors(strokes, boxModel()), StrokesError);  // on the organ that they were made for they stay
 }
 
+/// A box whose upper half is held.
+Model halfHeldBox() {
+  Scene scene;
+  scene.bodies = {box("box")};
+  FixedConfig held;
+  held.shape = FixedShape::kPlane;
+  held.normal = Vector3d(0, 0, -1);
+  scene.bodies[0].fixed = {held};
+  return buildModel(scene);
+}
+
+TEST(Anchor, OfAnotherOrganMovesToWhereTheTissueIsFree) {
+  constexpr double kCellM = 0.01;
+  const Model model = halfHeldBox();
+  Strokes strokes = anchored({0, -0.3, 0.015}, {0, 0, 0.015});
+  EXPECT_TRUE(resolveAnchors(strokes, model, fitFrom(1)).empty());
+  EXPECT_LT(strokes.strokes[0].keys[0].pose.position_m.z(), 0);
+  EXPECT_GT(strokes.strokes[0].keys[0].pose.position_m.z(), -2 * kCellM) << "no farther than it must";
+}
+
+TEST(Anchor, StrokeThatMeetsOnlyHeldTissueIsNamed) {
+  const Model model = halfHeldBox();
+  Strokes strokes = anchored({0.001, -0.3, 0.015}, {0.001, 0, 0.015});
+  strokes.strokes.push_back(strokes.strokes[0]);
+  strokes.strokes[1].stylus = "right";
+  strokes.strokes[1].keys[0].pose.position_m.y() = -0.03;  // below: free tissue
+  const std::vector<std::string> notes = resolveAnchors(strokes, model);
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_TRUE(test::says(notes[0], {"'left'", "[0.001, -0.02, 0.015]", "held", "bodies[].fixed"}));
+}
+
 TEST(Anchor, RayStopsAtTheNearestBody) {
   Scene scene;
   scene.bodies = {box("far"), box("near")};

@@ -80,8 +80,10 @@ Strokes parseStrokes(const std::string& yaml, const std::string& name);
 
 /// Brings anchored strokes into the tissue frame.
 /// @param fit  of a scene to an organ that neither it nor the strokes were made for: their anchors and keys follow it
+/// @returns a line for a person for each stroke that meets only tissue that is held
 /// @throws StrokesError if a ray misses every skin
-void resolveAnchors(Strokes& strokes, const Model& model, const std::optional<OrganFit>& fit = std::nullopt);
+std::vector<std::string> resolveAnchors(Strokes& strokes, const Model& model,
+                                        const std::optional<OrganFit>& fit = std::nullopt);
 
 /// The strokes as a file that loadStrokes() reads; anchors must have been resolved.
 std::string strokesYaml(const Strokes& strokes);

@@ -38,7 +38,10 @@ ReplayOptions replayOptions(Parameters& parameters, const std::string& package_f
   if (!choice.scene.empty()) {
     const Scene scene = choice.load(package_folder);
     options.frame = scene.environment.tissue_frame;
-    if (options.strokes.anchored()) resolveAnchors(options.strokes, buildModel(scene), scene.fit);
+    if (options.strokes.anchored()) {
+      for (const std::string& note : resolveAnchors(options.strokes, buildModel(scene), scene.fit))
+        ROS_WARN_STREAM("strokes: " << note);
+    }
   }
   if (options.strokes.anchored())
     throw ParameterError(
