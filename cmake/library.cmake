@@ -27,7 +27,7 @@ if(VISCERA_WITH_ROS)
   install(TARGETS viscera_core LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION} COMPONENT ros)
   install(DIRECTORY include/viscera DESTINATION ${CATKIN_GLOBAL_INCLUDE_DESTINATION} COMPONENT ros)
 endif()
-# Shipped scenes by their names: of what is installed, and of a build those of its sources (src/model/scene/shipped_files.cpp).
+# Shipped scenes by their names: of what is installed, and of a build those of its sources (src/math/shipped_files.cpp).
 install(DIRECTORY config/scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/viscera/config COMPONENT library ${excluded})
 foreach(place ${PROJECT_BINARY_DIR} ${CATKIN_DEVEL_PREFIX})
   file(WRITE ${place}/share/viscera/config_folder.txt "${PROJECT_SOURCE_DIR}/config\n")

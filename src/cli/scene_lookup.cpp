@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "math/nearest_names.h"
-#include "model/scene/shipped_files.h"
+#include "math/shipped_files.h"
 #include "viscera/math/error.h"
 
 /// config/ of the source tree that this program was built from.

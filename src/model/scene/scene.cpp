@@ -7,9 +7,9 @@
 #include <filesystem>
 
 #include "math/memory_for.h"
+#include "math/shipped_files.h"
 #include "model/scene/file_bounds.h"
 #include "model/scene/integrators.h"
-#include "model/scene/shipped_files.h"
 #include "model/scene/structure_rules.h"
 #include "model/scene/yaml_overrides.h"
 #include "model/scene/yaml_reader.h"

@@ -373,7 +373,8 @@ void visitFields(V& v, SolverConfig& c) {
            "spacing_m: auto: seconds of tissue per second of clock that it must reach");
   v.choice("backend", c.backend, {{"auto", Backend::kAuto}, {"gpu", Backend::kGpu}, {"cpu", Backend::kCpu}},
            "what steps the tissue: GPU kernels or SIMD threads; auto: the GPU if it is a real one, else the CPU");
-  v.integer("threads", c.threads, {0, 256}, "CPU backend: threads; 0: one per processor that may be used (affinity, cgroup cpu.max)");
+  v.integer("threads", c.threads, {0, 256},
+            "CPU backend: threads; 0: one per processor that may be used (affinity, cgroup cpu.max)");
   v.integer("device", c.device, {-1, 31}, "EGL device to take, as listed by `viscera check`; -1: the first that works");
 }
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/scene/shipped_files.h"
+#include "math/shipped_files.h"
 
 #include <dlfcn.h>
 
