@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Lesson{"practice_skin", "incision_clumsy", 0.4, 0.9},
                       Lesson{"practice_pad", "touch_targets_clumsy", 0.5, 1.0},
                       Lesson{"practice_pad", "gentle_lift_clumsy", 0.8, 1.5},
-                      Lesson{"practice_pad", "gentle_lift_good", 0.8, 1.5, "grasper", 1.2, ToolMode::kGrasper},
+                      Lesson{"practice_vessel", "clip_and_divide_good", 1.2, 1.5, "grasper", 1.4, ToolMode::kGrasper},
                       Lesson{"wound_pad", "close_wound_clumsy", 0.9, 1.2},
                       Lesson{"practice_vessel", "clip_and_divide_good", 1.2, 1.8},
                       Lesson{"suture_pad", "suture", 0.9, 1.2}, Lesson{"running_suture", "running_suture", 2.8, 3.0},
