@@ -58,6 +58,25 @@ TEST(StateFile, ComesBackAsItWas) {
   EXPECT_TRUE(draftsIn(folder.path()).empty());
 }
 
+TEST(StateFile, IsInMemoryWhatItIsOnTheDisk) {
+  const TemporaryFolder folder;
+  const auto sections = someSections(70000, 'a');
+  writeStateFile(folder.file("state"), sections);
+  const std::string bytes = stateBytes(sections);
+  EXPECT_EQ(bytes, textOf(folder.file("state")));
+  const auto read = readStateBytes(bytes, "memory");
+  ASSERT_EQ(read.size(), sections.size());
+  for (size_t s = 0; s < read.size(); ++s) EXPECT_EQ(read[s].bytes, sections[s].bytes);
+  for (const std::string& spoilt : {std::string(), bytes.substr(0, bytes.size() - 1), bytes + "x"}) {
+    try {
+      readStateBytes(spoilt, "memory");
+      ADD_FAILURE() << spoilt.size() << " bytes were taken";
+    } catch (const Error& error) {
+      EXPECT_EQ(std::string(error.what()).rfind("memory: ", 0), 0u) << error.what();
+    }
+  }
+}
+
 TEST(StateFile, EveryTurnedBitIsRefused) {
   const TemporaryFolder folder;
   writeStateFile(folder.file("state"), someSections(60, 'b'));
