@@ -20,6 +20,7 @@
 #include "model/scan/dicom.h"
 #include "model/scan/surface_net.h"
 #include "model/scene/tissue_presets.h"
+#include "model/scene/tool_size.h"
 #include "viscera/layout/limits.h"
 #include "viscera/math/error.h"
 #include "viscera/model/scene/scene.h"
@@ -33,18 +34,19 @@ namespace fs = std::filesystem;
 constexpr double kNodes = 20000;     ///< that the largest body gets, about
 constexpr double kLeastNodes = 500;  ///< that a smaller one gets: its spacing shrinks before it has fewer
 constexpr double kHeld = 0.2;  ///< of a surface's vertices, from behind: of pointed organs' length it would be little
-constexpr double kFieldOfViewDeg = 28;                    ///< of the camera, from the top of a picture to its bottom
-constexpr double kUsualLength = 0.1;                      ///< [m] of organs that tools have their usual sizes for
-constexpr double kLargestLabel = 1 << 24;                 ///< as labels.h has it
-constexpr double kLeastSpacing = 1e-5, kLeastTip = 1e-4;  ///< [m] that a scene accepts
-constexpr size_t kMostListed = 255;                       ///< labels of a map
-constexpr double kCm3 = 1e6;                              ///< in a cubic metre
+constexpr double kFieldOfViewDeg = 28;     ///< of the camera, from the top of a picture to its bottom
+constexpr double kUsualLength = 0.1;       ///< [m] of organs that tools have their usual sizes for
+constexpr double kLargestLabel = 1 << 24;  ///< as labels.h has it
+constexpr double kLeastSpacing = 1e-5;     ///< [m] that a scene accepts
+constexpr size_t kMostListed = 255;        ///< labels of a map
+constexpr double kCm3 = 1e6;               ///< in a cubic metre
 
 /// A body of the scene.
 struct Organ {
   std::string name, file, title;
   std::string source, held;  ///< lines of the scene; empty: its mesh file, a plane
   TriangleMesh mesh;
+  std::vector<bool> is_held;  ///< [triangles of the mesh] all of it, or about so
   Eigen::AlignedBox3d box_m;
   double volume_m3 = 0, spacing_m = 0;
   double held_m = 0;  ///< x, behind which it is held
@@ -179,6 +181,14 @@ double heldOf(const TriangleMesh& mesh) {
   return *held;
 }
 
+/// Which triangles of a mesh reach behind x.
+std::vector<bool> behind(const TriangleMesh& mesh, double x_m) {
+  std::vector<bool> out;
+  for (const auto& t : mesh.triangles)
+    out.push_back(std::any_of(t.begin(), t.end(), [&](uint32_t v) { return mesh.positions_m[v].x() <= x_m; }));
+  return out;
+}
+
 /// All organs as one, with their borders in it.
 Organ joined(const std::vector<Organ>& organs) {
   Organ whole;
@@ -189,6 +199,7 @@ Organ joined(const std::vector<Organ>& organs) {
     const TriangleMesh& mesh = organ.mesh;
     whole.mesh.positions_m.insert(whole.mesh.positions_m.end(), mesh.positions_m.begin(), mesh.positions_m.end());
     for (const auto& t : mesh.triangles) whole.mesh.triangles.push_back({t[0] + before, t[1] + before, t[2] + before});
+    whole.is_held.insert(whole.is_held.end(), mesh.triangles.size(), organ.is_rigid);
     whole.box_m.extend(organ.box_m);
     whole.volume_m3 += organ.volume_m3;
   }
@@ -244,6 +255,7 @@ std::vector<Organ> organsOf(const ReadScan& read, const ImportOptions& options, 
                       " m is finer than its voxels, of up to " + numberText(voxel_m) +
                       " m: there is no more in the scan");
     if (organ.is_rigid) organ.held_m = organ.box_m.max().x() + organ.spacing_m;  // all of it
+    if (organ.held.empty()) organ.is_held = behind(organ.mesh, organ.held_m + organ.spacing_m);
   }
   return organs;
 }
@@ -307,11 +319,15 @@ std::string sceneOf(const std::vector<Organ>& organs, const std::string& scan) {
       out << "      - {shape: plane, point_m: [" << listText({organ.held_m, 0, 0}) << "], normal: [1, 0, 0]}\n";
     out << organ.held;
   }
-  const auto tip = [scale = sizeOf(all)](double usual_m) { return std::max(kLeastTip, usual_m * scale); };
+  StylusConfig stylus;
+  stylus.cut.blade_length_m = 0.022;
+  stylus = scaledTools(stylus, sizeOf(all));
   out << "styluses:\n";
   for (const char* hand : {"left", "right"}) {
-    out << "  - {name: " << hand << ", idle: probe, button1: grab, button2: cut, probe: {radius_m: " << tip(0.006)
-        << "}, grab: {radius_m: " << tip(0.008) << "}, cut: {blade_length_m: " << tip(0.022) << "}}\n";
+    out << "  - {name: " << hand
+        << ", idle: probe, button1: grab, button2: cut, probe: {radius_m: " << stylus.probe.radius_m
+        << "}, grab: {radius_m: " << stylus.grab.radius_m << "}, cut: {blade_length_m: " << stylus.cut.blade_length_m
+        << "}}\n";
   }
   // From before, somewhat from the organ's left and from above.
   const double half = kFieldOfViewDeg / 2 * M_PI / 180;
@@ -342,7 +358,8 @@ void writeScene(const Draft& draft, const std::vector<Organ>& organs, const std:
   const auto largest = std::max_element(organs.begin(), organs.end(), smaller) - organs.begin();
   const Eigen::AlignedBox3d all = boxOf(organs);
   writeFile(draft.file("strokes.yaml"),
-            strokesFor(meshesOf(organs), static_cast<size_t>(largest), -all.center(), sizeOf(all)));
+            strokesFor(meshesOf(organs), static_cast<size_t>(largest), organs[static_cast<size_t>(largest)].is_held,
+                       -all.center(), sizeOf(all)));
 }
 
 }  // namespace

@@ -101,6 +101,15 @@ TEST_F(FitCommand, WrittenSceneAndStrokesAreWhatWasRun) {
               kSame * was["peak_force_n"].get<double>());
 }
 
+TEST_F(FitCommand, TinyOrgansAndThinPlatesPlayWithoutAWord) {
+  for (const Vector3d& size_m : {Vector3d(0.004, 0.0035, 0.005), Vector3d(0.1, 0.1, 0.0018)}) {
+    const std::string mesh = folder_.write("organ.obj", ellipsoid(size_m));
+    const Ending ending = viscera({"run", "heart", "--mesh", mesh, "--no-view", "--seconds", "0.02"});
+    EXPECT_EQ(ending.status, 0) << ending.err;
+    EXPECT_TRUE(says(ending.out, {"fitted to the organ's box"})) << ending.out;
+  }
+}
+
 TEST_F(FitCommand, AFolderThatIsNotThereIsRefused) {
   std::vector<std::string> fit = options(organs()[0]);
   fit.insert(fit.begin(), "fit");

@@ -11,6 +11,7 @@
 #include "cli/small_scene.h"
 #include "support/temporary_folder.h"
 #include "support/text.h"
+#include "viscera/layout/picture_labels.h"
 #include "viscera/model/model.h"
 #include "viscera/model/shape/mesh_import.h"
 #include "viscera/model/shape/triangle_mesh.h"
@@ -138,6 +139,50 @@ TEST_F(ImportCommand, StrokesTouchAndCut) {
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.out.find("\"springs_cut\":0,"), std::string::npos) << run.out;
   EXPECT_EQ(run.out.find("\"peak_force_n\":0.0,"), std::string::npos) << run.out;
+}
+
+TEST_F(ImportCommand, SmallOrgansAreNotHiddenByTheToolThatDentsThem) {
+  constexpr double kTissue = 0.1, kTools = 0.3;  // shares of the picture: at least, at most
+  for (const double radius : {5.0, 10.0}) {      // voxels: 2 and 4 cm across
+    SCOPED_TRACE(radius);
+    const std::string ball = realScan("ball.nrrd", [&](int i, int j, int k) {
+      return (Vector3d(i, j, k) - Vector3d::Constant(11.5)).norm() < radius ? 1.0F : 0.0F;
+    });
+    const std::string organ = folder_.file("ball" + std::to_string(radius)), out = organ + "/played";
+    ASSERT_EQ(import({ball, "--no-previews", "--out", organ}).status, 0);
+    const Ending run = viscera({"run", organ + "/scene.yaml", "--strokes", organ + "/strokes.yaml", "--seconds", "1.02",
+                                "--labels", "--live", "--out", out, "--set", "cameras[0].width_px=160", "--set",
+                                "cameras[0].height_px=120", "--set", "bodies[0].target_nodes=1500"});
+    ASSERT_EQ(run.status, 0) << run.err;
+    const Picture picture(out + "/dented_camera_labels.png");
+    ASSERT_FALSE(picture.rgb.empty());
+    double tissue = 0, tools = 0;
+    for (size_t i = 0; i < picture.rgb.size(); i += 3) {
+      const uint8_t label = picture.rgb[i];
+      tissue += label >= layout::kFirstBodyLabel && label < layout::kFirstToolLabel ? 1 : 0;
+      tools += label >= layout::kFirstToolLabel ? 1 : 0;
+    }
+    const double pixels = static_cast<double>(picture.rgb.size()) / 3;
+    EXPECT_GT(tissue / pixels, kTissue);
+    EXPECT_GT(tools, 0);
+    EXPECT_LT(tools / pixels, kTools);
+  }
+}
+
+TEST_F(ImportCommand, StrokesTouchWhatIsNotHeld) {
+  // A bowl, open to the front: what is seen in the middle is the inner side of its rear, which is held.
+  const std::string bowl = realScan("bowl.nrrd", [](int i, int j, int k) {
+    const double away = (Vector3d(i, j, k) - Vector3d::Constant(11.5)).norm();
+    return j >= 8 && away > 8 && away < 10.5 ? 1.0F : 0.0F;
+  });
+  const std::string out = folder_.file("bowl");
+  ASSERT_EQ(import({bowl, "--no-previews", "--spacing", "0.003", "--out", out}).status, 0);
+  const Ending run =
+      viscera({"run", out + "/scene.yaml", "--strokes", out + "/strokes.yaml", "--no-view", "--seconds", "1.1"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.out.find("only tissue that is held"), std::string::npos) << run.out;
+  const std::string key = "\"peak_force_n\":";  // of all tools together, before those of each
+  EXPECT_NE(run.out.substr(run.out.find(key) + key.size(), 4), "0.0,") << run.out;
 }
 
 TEST_F(ImportCommand, PreviewsHaveLeftWhereTheirLettersSay) {

@@ -34,9 +34,13 @@ bool hides(const TriangleMesh& mesh, const Vector3d& place, const Vector3d& way)
 }
 
 /// Places of an organ that face a way, the nearest to its middle as seen from there first.
-std::vector<Vector3d> facing(const TriangleMesh& mesh, const Eigen::AlignedBox3d& box, const Vector3d& way) {
+/// @param without  [triangles] that are no such place
+std::vector<Vector3d> facing(const TriangleMesh& mesh, const std::vector<bool>& without, const Eigen::AlignedBox3d& box,
+                             const Vector3d& way) {
   std::vector<std::pair<double, Vector3d>> found;
-  for (const auto& t : mesh.triangles) {
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (without[i]) continue;
+    const std::array<uint32_t, 3>& t = mesh.triangles[i];
     const Vector3d a = mesh.positions_m[t[0]].cast<double>(), b = mesh.positions_m[t[1]].cast<double>(),
                    c = mesh.positions_m[t[2]].cast<double>(), middle = (a + b + c) / 3;
     if ((b - a).cross(c - a).normalized().dot(way) > kFacing)
@@ -48,15 +52,22 @@ std::vector<Vector3d> facing(const TriangleMesh& mesh, const Eigen::AlignedBox3d
   return places;
 }
 
-/// A place and the way out of the organ there, past all organs if there is such a place.
-std::pair<Vector3d, Vector3d> placeOn(const std::vector<const TriangleMesh*>& organs, const TriangleMesh& organ,
-                                      const Eigen::AlignedBox3d& box) {
-  for (const Vector3d& way : kWays) {
-    const Vector3d outward = way.normalized();
-    for (const Vector3d& place : facing(organ, box, outward)) {
-      const Vector3d clear = place + 1e-3 * box.sizes().norm() * outward;  // of the organ's own face
-      const auto isHidden = [&](const TriangleMesh* other) { return hides(*other, clear, outward); };
-      if (std::none_of(organs.begin(), organs.end(), isHidden)) return {place, outward};
+/// A place and the way out of the organ there.
+struct Place {
+  Vector3d at_m, outward;
+};
+
+/// One that can move and is past all organs, if there is such a place; else one that is past all organs.
+Place placeOn(const std::vector<const TriangleMesh*>& organs, const TriangleMesh& organ,
+              const std::vector<bool>& is_held, const Eigen::AlignedBox3d& box) {
+  for (const std::vector<bool>& without : {is_held, std::vector<bool>(is_held.size(), false)}) {
+    for (const Vector3d& way : kWays) {
+      const Vector3d outward = way.normalized();
+      for (const Vector3d& place : facing(organ, without, box, outward)) {
+        const Vector3d clear = place + 1e-3 * box.sizes().norm() * outward;  // of the organ's own face
+        const auto isHidden = [&](const TriangleMesh* other) { return hides(*other, clear, outward); };
+        if (std::none_of(organs.begin(), organs.end(), isHidden)) return {place, outward};
+      }
     }
   }
   return {box.center(), kWays[0].normalized()};
@@ -74,22 +85,34 @@ struct Key {
   double t_s;
   Vector3d at_mm;
   const char* buttons;
+  const char* turned = "";  ///< how the tool is held from here on; empty: as before
 };
 
 constexpr const char* kGrab = ", button1: true";
 constexpr const char* kCut = ", button2: true";
+// Handles lead aside, so that a camera that looks along them sees what the tips do; a blade stays in the plane of its
+// cut.
+constexpr const char* kToTheLeft = "[0, -50, 0]";
+constexpr const char* kToTheRight = "[0, 50, 0]";
+constexpr const char* kUpwards = "[-40, 0, 0]";
 
-const Key kLeft[] = {{0.0, {-20, 0, 40}, ""},   {0.4, {0, 0, 10}, ""},     {0.9, {0, 0, -8}, ""},
-                     {1.1, {0, 0, -8}, ""},     {1.4, {0, 0, 12}, ""},     {1.8, {0, 0, -5}, kGrab},
-                     {2.5, {-4, 4, 14}, kGrab}, {2.8, {-4, 4, 14}, kGrab}, {3.1, {0, 0, 4}, ", button1: false"},
+const Key kLeft[] = {{0.0, {-20, 0, 40}, "", kToTheLeft},
+                     {0.4, {0, 0, 10}, ""},
+                     {0.9, {0, 0, -8}, ""},
+                     {1.1, {0, 0, -8}, ""},
+                     {1.4, {0, 0, 12}, ""},
+                     {1.8, {0, 0, -5}, kGrab},
+                     {2.5, {-4, 4, 14}, kGrab},
+                     {2.8, {-4, 4, 14}, kGrab},
+                     {3.1, {0, 0, 4}, ", button1: false"},
                      {3.5, {-40, 0, 50}, ""}};
-const Key kRight[] = {{3.2, {40, 20, 50}, ""},
+const Key kRight[] = {{3.2, {40, 20, 50}, "", kUpwards},
                       {3.6, {0, 22, 16}, kCut},
                       {3.8, {0, 22, -14}, kCut},
                       {4.5, {0, -22, -14}, kCut},
                       {5.0, {0, 22, -14}, kCut},
                       {5.2, {0, 22, 16}, ", button2: false"},
-                      {5.5, {9, 0, 10}, ""},
+                      {5.5, {9, 0, 10}, "", kToTheRight},
                       {5.8, {9, 0, -6}, kGrab},
                       {6.4, {18, 0, 6}, kGrab},
                       {6.8, {18, 0, 6}, kGrab},
@@ -101,19 +124,22 @@ void addStroke(std::ostringstream& out, const char* stylus, const std::string& a
                double size) {
   constexpr double kMm = 1e-3;
   out << "  - stylus: " << stylus << "\n    anchor: " << anchor << "\n    keys:\n";
-  for (const Key& key : keys)
+  const char* turned = "[0, 0, 0]";
+  for (const Key& key : keys) {
+    if (*key.turned != '\0') turned = key.turned;
     out << "      - {t_s: " << key.t_s << ", position_m: " << list(size * kMm * key.at_mm)
-        << ", rotation_deg: [0, 0, 0]" << key.buttons << "}\n";
+        << ", rotation_deg: " << turned << key.buttons << "}\n";
+  }
 }
 
 }  // namespace
 
-std::string strokesFor(const std::vector<const TriangleMesh*>& organs, size_t largest, const Vector3d& moved_m,
-                       double most_size) {
+std::string strokesFor(const std::vector<const TriangleMesh*>& organs, size_t largest, const std::vector<bool>& is_held,
+                       const Vector3d& moved_m, double most_size) {
   const TriangleMesh& organ = *organs[largest];
   Eigen::AlignedBox3d box;
   for (const Vector3f& p : organ.positions_m) box.extend(p.cast<double>());
-  const auto [place, way] = placeOn(organs, organ, box);
+  const auto [place, way] = placeOn(organs, organ, is_held, box);
   const double size = std::min(most_size, std::cbrt(box.sizes().prod()) / kUsualOrgan_m);
   const Vector3d towards = place + moved_m, from = towards + 2 * box.sizes().norm() * way;
   const std::string anchor = "{from_m: " + list(from) + ", towards_m: " + list(towards) + "}";
