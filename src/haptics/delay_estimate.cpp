@@ -22,7 +22,7 @@ constexpr double kCompared_s = 2e-3;
 /// What a fit leaves, of the best one's: more excludes its round trip. The best one must leave no more than a share.
 constexpr double kExcluded = 1.15, kTrusted = 0.25;
 /// Poses that come less often exclude nothing [s].
-constexpr double kSwift_s = 0.0125;
+constexpr double kSwift_s = 6e-3;
 /// Delays that differ by less are the same [s].
 constexpr double kResolved_s = 1.5e-3;
 /// What a fit leaves, of what the told one leaves: less makes it the likely one.
