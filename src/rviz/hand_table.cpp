@@ -14,14 +14,14 @@ namespace {
 
 constexpr std::array<const char*, 3> kSwitches = {"idle", "button1", "button2"};
 constexpr int kModeLetters = 4;  // a dock may be narrow; the list shows whole names
+constexpr int kFeltLines = 2;
 
 QString feltText(const ToldStylus& told) {
   const QString state = QString::fromStdString(told.state);
   if (told.force_n.empty()) return state;
   return QString("%1; %2 N, touches %3 nodes, holds %4")
-      .arg(state)
-      .arg(QString::fromStdString(told.force_n).toDouble(), 0, 'f', 2)
-      .arg(QString::fromStdString(told.nodes_touched), QString::fromStdString(told.nodes_held));
+      .arg(state, rounded(told.force_n, 2), QString::fromStdString(told.nodes_touched),
+           QString::fromStdString(told.nodes_held));
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ void HandTable::show(const std::vector<ToldStylus>& styluses) {
   for (size_t i = 0; i < rows_.size(); ++i) {
     for (size_t which = 0; which < kSwitches.size(); ++which)
       choose(rows_[i].modes[which], QString::fromStdString(styluses[i].modes[which]));
-    rows_[i].felt->setText(feltText(styluses[i]));
+    write(rows_[i].felt, feltText(styluses[i]));
   }
 }
 
@@ -52,9 +52,9 @@ void HandTable::makeRows(const std::vector<ToldStylus>& styluses) {
   int line = 1;
   for (const ToldStylus& stylus : styluses) {
     grid->addWidget(new QLabel(QString::fromStdString(stylus.name)), line, 0);
-    Row row{stylus.name, {}, wrappedLabel()};
+    Row row{stylus.name, {}, steadyLabel(kFeltLines)};
     for (size_t which = 0; which < kSwitches.size(); ++which) {
-      QComboBox* box = row.modes[which] = new QComboBox;
+      QComboBox* box = row.modes[which] = new ChoiceBox;
       box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
       box->setMinimumContentsLength(kModeLetters);
       for (const ToolKind& kind : kToolKinds) box->addItem(kind.name);

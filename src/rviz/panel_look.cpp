@@ -6,6 +6,10 @@
 #include <QLineEdit>
 #include <QPainter>
 #include <QSignalBlocker>
+#include <QWheelEvent>
+
+#include <algorithm>
+#include <charconv>
 
 namespace viscera::rviz_plugin {
 namespace {
@@ -86,12 +90,57 @@ QIcon icon(Sign sign) {
   return QIcon(picture);
 }
 
+void ChoiceBox::wheelEvent(QWheelEvent* event) {
+  event->ignore();
+}
+
+void CountBox::wheelEvent(QWheelEvent* event) {
+  event->ignore();
+}
+
 QLabel* wrappedLabel() {
   auto* label = new QLabel;
   label->setWordWrap(true);
+  label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   label->setTextFormat(Qt::PlainText);
   label->setTextInteractionFlags(Qt::TextSelectableByMouse);
   return label;
+}
+
+QLabel* steadyLabel(int lines) {
+  QLabel* const label = wrappedLabel();
+  label->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  label->setFixedHeight(lines * label->fontMetrics().lineSpacing() + 2 * label->margin());
+  return label;
+}
+
+void write(QLabel* label, const QString& text) {
+  label->setText(text);
+  label->setToolTip(text);
+}
+
+void keepWidthOf(QPushButton* button, const QStringList& texts) {
+  const QString now = button->text();
+  int width = 0;
+  for (const QString& text : texts) {
+    button->setText(text);
+    width = std::max(width, button->sizeHint().width());
+  }
+  button->setText(now);
+  button->setMinimumWidth(width);
+}
+
+std::optional<double> numberOf(const std::string& text) {
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, value);
+  if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
+  return value;
+}
+
+QString rounded(const std::string& number, int digits) {
+  const std::optional<double> value = numberOf(number);
+  return value ? QString::number(*value, 'f', digits) : QString::fromStdString(number);
 }
 
 void choose(QComboBox* box, const QString& text) {

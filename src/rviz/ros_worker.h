@@ -26,15 +26,22 @@ class RosWorker {
   /// @param service  whole name, of a Service whose response has success and message
   template <class Service>
   void call(const std::string& service, const typename Service::Request& request) {
-    add([this, service, request] {
-      told_(service + " ...");
-      ros::ServiceClient client = hold<Service>(service);
-      typename Service::Response response;
-      if (!client.isValid()) return "no service " + service;
-      if (!client.call(request, response)) return service + ": no answer";
-      if (!response.success) return service + ": refused: " + response.message;
-      return service + ": " + (response.message.empty() ? "done" : response.message);
-    });
+    add([this, service, request] { return ask<Service>(service, request).text; });
+  }
+  struct Answer {
+    bool success = false;
+    std::string text;  ///< what a person is told
+  };
+  /// Calls a service and waits for its answer; within a job.
+  template <class Service>
+  Answer ask(const std::string& service, const typename Service::Request& request) {
+    told_(service + " ...");
+    ros::ServiceClient client = hold<Service>(service);
+    typename Service::Response response;
+    if (!client.isValid()) return {false, "no service " + service};
+    if (!client.call(request, response)) return {false, service + ": no answer"};
+    if (!response.success) return {false, service + ": refused: " + response.message};
+    return {true, service + ": " + (response.message.empty() ? "done" : response.message)};
   }
   /// @param job  @returns what a person is told; empty: nothing
   void add(std::function<std::string()> job);

@@ -35,7 +35,11 @@ namespace {
 
 constexpr int kShowEvery_ms = 250;
 constexpr int kMostTicks = 10000;  // of one call of the service
-constexpr int kLeastLetters = 10;  // of choices: a dock may be narrow
+constexpr int kStateLines = 3;     // of a narrow dock
+constexpr const char* kPause = "Pa&use";
+constexpr const char* kResume = "Res&ume";
+constexpr const char* kRecord = "Re&cord";
+constexpr const char* kStopRecording = "Stop re&cording";
 constexpr uint32_t kDiagnosticsQueue = 100;
 
 QStringList yamlNames(const std::string& folder) {
@@ -46,7 +50,7 @@ QStringList yamlNames(const std::string& folder) {
 }
 
 QComboBox* writable(const char* hint) {
-  auto* box = new QComboBox;
+  auto* box = new ChoiceBox;
   box->setEditable(true);
   box->setInsertPolicy(QComboBox::NoInsert);
   box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
@@ -64,7 +68,7 @@ struct PanelTopics {
 
 SessionPanel::SessionPanel(QWidget* parent)
     : rviz::Panel(parent),
-      state_(wrappedLabel()),
+      state_(steadyLabel(kStateLines)),
       measures_(wrappedLabel()),
       warnings_(wrappedLabel()),
       answer_(wrappedLabel()),
@@ -79,21 +83,23 @@ SessionPanel::SessionPanel(QWidget* parent)
   warnings_->setStyleSheet("color: #c04000");
   auto* inside = new QWidget;
   auto* rows = new QVBoxLayout(inside);
-  makeChoices(rows);
-  makeButtons(rows);
-  rows->addWidget(state_);  // and all else whose height changes: a button that moves is not met
   worker_ = std::make_unique<RosWorker>([this](const std::string& text) {
     QMetaObject::invokeMethod(
-        this, [this, text] { answer_->setText(QString::fromStdString(text)); }, Qt::QueuedConnection);
+        this, [this, text] { write(answer_, QString::fromStdString(text)); }, Qt::QueuedConnection);
   });
   task_ = new TaskBox(*worker_);
-  for (QWidget* widget : {static_cast<QWidget*>(hands_), static_cast<QWidget*>(measures_), static_cast<QWidget*>(task_),
-                          static_cast<QWidget*>(warnings_), static_cast<QWidget*>(answer_)})
+  makeChoices(rows);
+  makeButtons(rows);
+  // What is clicked comes first, and what changes its height last: a button that moves is missed.
+  for (QWidget* widget :
+       {static_cast<QWidget*>(state_), static_cast<QWidget*>(hands_), static_cast<QWidget*>(answer_),
+        static_cast<QWidget*>(warnings_), static_cast<QWidget*>(task_), static_cast<QWidget*>(measures_)})
     rows->addWidget(widget);
   rows->addStretch(1);
   auto* scroll = new QScrollArea;  // a dock may be low
   scroll->setWidgetResizable(true);
   scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn);  // one that comes takes room from the buttons
   scroll->setWidget(inside);
   auto* all = new QVBoxLayout(this);
   all->setContentsMargins(0, 0, 0, 0);
@@ -115,6 +121,7 @@ void SessionPanel::makeChoices(QVBoxLayout* rows) {
   line->addWidget(scenes_, 1);
   line->addWidget(load_);
   form->addRow("Scene", line);
+  form->addRow("Task", task_->choices());
   rows->addLayout(form);
   const auto chosen = [this] { chooseSpace(spaces_->currentText().trimmed().toStdString()); };
   connect(spaces_, QOverload<int>::of(&QComboBox::activated), this, chosen);
@@ -129,18 +136,20 @@ void SessionPanel::makeChoices(QVBoxLayout* rows) {
 
 void SessionPanel::makeButtons(QVBoxLayout* rows) {
   reset_ = new QPushButton(icon(Sign::kReset), "&Reset");
-  pause_ = new QPushButton;
+  pause_ = new QPushButton(icon(Sign::kPause), kPause);
   step_ = new QPushButton(icon(Sign::kStep), "S&tep");
-  record_ = new QPushButton;
-  ticks_ = new QSpinBox;
+  record_ = new QPushButton(icon(Sign::kRecord), kRecord);
+  keepWidthOf(pause_, {kPause, kResume});
+  keepWidthOf(record_, {kRecord, kStopRecording});
+  ticks_ = new CountBox;
   ticks_->setRange(1, kMostTicks);
   ticks_->setSuffix(" ticks");
   auto* grid = new QGridLayout;
   grid->addWidget(reset_, 0, 0);
   grid->addWidget(pause_, 0, 1);
-  grid->addWidget(record_, 0, 2);
   grid->addWidget(step_, 1, 0);
   grid->addWidget(ticks_, 1, 1);
+  grid->addWidget(record_, 2, 0, 1, 2);
   rows->addLayout(grid);
   connect(reset_, &QPushButton::clicked, this, [this] { call<std_srvs::Trigger>("reset"); });
   connect(pause_, &QPushButton::clicked, this, [this] { call<std_srvs::Trigger>(now_.paused ? "resume" : "pause"); });
@@ -168,10 +177,11 @@ void SessionPanel::onInitialize() {
   follow();
   worker_->add([this] {
     const std::string package = ros::package::getPath("viscera");
-    const QStringList scenes = yamlNames(package + "/config/scenes"), tasks = yamlNames(package + "/config/tasks");
-    const auto offerBoth = [this, scenes, tasks] {
+    const std::string folder = package + "/config/tasks";
+    const QStringList scenes = yamlNames(package + "/config/scenes"), tasks = yamlNames(folder);
+    const auto offerBoth = [this, scenes, tasks, folder] {
       offer(scenes_, scenes);
-      task_->offerTasks(tasks);
+      task_->offerTasks(tasks, QString::fromStdString(folder));
     };
     QMetaObject::invokeMethod(this, offerBoth, Qt::QueuedConnection);
     return std::string();
@@ -229,7 +239,7 @@ void SessionPanel::show() {
   const std::string scene_before = now_.scene;
   now_ = here.empty() ? ToldSimulator() : here.front();
   if (now_.scene != scene_before) choose(scenes_, QString::fromStdString(now_.scene));
-  state_->setText(QString::fromStdString(stateText(here)));
+  write(state_, QString::fromStdString(stateText(here)));
   showSession(here);
 }
 
@@ -240,9 +250,10 @@ std::string SessionPanel::stateText(const std::vector<ToldSimulator>& here) cons
   if (!now_.scene.empty()) text += ", scene " + now_.scene;
   if (!now_.tick.empty()) text += ", tick " + now_.tick;
   if (!now_.paused && !now_.real_time_factor.empty())
-    text += ", " + QString::number(QString::fromStdString(now_.real_time_factor).toDouble(), 'f', 2).toStdString() +
-            " of real time";
-  if (!now_.recording.empty()) text += "\nrecorded into " + now_.recording;
+    text += ", " + rounded(now_.real_time_factor, 2).toStdString() + " of real time";
+  if (!now_.preparing_percent.empty())
+    text += (now_.scene.empty() ? "\npreparing: " : "\nload_scene: ") + now_.preparing_percent + " %";
+  if (!now_.recording.empty()) text += "\nrecording into " + now_.recording.substr(now_.recording.rfind('/') + 1);
   return text;
 }
 
@@ -254,12 +265,12 @@ void SessionPanel::showSession(const std::vector<ToldSimulator>& here) {
   for (const std::string& warning : now_.warnings) warnings += QString::fromStdString(warning) + "\n";
   warnings_->setText(warnings.trimmed());
   const bool runs = !now_.scene.empty();
-  measures_->setText(
-      !runs ? QString()
-            : QString::fromStdString("springs cut: " + now_.springs_cut + ", largest stretch " + now_.max_stretch));
-  pause_->setText(now_.paused ? "Res&ume" : "Pa&use");
+  measures_->setText(!runs ? QString()
+                           : QString("Springs cut: %1, largest stretch %2")
+                                 .arg(QString::fromStdString(now_.springs_cut), rounded(now_.max_stretch, 3)));
+  pause_->setText(now_.paused ? kResume : kPause);
   pause_->setIcon(icon(now_.paused ? Sign::kResume : Sign::kPause));
-  record_->setText(now_.recording.empty() ? "Re&cord" : "Stop");
+  record_->setText(now_.recording.empty() ? kRecord : kStopRecording);
   record_->setIcon(icon(now_.recording.empty() ? Sign::kRecord : Sign::kStop));
   for (QWidget* button : {reset_, pause_, load_, record_}) button->setEnabled(runs);
   step_->setEnabled(now_.paused);

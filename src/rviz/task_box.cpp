@@ -3,20 +3,26 @@
 #include "rviz/task_box.h"
 
 #if __has_include(<viscera/TaskState.h>)
+#include <rviz/yaml_config_reader.h>
 #include <std_srvs/Trigger.h>
+#include <viscera/LoadScene.h>
 #include <viscera/Metrics.h>
 #include <viscera/StartTask.h>
 #include <viscera/TaskState.h>
 
+#include <QDir>
+#include <QFileInfo>
 #include <QGridLayout>
 #include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QUrl>
+#include <QVBoxLayout>
 #include <algorithm>
 
 #include "rviz/panel_look.h"
 #include "rviz/ros_worker.h"
+#include "rviz/task_words.h"
 
 namespace viscera::rviz_plugin {
 namespace {
@@ -44,12 +50,37 @@ QString scoreText(const TaskState& state) {
 }
 
 QString measuresText(const TaskState& state) {
-  QString out;
+  std::vector<SentMeasure> measures;
   const size_t count = std::min({state.measures.size(), state.values.size(), state.measure_penalties_s.size()});
   for (size_t i = 0; i < count; ++i)
-    out += QString::fromStdString(state.measures[i]) + ": " + QString::number(state.values[i], 'g', 4) + ", costs " +
-           number(state.measure_penalties_s[i], 1) + " s\n";
-  return out.trimmed();
+    measures.push_back({state.measures[i], state.values[i], state.measure_penalties_s[i]});
+  return measuresText(state.kind, measures);
+}
+
+/// Returns the scene that a task's file names, as load_scene takes it; empty if that cannot be read here.
+std::string sceneOf(const QString& task_file) {
+  rviz::Config task;
+  rviz::YamlConfigReader reader;
+  reader.readFile(task, task_file);
+  QString scene;
+  if (reader.error() || !task.mapGetString("scene", &scene)) return {};
+  const bool named = !scene.contains('/') && !scene.endsWith(".yaml");
+  return (named ? scene : QDir(QFileInfo(task_file).path()).filePath(scene)).toStdString();
+}
+
+/// Starts a task, and loads its scene first if the simulator asks for that.
+/// @param file  of the task, if it is on this machine   @returns what a person is told
+std::string startTask(RosWorker& worker, const std::string& space, const std::string& task, const QString& file) {
+  constexpr const char* kOtherScene = "load_scene it first";  // of the refusal
+  StartTaskRequest request;
+  request.task = task;
+  RosWorker::Answer answer = worker.ask<StartTask>(space + "start_task", request);
+  if (answer.success || answer.text.find(kOtherScene) == std::string::npos) return answer.text;
+  LoadSceneRequest scene;
+  scene.scene = sceneOf(file);
+  if (scene.scene.empty()) return answer.text;
+  answer = worker.ask<LoadScene>(space + "load_scene", scene);
+  return answer.success ? worker.ask<StartTask>(space + "start_task", request).text : answer.text;
 }
 
 QString handsText(const Metrics& metrics) {
@@ -67,7 +98,7 @@ QString handsText(const Metrics& metrics) {
 }
 
 /// Lines without a text take no room.
-void write(QLabel* label, const QString& text) {
+void writeOrHide(QLabel* label, const QString& text) {
   label->setText(text);
   label->setVisible(!text.isEmpty());
 }
@@ -81,8 +112,10 @@ struct TaskBox::Inside {
   };
   RosWorker& worker;
   std::string space;
+  QString folder;  ///< of tasks that have names
   bool runs = false, busy = false;
-  QComboBox* tasks = new QComboBox;
+  QWidget* choices = new QWidget;
+  QComboBox* tasks = new ChoiceBox;
   QPushButton* start = new QPushButton(icon(Sign::kStart), "Start");
   QPushButton* end = new QPushButton(icon(Sign::kEnd), "Give up");
   QLabel *text = wrappedLabel(), *score = wrappedLabel(), *measures = wrappedLabel(), *hands = wrappedLabel(),
@@ -98,26 +131,31 @@ struct TaskBox::Inside {
   }
 };
 
-TaskBox::TaskBox(RosWorker& worker) : QGroupBox("Task"), inside_(new Inside{worker, {}}) {
+TaskBox::TaskBox(RosWorker& worker) : QGroupBox("Task"), inside_(new Inside{worker, {}, {}}) {
   Inside& in = *inside_;
   in.tasks->setEditable(true);
+  in.tasks->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  in.tasks->setMinimumContentsLength(kLeastLetters);
   in.tasks->setToolTip("Name of a task, or path of one");
   in.progress->setRange(0, kPercent);
   in.report->setOpenExternalLinks(true);
-  auto* grid = new QGridLayout(this);
+  auto* grid = new QGridLayout(in.choices);
+  grid->setContentsMargins(0, 0, 0, 0);
   grid->addWidget(in.tasks, 0, 0, 1, 2);
   grid->addWidget(in.start, 1, 0);
   grid->addWidget(in.end, 1, 1);
-  int row = 2;
+  auto* rows = new QVBoxLayout(this);
   for (QWidget* widget :
        {static_cast<QWidget*>(in.text), static_cast<QWidget*>(in.progress), static_cast<QWidget*>(in.score),
         static_cast<QWidget*>(in.measures), static_cast<QWidget*>(in.hands), static_cast<QWidget*>(in.report)})
-    grid->addWidget(widget, row++, 0, 1, 2);
+    rows->addWidget(widget);
   connect(in.start, &QPushButton::clicked, this, [&in] {
-    StartTaskRequest request;
-    request.task = in.tasks->currentText().trimmed().toStdString();
+    const QString task = in.tasks->currentText().trimmed();
+    const QString file = task.contains('/') ? task : QDir(in.folder).filePath(task + ".yaml");
     in.tasks->lineEdit()->clearFocus();
-    in.worker.call<StartTask>(in.space + "start_task", request);
+    in.worker.add([&worker = in.worker, space = in.space, task = task.toStdString(), file] {
+      return startTask(worker, space, task, file);
+    });
   });
   connect(in.end, &QPushButton::clicked, this, [&in] { in.worker.call<std_srvs::Trigger>(in.space + "end_task", {}); });
   in.clear();
@@ -136,12 +174,17 @@ void TaskBox::follow(const ros::NodeHandle& node, const std::string& space) {
     topics->state = node.subscribe<TaskState>(space + "task_state", 1,
                                               [&in](const TaskStateConstPtr& message) { in.show(*message); });
     topics->metrics = node.subscribe<Metrics>(
-        space + "metrics", 1, [&in](const MetricsConstPtr& message) { write(in.hands, handsText(*message)); });
+        space + "metrics", 1, [&in](const MetricsConstPtr& message) { writeOrHide(in.hands, handsText(*message)); });
     return std::string();
   });
 }
 
-void TaskBox::offerTasks(const QStringList& names) {
+QWidget* TaskBox::choices() const {
+  return inside_->choices;
+}
+
+void TaskBox::offerTasks(const QStringList& names, const QString& folder) {
+  inside_->folder = folder;
   offer(inside_->tasks, names);
 }
 
@@ -162,15 +205,15 @@ void TaskBox::Inside::show(const TaskState& state) {
   busy = state.state == TaskState::WAITING || state.state == TaskState::RUNNING;
   enable();
   choose(tasks, QString::fromStdString(state.task));
-  write(text, QString::fromStdString(state.title + "\n" + state.instructions +
-                                     (state.step.empty() ? "" : "\n\n" + state.step)));
-  write(score, scoreText(state));
+  writeOrHide(text, QString::fromStdString(state.title + "\n" + state.instructions +
+                                           (state.step.empty() ? "" : "\n\n" + state.step)));
+  writeOrHide(score, scoreText(state));
   score->setStyleSheet(verdictStyle(state.state));
   progress->setValue(static_cast<int>(kPercent * std::clamp(state.progress, 0.0, 1.0)));
   progress->show();
-  write(measures, measuresText(state));
+  writeOrHide(measures, measuresText(state));
   const QString page = QUrl::fromLocalFile(QString::fromStdString(state.report) + "/report.html").toString();
-  write(report, state.report.empty() ? QString() : "<a href=\"" + page.toHtmlEscaped() + "\">Report</a>");
+  writeOrHide(report, state.report.empty() ? QString() : "<a href=\"" + page.toHtmlEscaped() + "\">Report</a>");
 }
 
 }  // namespace viscera::rviz_plugin
@@ -186,7 +229,10 @@ TaskBox::TaskBox(RosWorker&) {
 }
 TaskBox::~TaskBox() = default;
 void TaskBox::follow(const ros::NodeHandle&, const std::string&) {}
-void TaskBox::offerTasks(const QStringList&) {}
+QWidget* TaskBox::choices() const {
+  return new QWidget;
+}
+void TaskBox::offerTasks(const QStringList&, const QString&) {}
 void TaskBox::setRuns(bool) {}
 
 }  // namespace viscera::rviz_plugin

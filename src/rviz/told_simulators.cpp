@@ -52,6 +52,7 @@ std::vector<ToldSimulator> ToldSimulators::at(Time now) const {
     told.state = whole.message;
     told.tick = valueOf(whole, "tick");
     told.paused = valueOf(whole, "paused") == "True";
+    told.preparing_percent = valueOf(whole, "preparing_percent");
     told.recording = valueOf(whole, "recording");
     told.springs_cut = valueOf(whole, "springs_cut");
     told.max_stretch = valueOf(whole, "max_stretch");

@@ -25,7 +25,8 @@ struct ToldSimulator {
   std::string scene;  ///< empty: it is still being made
   std::string state;  ///< in words
   std::string tick, real_time_factor, springs_cut, max_stretch;
-  std::string recording;  ///< file; empty: none
+  std::string preparing_percent;  ///< of the scene that is being made; empty: none is
+  std::string recording;          ///< file; empty: none
   bool paused = false;
   std::vector<ToldStylus> styluses;
   std::vector<std::string> warnings;  ///< of all parts

@@ -8,6 +8,7 @@
 
 #include "math/one_line.h"
 #include "nodes/ros/scene_choice.h"
+#include "nodes/simulator/preparation.h"
 #include "viscera/model/model.h"
 
 namespace viscera::nodes {
@@ -122,7 +123,10 @@ SimulatorOptions SceneSwitch::check(const LoadScene::Request& request) const {
 
 /// @throws Error  no model can be made of the scene
 std::unique_ptr<MadeSession> SceneSwitch::make(const char* service, const Scene& scene) const {
-  const Progress progress = [=](const std::string& stage, double fraction) {
+  Preparation preparation(scene);
+  made_percent_ = 0;
+  const Progress progress = [&, service](const std::string& stage, double fraction) {
+    made_percent_ = preparation.percentAt(stage, fraction);
     ROS_INFO_THROTTLE(1, "%s: %s %.0f %%", service, stage.c_str(), 100 * fraction);
     const std::lock_guard<std::mutex> lock(mutex_);
     if (state_ == State::kEnd) throw Ended{};
@@ -197,6 +201,7 @@ void SceneSwitch::serve(const char* service, const std::function<SimulatorOption
   } catch (const std::exception& error) {
     response.message = asField(error.what());
   }
+  made_percent_ = -1;
   if (!response.success) ROS_WARN("%s: %s", service, response.message.c_str());
 }
 

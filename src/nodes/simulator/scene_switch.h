@@ -7,6 +7,7 @@
 #include <ros/spinner.h>
 #include <std_srvs/Trigger.h>
 
+#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <memory>
@@ -47,6 +48,8 @@ class SceneSwitch {
   void leave(const Session& session);
   /// The simulator that was made last runs.
   void noteReady();
+  /// How much of the scene that a service waits for is made [%]; below 0: none waits.
+  int madePercent() const { return made_percent_; }
   /// Of the session that runs.
   KeepUp& keepUp() { return keep_up_; }
   /// What the next simulator is made of, if there is to be one; then isRequested() is false.
@@ -81,8 +84,9 @@ class SceneSwitch {
   std::unique_ptr<HeldTopics> topics_;
   bool carries_ = false;                  ///< the next session goes on with the tissue of this one
   std::optional<CarriedTissue> carried_;  ///< on its way
-  std::string error_;                     ///< why the last one did not run; empty: it does
-  bool first_ = true;                     ///< no simulator has run yet
+  mutable std::atomic<int> made_percent_{-1};
+  std::string error_;  ///< why the last one did not run; empty: it does
+  bool first_ = true;  ///< no simulator has run yet
   ros::CallbackQueue queue_;
   KeepUp keep_up_;
   ros::ServiceServer load_scene_, coarsen_;

@@ -64,8 +64,9 @@ Simulator::Simulator(const SimulatorOptions& options, EndWatch& end, SceneSwitch
       services_(std::in_place, node_, options.scene.styluses, SavedFolder(options.saved_folder, options.saved_limit_gb),
                 loop_.commands(), SimulatorServices::Switches{recordings_, tasks_}, modeSet()),
       diagnostics_(std::in_place, node_, options.scene, loop_,
-                   SimulatorDiagnostics::Publishers{publisher_, wrenches_, recordings_, scenes_.keepUp()}, inputs_,
-                   obstacles_, camera_frames_),
+                   SimulatorDiagnostics::Publishers{publisher_, wrenches_, recordings_, scenes_.keepUp(),
+                                                    [this] { return preparingPercent(); }},
+                   inputs_, obstacles_, camera_frames_),
       device_spinner_(1, &device_queue_) {
 }
 
@@ -76,7 +77,14 @@ Simulator::~Simulator() {
 /// In the log, and in rviz, where there is nothing else to see.
 void Simulator::reportProgress(const std::string& stage, double fraction) {
   ROS_INFO_THROTTLE(1, "preparing: %s %.0f %%", stage.c_str(), 100 * fraction);
-  publisher_.tell("preparing: " + std::to_string(preparation_.percentAt(stage, fraction)) + " %");
+  preparing_percent_ = preparation_.percentAt(stage, fraction);
+  publisher_.tell("preparing: " + std::to_string(preparing_percent_) + " %");
+}
+
+/// Of this scene, or of the next one that load_scene makes meanwhile; below 0: none is being made.
+int Simulator::preparingPercent() const {
+  const int next = scenes_.madePercent();
+  return next >= 0 || ready_ ? next : preparing_percent_.load();
 }
 
 SimulatorDiagnostics::Inputs Simulator::makeInputs(const SimulatorOptions& options, tf2_ros::Buffer& frames) {

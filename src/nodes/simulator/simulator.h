@@ -65,6 +65,7 @@ class Simulator {
   void warnOfStalls();
   void warnOfRecording();
   void reportProgress(const std::string& stage, double fraction);
+  int preparingPercent() const;
   void tellFailure(const std::string& why);
   /// Ends all that ticks do not need, while they go on: another simulator waits for the place of this one.
   void stepAside(ros::AsyncSpinner& spinner);
@@ -89,6 +90,7 @@ class Simulator {
   TickPublisher ticks_;
   SamplesPublisher samples_;
   ObstacleForcePublisher obstacle_forces_;
+  std::atomic<int> preparing_percent_{0};
   std::atomic<bool> ready_{false};  ///< the session is made: devices may be listened to
   bool listening_ = false;
   uint64_t stalls_ = 0;  ///< that were warned of

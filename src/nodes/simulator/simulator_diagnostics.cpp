@@ -104,6 +104,7 @@ void SimulatorDiagnostics::takeLatencies() {
 }
 
 void SimulatorDiagnostics::simulation(Status& status) {
+  if (const int percent = publishers_.preparing_percent(); percent >= 0) status.add("preparing_percent", percent);
   if (!now_) return status.summary(Level::OK, "preparing");
   status.summary(Level::OK, now_->paused ? "paused" : "running");
   if (now_->stats.crowded)

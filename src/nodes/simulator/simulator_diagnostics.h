@@ -5,6 +5,7 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,6 +34,7 @@ class SimulatorDiagnostics {
     WrenchPublisher& wrenches;
     const RecordingSwitch& recordings;
     KeepUp& keep_up;
+    std::function<int()> preparing_percent;  ///< of a scene that is being made; below 0: none is
   };
 
   /// @param loop, publishers, inputs, obstacles, camera_frames  must outlive this

@@ -1,0 +1,44 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rviz/task_words.h"
+
+#include <gtest/gtest.h>
+
+#include "tasks/task_measures.h"
+
+namespace viscera::rviz_plugin {
+namespace {
+
+std::vector<SentMeasure> all() {
+  std::vector<SentMeasure> out;
+  for (const TaskMeasure& measure : kTaskMeasures) out.push_back({measure.name, 0, 0});
+  return out;
+}
+
+TEST(TaskWords, EveryMeasureHasWords) {
+  for (const TaskMeasure& measure : kTaskMeasures) EXPECT_TRUE(hasWords(measure.name)) << measure.name;
+  EXPECT_FALSE(measuresText("lift", all()).contains('_'));
+}
+
+TEST(TaskWords, OnlyMeasuresOfTheKindAreShown) {
+  const QString lift = measuresText("lift", all());
+  EXPECT_TRUE(lift.contains("Drops: 0")) << lift.toStdString();
+  EXPECT_FALSE(lift.contains("corridor"));
+  EXPECT_FALSE(lift.contains("knots"));
+  EXPECT_FALSE(lift.contains("clip"));
+  const QString line = measuresText("follow_line", all());
+  EXPECT_TRUE(line.contains("Cut outside of the corridor: 0.0 mm")) << line.toStdString();
+  EXPECT_FALSE(line.contains("Drops"));
+}
+
+TEST(TaskWords, WhatCostsIsShownOfEveryKind) {
+  EXPECT_EQ(measuresText("lift", {{"gap_mm", 2, 3.5}}), "Gap of the wound: 2.0 mm, costs 3.5 s");
+  EXPECT_EQ(measuresText("lift", {{"peak_force_n", 1.728, 0}}), "Largest force: 1.73 N");
+}
+
+TEST(TaskWords, MeasureOfANewerSimulatorKeepsItsName) {
+  EXPECT_EQ(measuresText("lift", {{"new_one", 1.5, 0}}), "new_one: 1.5");
+}
+
+}  // namespace
+}  // namespace viscera::rviz_plugin
