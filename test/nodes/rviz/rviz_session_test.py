@@ -13,7 +13,7 @@ from rviz_screen import Screen, rviz
 from simulator_watch import Latest, SimulatorWatch, wait_until
 from std_srvs.srv import Trigger
 
-from viscera.msg import Tick
+from viscera.msg import TaskState, Tick
 
 CONFIG = os.path.join(subprocess.check_output(["rospack", "find", "viscera"], text=True).strip(),
                       "config", "viscera_plugin.rviz")
@@ -21,13 +21,16 @@ LIMIT_S = 40  # software rendering on a busy machine
 STILL = 5     # messages of `tick`, 20 ms apart in a pause
 # Signs on buttons, by their colours (src/rviz/panel_look.cpp)
 RESET, PAUSE, RESUME, STEP = (230, 159, 0), (0, 114, 178), (0, 158, 115), (86, 180, 233)
-RECORD, STOP = (213, 94, 0), (150, 60, 0)
+RECORD, STOP, START = (213, 94, 0), (150, 60, 0), (0, 130, 90)
+STILL_PX = 1  # that a button may move
+TASK_BOX_PX = 30  # from the sign on Start to the box of tasks, above it
 
 
 class RvizSessionTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.ticks = []
+        cls.task = Latest("task_state", TaskState)
         cls.tick = Latest("tick", Tick, lambda message: cls.ticks.append(message.tick))
         cls.watch = SimulatorWatch()
         cls.screen = Screen()
@@ -61,12 +64,23 @@ class RvizSessionTest(unittest.TestCase):
         paused_at = self.ticks[-1]
         self.click(STEP, lambda: self.ticks[-1] == paused_at + 1, "step")
         self.click(RESET, lambda: self.ticks[-1] == 0, "reset")
+        signs = (RESET, RESUME, STEP, START)
+        before = [self.shown(color) for color in (*signs, RECORD)]
         self.click(RECORD, lambda: self.watch.value("simulation", "recording"), "recording")
         file = self.watch.value("simulation", "recording")
+        wait_until(lambda: self.shown(STOP), LIMIT_S, "button that stops the recording")
         self.screen.keep("session.ppm")
+        for was, color in zip(before, (*signs, STOP)):
+            is_now = self.shown(color)
+            self.assertTrue(is_now, "a button is gone")
+            self.assertLessEqual(max(abs(a - b) for a, b in zip(was, is_now)), STILL_PX, "a button has moved")
         self.click(RESUME, lambda: self.ticks[-1] > 10, "resume")
         self.click(STOP, lambda: self.watch.value("simulation", "recording") == "", "end of the recording")
         self.assertGreater(os.path.getsize(file), 0)
+        for is_recording in (True, False):  # the same key begins and ends it
+            wait_until(lambda: self.shown(RECORD if is_recording else STOP), LIMIT_S, "button of the recording")
+            self.screen.do("key", "alt+c")
+            wait_until(lambda: bool(self.watch.value("simulation", "recording")) == is_recording, LIMIT_S, "Alt+C")
 
         # What others do is seen: the button pauses again after another node has resumed.
         rospy.ServiceProxy("pause", Trigger)()
@@ -78,6 +92,16 @@ class RvizSessionTest(unittest.TestCase):
         wait_until(lambda: not self.shown(STEP) and not self.shown(RESET), LIMIT_S, "buttons of no simulator")
         self.screen.keep("no_simulator.ppm")
         wait_until(lambda: self.shown(PAUSE), LIMIT_S, "simulator that was started again")  # respawned
+
+        # A task of another scene brings its scene.
+        x, y = wait_until(lambda: self.shown(START), LIMIT_S, "button: start")
+        self.screen.click(x, y - TASK_BOX_PX)
+        self.screen.do("key", "ctrl+a")
+        self.screen.do("type", "gentle_lift")
+        self.click(START, lambda: self.task.message and self.task.message.task == "gentle_lift", "task")
+        self.assertEqual(self.task.message.state, TaskState.WAITING)
+        wait_until(lambda: self.watch.value("simulation", "scene") == "practice_pad", LIMIT_S, "scene of the task")
+        self.screen.keep("task.ppm")
 
         # In the middle of a call: a step of a simulator that stands.
         self.click(PAUSE, self.stands, "pause")
