@@ -28,6 +28,9 @@ constexpr double kFaster = 1.5;
 constexpr double kPart = 0.65, kLeastLeft_j = 5e-5;
 /// What is owed beyond this share of what may be is forgiven at a pace [W]; beyond all of it, within some of these [s].
 constexpr double kOwedForGood = 0.9, kForgiven_w = 1e-4, kForgiven_s = 1;
+/// A hand that is away from tissue and slower than this has ended its touches: what it owes is forgiven at a pace [W].
+/// Else its next press, however slow, would be held back, and a device that is held so swings.
+constexpr double kResting_m_per_s = 0.03, kForgivenAtRest_w = 0.02;
 /// Of what may be owed, what a round trip owes at most that is none.
 constexpr double kOwedElsewhere = 0.5;
 
@@ -115,6 +118,7 @@ void PassivityControl::book(Trip& trip, const Vector3d& way_m, double span_s) co
   const double beyond_j = -limits_.most_owed_j - trip.budget_j;
   if (trip.budget_j < -kOwedForGood * limits_.most_owed_j)
     trip.budget_j += span_s * (kForgiven_w + std::max(beyond_j, 0.0) / kForgiven_s);
+  if (resting_) trip.budget_j = std::max(trip.budget_j, std::min(trip.budget_j + span_s * kForgivenAtRest_w, 0.0));
   // One that was excluded may come to count again; it is not to forbid all then.
   if (!maybe(trip)) trip.budget_j = std::max(trip.budget_j, -kOwedElsewhere * limits_.most_owed_j);
 }
@@ -157,6 +161,7 @@ Vector3d PassivityControl::damped(const Vector3d& velocity, const Vector3d& want
     const Vector3d under_way_n_s = sent_.between(told_s - trip.round_trip_s, now_s).value_or(Vector3d::Zero());
     left_j = std::min(left_j, std::max(trip.budget_j - under_way_n_s.dot(velocity), 0.0));
   }
+  resting_ = !(stored > 0) && speed < kResting_m_per_s;
   damping_ = 0;
   const double out_n = speed > 0 ? wanted_n.dot(velocity) / speed : 0;
   if (out_n > 0 && left_j < stored)

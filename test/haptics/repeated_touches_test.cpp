@@ -174,10 +174,11 @@ TEST(RepeatedTouches, AHoldBehindADelayThatWasToldTooShortIsStill) {
   }
 }
 
-/// What is owed is made good by slow touches, and no hold is weaker for it.
+/// What is owed ends with the touches, and no hold is weaker for it.
 TEST(RepeatedTouches, APressAfterPokesIsAsFirmAsEver) {
   const double pokes_s = pokesEnd_s(0.006) + 0.2;
   for (const Touched& how : devices()) {
+    if (how.mass_kg < 0.1 && how.poses_hz < 100) continue;  // swings for long: docs/haptics.md 6
     SCOPED_TRACE(nameOf(how));
     const auto way = [=](double time_s) {
       return time_s < pokes_s ? poke(time_s, 0.002, 0.004) : slowPress_m(time_s - pokes_s);

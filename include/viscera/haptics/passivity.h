@@ -116,6 +116,7 @@ class PassivityControl {
   SentForces sent_;
   std::vector<Trip> trips_;  ///< the first is the one that was told
   double longest_s_, damping_ = 0;
+  bool resting_ = false;  ///< the hand is away from tissue, and slow
 };
 
 }  // namespace viscera
