@@ -90,7 +90,7 @@ TEST_F(BadInput, SceneThatCannotBeStepped) {
 }
 
 TEST_F(BadInput, MeshFile) {
-  const std::string plane = "v 0 0 0\nv .1 0 0\nv .1 .1 0\nv 0 .1 0\nf 1 2 3\nf 1 3 4\n";
+  const std::string plane = "v 0 0 0\nv 0.1 0 0\nv 0.1 0.1 0\nv 0 0.1 0\nf 1 2 3\nf 1 3 4\n";
   expectRunRefusal({"--mesh", folder_.file("none.obj")}, {folder_.file("none.obj"), "no such file"});
   expectRunRefusal({"--mesh", folder_.path()}, {folder_.path(), "directory"});
   expectRunRefusal({"--mesh", folder_.write("empty.obj", "")}, {"empty.obj", "empty"});
