@@ -35,7 +35,7 @@ namespace {
 
 constexpr int kShowEvery_ms = 250;
 constexpr int kMostTicks = 10000;  // of one call of the service
-constexpr int kStateLines = 3;     // of a narrow dock
+constexpr int kStateLines = 4;     // of a narrow dock, with the file of a recording
 constexpr const char* kPause = "Pa&use";
 constexpr const char* kResume = "Res&ume";
 constexpr const char* kRecord = "Re&cord";
