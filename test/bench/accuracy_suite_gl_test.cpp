@@ -51,7 +51,7 @@ TEST(Extrapolation, RemovesTheErrorOfItsOrder) {
 }
 
 #ifdef VISCERA_HAS_COMMAND
-void expectEveryLimit(const std::string& backend) {
+void expectAccuracyLimits(const std::string& backend) {
   const test::TemporaryFolder folder;
   const test::Ending ending = test::runProgram(
       kCommand, {"bench", "accuracy", "--short", "--strict", "--backend", backend, "--out", folder.path()});
@@ -65,11 +65,11 @@ void expectEveryLimit(const std::string& backend) {
 }
 
 TEST(AccuracySuite, ReachesEveryLimitInItsShortForm) {
-  expectEveryLimit("cpu");
+  expectAccuracyLimits("cpu");
 }
 
 TEST(AccuracySuite, ReachesEveryLimitOnTheGpu) {
-  expectEveryLimit("gpu");
+  expectAccuracyLimits("gpu");
 }
 #endif  // VISCERA_HAS_COMMAND
 

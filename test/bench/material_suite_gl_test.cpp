@@ -17,7 +17,7 @@ using namespace test;
 
 constexpr const char* kNoDevice = "__EGL_VENDOR_LIBRARY_FILENAMES=/dev/null";
 
-void expectEveryLimit(const std::string& backend) {
+void expectMaterialLimits(const std::string& backend) {
   const TemporaryFolder folder;
   const Ending ending = runProgram(
       kCommand, {"bench", "material", "--short", "--strict", "--backend", backend, "--out", folder.file("out")});
@@ -41,11 +41,11 @@ void expectEveryLimit(const std::string& backend) {
 }
 
 TEST(MaterialSuite, ShortFormReachesEveryLimitAndLeavesTablesAndPlots) {
-  expectEveryLimit("cpu");
+  expectMaterialLimits("cpu");
 }
 
 TEST(MaterialSuite, ReachesEveryLimitOnTheGpu) {
-  expectEveryLimit("gpu");
+  expectMaterialLimits("gpu");
 }
 
 TEST(MaterialSuite, RefusesTheGpuWithoutADevice) {

@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, StabilityTrial, ::testing::Values(Backend::kC
                          [](const auto& backend) { return nameOf(backend.param); });
 
 #ifdef VISCERA_HAS_COMMAND
-void expectEveryLimit(const std::string& backend) {
+void expectStabilityLimits(const std::string& backend) {
   const bool on_cpu = backend == "cpu";  // without a device, where `both` is the CPU alone and says so
   std::vector<std::string> environment;
   if (on_cpu) environment.emplace_back("__EGL_VENDOR_LIBRARY_FILENAMES=/dev/null");
@@ -69,11 +69,11 @@ void expectEveryLimit(const std::string& backend) {
 }
 
 TEST(StabilitySuite, ReachesEveryLimitInItsShortForm) {
-  expectEveryLimit("cpu");
+  expectStabilityLimits("cpu");
 }
 
 TEST(StabilitySuite, ReachesEveryLimitOnTheGpu) {
-  expectEveryLimit("gpu");
+  expectStabilityLimits("gpu");
 }
 #endif
 
