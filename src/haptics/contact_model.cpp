@@ -46,12 +46,6 @@ Matrix3d onto(const Vector3d& along) {
   return along * along.transpose();
 }
 
-/// Tissue that is lost has no force, and says nothing of what comes after.
-bool isFinite(const TickContact& contact) {
-  return contact.from_m.allFinite() && contact.to_m.allFinite() && contact.reaction.force_n.allFinite() &&
-         contact.reaction.torque_nm.allFinite();
-}
-
 bool yields(const TickContact& contact) {
   const Vector3d& force_n = contact.reaction.force_n;
   if (contact.kind != Kind::kPierces) return force_n.norm() > kYields * contact.limit_n;
@@ -124,10 +118,6 @@ Matrix3d ContactModel::bounded(const TickContact& contact, const Matrix3d& k) co
 }
 
 void ContactModel::put(const TickContact& contact, double over_s, double now_s) {
-  if (!isFinite(contact)) {
-    forget(over_s, now_s);
-    return;
-  }
   before_ = mixed(now_s);
   if (contact.anew) now_ = {};
   Affine next;

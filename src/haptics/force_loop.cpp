@@ -129,9 +129,7 @@ void ForceLoop::sent(const std::array<Vector3d, layout::kMaxStyluses>& hand_forc
 ForceLoop::Felt ForceLoop::felt(size_t stylus) const {
   if (!between_ticks_) return {};
   const HapticServo& servo = servos_[stylus];
-  const PassivityControl& passivity = servo.passivity();
-  return {passivity.energy_j(),     passivity.least_j(), passivity.surely_j(),
-          servo.delay().likely_s(), servo.share(),       answers_[stylus]};
+  return {servo.passivity().energy_j(), servo.passivity().least_j(), servo.share(), answers_[stylus]};
 }
 
 }  // namespace viscera

@@ -39,10 +39,8 @@ class ForceLoop {
   /// What a stylus felt since the start, for the diagnostics. Energies are the hand's.
   struct Felt {
     double energy_j = 0, least_j = 0;  ///< given by the hand, as the passivity observer has it
-    double surely_j = 0;               ///< as least_j, by the worst of the delays that there may be
-    double delay_s = 0;    ///< of the device: what was told, or a longer one that explains its motion better
-    double share = 1;      ///< of the stiffness that fast motion feels
-    uint64_t answers = 0;  ///< periods
+    double share = 1;                  ///< of the stiffness that fast motion feels
+    uint64_t answers = 0;              ///< periods
   };
 
   /// @param styluses  all with one period   @param between_ticks  false: forces once per tick

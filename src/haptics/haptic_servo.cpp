@@ -30,10 +30,6 @@ constexpr double kCreepTime_s = 0.5, kLongestCreep_s = 4, kLongestHeld_s = 1;
 constexpr double kPosesLookedAt = 8;
 /// Ahead of the newest pose by no more than so many of the times between poses: one that does not come says nothing.
 constexpr double kMostPosesAhead = 1.5;
-/// A delay that was told wrong is made good within some of these.
-constexpr double kLeadTime_s = 0.1;
-/// A hand is taken to leave as fast as it was within some of these.
-constexpr double kFastest_s = 0.5;
 /// Of what softened force there may be over the tissue's: it ends where the tissue's ends.
 constexpr double kMostOver = 1.5;
 
@@ -43,21 +39,12 @@ void approach(T& filtered, const T& value, double period_s, double time_s) {
   filtered += period_s / (period_s + time_s) * (value - filtered);
 }
 
-PassivityLimits passivityOf(const HapticServoConfig& config) {
-  PassivityLimits out;
-  out.period_s = config.period_s;
-  out.round_trip_s = config.round_trip_s;
-  out.longest_trip_s = config.longest_trip_s;
-  return out;
-}
-
 }  // namespace
 
 HapticServo::HapticServo(const HapticServoConfig& config)
     : config_(config),
       model_(config.tissue),
-      passivity_(passivityOf(config)),
-      delay_(config.round_trip_s, config.longest_trip_s),
+      passivity_({config.period_s, config.round_trip_s}),
       lead_s_(0.5 * config.period_s + config.round_trip_s),
       between_poses_s_(config.period_s) {}
 
@@ -72,7 +59,6 @@ void HapticServo::forget(double now_s) {
 
 void HapticServo::leave() {
   passivity_.forget();
-  delay_.leave();
   placed_ = false;
   for (Vector3d* each : {&moved_m_, &acting_n_, &velocity_, &acceleration_, &mean_n_, &slow_n_, &slower_n_})
     each->setZero();
@@ -96,15 +82,9 @@ void HapticServo::follow(const Vector3d& tip_m, double told_s) {
     velocity_ += change;
     acceleration_ = change / std::max(span_s, config_.period_s);
     between_poses_s_ += (span_s - between_poses_s_) / kPosesLookedAt;
-    approach(fastest_, 0.0, span_s, kFastest_s);
-    fastest_ = std::max(fastest_, velocity_.norm());
   } else {
     for (Vector3d* each : {&velocity_, &acceleration_, &acting_n_}) each->setZero();
-    delay_.leave();
   }
-  delay_.heard(at_m, told_s, passivity_.sentForces());
-  passivity_.mayTake(delay_.longest_s());
-  if (acted_n) approach(lead_s_, 0.5 * config_.period_s + delay_.likely_s(), span_s, kLeadTime_s);
   placed_ = true;
   at_m_ = at_m;
   told_s_ = told_s;
@@ -167,11 +147,6 @@ double HapticServo::late_s() const {
 }
 
 Reaction HapticServo::step(const Vector3d& tip_m, double told_s, double now_s) {
-  if (!tip_m.allFinite() || !std::isfinite(told_s)) {
-    leave();
-    last_ = {};
-    return {};
-  }
   follow(tip_m, told_s);
   judge();
   const double age_s = std::min(now_s - told_s_, kMostPosesAhead * between_poses_s_);
@@ -184,12 +159,10 @@ Reaction HapticServo::step(const Vector3d& tip_m, double told_s, double now_s) {
 
 Vector3d HapticServo::damped(const Vector3d& limited_n, double now_s) {
   if (!(config_.force_scale > 0)) return limited_n;
-  const double bearable = passivity_.bearable(config_.force_scale * limited_n, stored_j_, fastest_, between_poses_s_);
   // A damper that acts late shakes what is light: of mass m, t late, m / 2t at most. The swing tells m > K / omega^2.
   const double least_kg = speed2_ > 0 && acceleration2_ > 0 ? share_ * felt_n_per_m() * speed2_ / acceleration2_ : 0;
   const double sure = 0.5 * least_kg / late_s();
-  return passivity_.damped(velocity_, bearable * config_.force_scale * limited_n, bearable * stored_j_, told_s_, now_s,
-                           share_, sure) /
+  return passivity_.damped(velocity_, config_.force_scale * limited_n, stored_j_, told_s_, now_s, share_, sure) /
          config_.force_scale;
 }
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
@@ -190,36 +189,6 @@ TEST(HapticServo, SoftenedForcesKeepTheirDirection) {
     const double told_n = servo.step({0, 0, z_m}, now_s, now_s).force_n.z();
     EXPECT_GE(told_n * wanted_n, 0) << i << " ms: " << told_n << " N told, " << wanted_n << " N wanted";
   }
-}
-
-/// A pose or a tick that is not a number leaves nothing behind.
-TEST(HapticServo, WhatIsNoNumberIsForgotten) {
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  HapticServo servo(HapticServoConfig{});
-  TickContact contact;
-  contact.kind = TickContact::Kind::kPushes;
-  double now_s = 0;
-  const auto step = [&](double z_m) {
-    const Vector3d force_n = servo.damped(servo.step({0, 0, z_m}, now_s, now_s).force_n, now_s);
-    servo.sent(force_n, now_s);
-    now_s += 1e-3;
-    return force_n.z();
-  };
-  const auto put = [&](double force_n) {
-    contact.reaction.force_n = {0, 0, force_n};
-    servo.put(contact, now_s);
-  };
-  put(1);
-  for (int i = 0; i < 20; ++i) step(0);
-  EXPECT_EQ(step(none), 0);
-  for (int i = 0; i < 20; ++i) step(0);
-  EXPECT_NEAR(step(0), 1, 1e-6);
-  put(none);
-  for (int i = 0; i < 20; ++i) EXPECT_TRUE(std::isfinite(step(0)));
-  put(1);
-  for (int i = 0; i < 20; ++i) step(0);
-  EXPECT_NEAR(step(0), 1, 1e-6);
-  EXPECT_TRUE(std::isfinite(servo.passivity().energy_j()));
 }
 
 TEST(HapticServo, ForgetsAtOnceWhatItKnew) {

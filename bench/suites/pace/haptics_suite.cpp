@@ -3,12 +3,10 @@
 #include "bench/suites/pace/haptics_suite.h"
 
 #include <algorithm>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/suites/pace/haptics_blade.h"
-#include "bench/suites/pace/haptics_pokes.h"
 #include "bench/suites/pace/haptics_trial.h"
 
 namespace viscera::bench {
@@ -30,7 +28,6 @@ bool cycles(const HapticOutcome& outcome) {
 struct Matrix {
   std::vector<double> young_kpa, delay_ms, mass_kg, poses_hz;
   std::vector<HapticEvent> events = {HapticEvent::kNone};
-  std::optional<double> told_delay_s = std::nullopt;  ///< of all; nothing: what each delay is
 };
 
 const std::vector<double> kPoses_hz = {1000, 250, 100, 60};
@@ -38,7 +35,6 @@ const std::vector<double> kPoses_hz = {1000, 250, 100, 60};
 /// Of Young's modulus, the stiffest [kPa]: felt at 660 N/m by the ball, which is what the loop is made for. Stiffer
 /// tissue is for a swift driver (docs/haptics.md 6).
 constexpr double kStiffest_kpa = 60;
-constexpr double kToldWrong_s = 0.002;  ///< of delays that are 10 ms
 
 /// Every device and every tissue, by drivers of four rates.
 Matrix matrixOf(bool short_form) {
@@ -52,12 +48,6 @@ Matrix eventsOf(bool short_form) {
                                         HapticEvent::kUnheard};
   if (short_form) return {{kStiffest_kpa}, {2}, {0.1}, {1000, 100}, all};
   return {{10, kStiffest_kpa}, {2, 10}, {0.1, 0.7}, kPoses_hz, all};
-}
-
-/// Devices that are later than the loop is told.
-Matrix toldWrongOf(bool short_form) {
-  if (short_form) return {{kStiffest_kpa}, {10}, {0.1}, {1000}, {HapticEvent::kNone}, kToldWrong_s};
-  return {{10, kStiffest_kpa}, {10}, {0.05, 0.2, 0.7, 2}, {1000, 100}, {HapticEvent::kNone}, kToldWrong_s};
 }
 
 Table tableOf(const std::string& title) {
@@ -123,7 +113,6 @@ Worst measure(Report& report, const Matrix& matrix, double rate_hz, Table& table
   Worst worst;
   HapticTrial trial;
   trial.rate_hz = rate_hz;
-  trial.told_delay_s = matrix.told_delay_s;
   for (HapticEvent event : matrix.events) {
     trial.event = event;
     for (double poses_hz : matrix.poses_hz) {
@@ -227,10 +216,6 @@ void probe(Report& report) {
   const Worst events = measure(report, eventsOf(report.isShort()), 1000, befallen, none);
   report.add(befallen, "events");
 
-  Table wrong = tableOf("the first behind 10 ms that the loop is told as 2");
-  const Worst told_wrong = measure(report, toldWrongOf(report.isShort()), 1000, wrong, none);
-  report.add(wrong, "told_wrong");
-
   Table plain = tableOf("the first with the ticks' forces as they come, once per tick");
   const Matrix some = report.isShort() ? Matrix{{kStiffest_kpa}, {0}, {0.05}, {1000}}
                                        : Matrix{{10, kStiffest_kpa}, {0, 10}, {0.05, 0.2, 0.7, 2}, {1000}};
@@ -249,18 +234,13 @@ void probe(Report& report) {
   report.checkAtMost("static force off the simulator's after events [1]", events.error, kStaticError);
   report.checkAtLeast("least energy in events, beyond what a loop so late can hear of [mJ]", events.least_mj,
                       -kHapticsActive_mj);
-  report.checkAtMost("limit cycles behind a delay that is told wrong", told_wrong.cycling, 0);
-  report.checkAtLeast("least energy behind a delay that is told wrong, beyond what a loop so late can hear of [mJ]",
-                      told_wrong.least_mj, -kHapticsActive_mj);
   report.checkAtLeast("limit cycles without the local model, of those tried", without.cycling, 1);
 }
 
 }  // namespace
 
 void hapticsSuite(Report& report) {
-  measureParts(
-      report,
-      {{"probe", probe}, {"pokes", hapticsPokes}, {"blade", hapticsBlade}, {"needle", needle}, {"thread", thread}});
+  measureParts(report, {{"probe", probe}, {"blade", hapticsBlade}, {"needle", needle}, {"thread", thread}});
 }
 
 }  // namespace viscera::bench

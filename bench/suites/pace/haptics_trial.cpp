@@ -79,13 +79,10 @@ Vector3d tipAt(double height_m) {
   return {0.0013, -0.0007, kTop_m + kRadius_m + height_m};
 }
 
-HeldTrial::Setting settingOf(const HapticTrial& trial) {
-  return {trial.mass_kg, trial.delay_s, trial.poses_hz, trial.rate_hz, kRadius_m, trial.told_delay_s};
-}
-
 class HapticsTrialRun : public HeldTrial {
  public:
-  explicit HapticsTrialRun(const HapticTrial& trial) : HapticsTrialRun(trial, settingOf(trial)) {}
+  explicit HapticsTrialRun(const HapticTrial& trial)
+      : HapticsTrialRun(trial, {trial.mass_kg, trial.delay_s, trial.poses_hz, trial.rate_hz, kRadius_m}) {}
 
   HapticOutcome run() {
     const int periods = static_cast<int>(std::lround(way_.back().time_s / kPeriod_s));
@@ -170,51 +167,6 @@ class HapticsTrialRun : public HeldTrial {
   LookedHold holds_[2];
 };
 
-class PokesRun : public HeldTrial {
- public:
-  PokesRun(const HapticTrial& trial, const HapticPokes& pokes)
-      : HeldTrial(hapticsTrialSlab(trial.young_modulus_pa), settingOf(trial), tipAt(pokes.above_m)), pokes_(pokes) {
-    hand_.listens = true;
-  }
-
-  PokeOutcome run() {
-    const double end_s = pokes_.times * each_s() + kHapticsTrialLeft_s;
-    for (int i = 0; i * kPeriod_s < end_s; ++i) {
-      now_s_ = i * kPeriod_s;
-      hear();
-      tick();
-      tell();
-      device_.step(told_n_, tipAt(heightNow_m()));
-      look();
-    }
-    const ForceLoop::Felt felt = loop_.felt(0);
-    out_.given_mj = 1e3 * device_.energy_j();
-    out_.observed_mj = 1e3 * felt.least_j;
-    out_.surely_mj = 1e3 * felt.surely_j;
-    out_.share = felt.share;
-    return out_;
-  }
-
- private:
-  double way_s() const { return pokes_.way_m / pokes_.speed_m_per_s; }
-  double each_s() const { return 2 * way_s() + pokes_.held_s; }
-  double heightNow_m() const {
-    const double in_s = std::fmod(now_s_, each_s());
-    const double along_s = std::min({in_s, way_s(), each_s() - in_s});
-    return pokes_.above_m - (now_s_ < pokes_.times * each_s() ? along_s * pokes_.speed_m_per_s : 0);
-  }
-  void look() {
-    const double size_n = told_n_.norm();
-    out_.simulator_n = std::max(out_.simulator_n, ticks_n_);
-    if (now_s_ < each_s()) out_.first_n = std::max(out_.first_n, size_n);
-    if (now_s_ > (pokes_.times - 1) * each_s()) out_.last_n = std::max(out_.last_n, size_n);
-    out_.least_energy_mj = std::min(out_.least_energy_mj, 1e3 * device_.energy_j());
-  }
-
-  const HapticPokes pokes_;
-  PokeOutcome out_;
-};
-
 }  // namespace
 
 const char* nameOf(HapticEvent event) {
@@ -235,10 +187,6 @@ const char* nameOf(HapticEvent event) {
 
 HapticOutcome runHapticTrial(const HapticTrial& trial) {
   return HapticsTrialRun(trial).run();
-}
-
-PokeOutcome runPokes(const HapticTrial& trial, const HapticPokes& pokes) {
-  return PokesRun(trial, pokes).run();
 }
 
 }  // namespace viscera::bench

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "viscera/haptics/haptic_servo.h"
@@ -35,7 +34,6 @@ struct HapticTrial {
   double rate_hz = 1000;   ///< of answers; 0: forces once per tick, as they come
   double poses_hz = 1000;  ///< of its driver
   HapticEvent event = HapticEvent::kNone;
-  std::optional<double> told_delay_s = std::nullopt;  ///< what the loop is told of delay_s; nothing: the truth
 };
 
 /// What came of it.
@@ -57,24 +55,6 @@ struct HapticOutcome {
 
 /// @throws what Session does
 HapticOutcome runHapticTrial(const HapticTrial& trial);
-
-/// The hand goes up and down, evenly, and touches the block each time.
-struct HapticPokes {
-  int times = 8;
-  double way_m = 0.009, above_m = 0.003;  ///< of a poke, and of that, above the surface
-  double speed_m_per_s = 0.12;
-  double held_s = 0;  ///< at the lowest place of each
-};
-/// What came of it: least energies as of HapticOutcome.
-struct PokeOutcome {
-  double first_n = 0, last_n = 0;  ///< largest force that the first poke, and the last, was told
-  double simulator_n = 0;          ///< largest force of the ticks
-  double given_mj = 0;             ///< taken in by the device's motors at the end
-  double least_energy_mj = 0, observed_mj = 0;
-  double surely_mj = 0;  ///< as observed, by the worst of the delays there may be
-  double share = 1;      ///< of the stiffness that fast motion feels, at the end
-};
-PokeOutcome runPokes(const HapticTrial& trial, const HapticPokes& pokes);
 
 /// A time of a trial that is looked at, with its name. Least energies and the force in free motion are of all of it.
 struct HapticStage {

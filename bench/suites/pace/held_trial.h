@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "haptics/force_loop.h"
@@ -34,16 +33,14 @@ struct LookedHold {
 
 /// A device in a hand, what its driver tells, the session, and the loop that answers it, all by one clock.
 class HeldTrial {
- public:
-  struct Setting {
-    double mass_kg, delay_s, poses_hz;
-    double rate_hz;                                     ///< of answers; 0: once per tick
-    double size_m;                                      ///< of the tool, for the model's first guess of a stiffness
-    std::optional<double> told_delay_s = std::nullopt;  ///< what the loop is told of delay_s; nothing: the truth
-  };
-
  protected:
   static constexpr double kPeriod_s = 1e-3;
+
+  struct Setting {
+    double mass_kg, delay_s, poses_hz;
+    double rate_hz;  ///< of answers; 0: once per tick
+    double size_m;   ///< of the tool, for the model's first guess of a stiffness
+  };
 
   HeldTrial(const Scene& scene, const Setting& setting, const Vector3d& tip_m)
       : setting_(setting),
@@ -114,7 +111,7 @@ class HeldTrial {
     ForceLoop::Stylus out{ForceLimits::of(scene_.styluses[0]), {}};
     if (setting_.rate_hz > 0) out.servo.period_s = 1 / setting_.rate_hz;
     out.servo.tick_s = session_.tick_s();
-    out.servo.round_trip_s = setting_.told_delay_s.value_or(setting_.delay_s);
+    out.servo.round_trip_s = setting_.delay_s;
     out.servo.tissue = {body.material.young_modulus_pa, body.material.young_modulus_pa, body.material.poisson_ratio,
                         setting_.size_m};
     return out;

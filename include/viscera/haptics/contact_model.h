@@ -40,9 +40,9 @@ class ContactModel {
 
   explicit ContactModel(const TissueConstants& tissue) : tissue_(tissue) {}
 
-  /// A tick's answer; one that is not finite is forgotten, as forget() does. Ticks of one contact that came one after
-  /// the other tell the stiffness by what force and place changed (a secant, M. J. D. Powell's symmetric form of
-  /// Broyden's); the first one has that of a sphere in a half space (H. Hertz 1882) or of one held within tissue.
+  /// A tick's answer. Ticks of one contact that came one after the other tell the stiffness by what force and place
+  /// changed (a secant, M. J. D. Powell's symmetric form of Broyden's); the first one has that of a sphere in a half
+  /// space (H. Hertz 1882) or of one held within tissue.
   /// @param over_s  in which the answer goes over to it [s], a tick   @param now_s  never goes back
   void put(const TickContact& contact, double over_s, double now_s);
   /// The tissue is not known any more: what is answered goes to nothing over some time.

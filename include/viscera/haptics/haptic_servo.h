@@ -3,7 +3,6 @@
 #pragma once
 
 #include "viscera/haptics/contact_model.h"
-#include "viscera/haptics/delay_estimate.h"
 #include "viscera/haptics/passivity.h"
 
 namespace viscera {
@@ -12,9 +11,8 @@ struct HapticServoConfig {
   double period_s = 1e-3;    ///< of the loop
   double tick_s = 1.0 / 60;  ///< of the simulation
   double round_trip_s = 0;   ///< of the device: from a pose measured there to the force that answers it, without ours
-  double longest_trip_s = 1e-2;  ///< the same, up to which it may be although less was told
-  double motion_scale = 1;       ///< metres of the tip per metre of the hand, > 0
-  double force_scale = 1;        ///< newtons of the device's motors per newton of the reaction
+  double motion_scale = 1;   ///< metres of the tip per metre of the hand, > 0
+  double force_scale = 1;    ///< newtons of the device's motors per newton of the reaction
   TissueConstants tissue;
 };
 
@@ -34,8 +32,7 @@ class HapticServo {
   /// One period.
   /// @param tip_m   newest place of the tip, tissue frame   @param told_s  when it was told: a device may be slower
   /// than the loop   @param now_s  never goes back
-  /// @returns the reaction on the tip that is wanted, before force_scale; none for a place that is not finite, after
-  /// which all begins again as after leave()
+  /// @returns the reaction on the tip that is wanted, before force_scale
   Reaction step(const Vector3d& tip_m, double told_s, double now_s);
   /// What of a force on the tip may go out, limited as it is by now, since the last step().
   Vector3d damped(const Vector3d& limited_n, double now_s);
@@ -44,7 +41,6 @@ class HapticServo {
 
   const ContactModel& model() const { return model_; }
   const PassivityControl& passivity() const { return passivity_; }
-  const DelayEstimate& delay() const { return delay_; }
   double share() const { return share_; }    ///< of the model's stiffness that fast motion feels, 0..1
   double lead_s() const { return lead_s_; }  ///< how far ahead of a pose the model is asked [s]
 
@@ -58,7 +54,6 @@ class HapticServo {
   HapticServoConfig config_;
   ContactModel model_;
   PassivityControl passivity_;
-  DelayEstimate delay_;
   double lead_s_;
   bool placed_ = false;
   double told_s_ = 0, between_poses_s_ = 0;
@@ -66,7 +61,6 @@ class HapticServo {
   Vector3d at_m_ = Vector3d::Zero(), moved_m_ = Vector3d::Zero(), acting_n_ = Vector3d::Zero();
   Vector3d velocity_ = Vector3d::Zero(), acceleration_ = Vector3d::Zero(), mean_n_ = Vector3d::Zero();
   double share_ = 1, power_ = 0, speed2_ = 0, acceleration2_ = 0;
-  double fastest_ = 0;  ///< speed lately [m/s]
   // Of the tip.
   Vector3d slow_n_ = Vector3d::Zero(), slower_n_ = Vector3d::Zero();
   ContactModel::Force last_;

@@ -297,8 +297,6 @@ void SimulatorDiagnostics::stylus(size_t index, Status& status) {
     status.add("haptic_rate_hz", static_cast<double>(felt.answers - before) / kPeriod_s);
     status.add("energy_j", felt.energy_j);
     status.add("least_energy_j", felt.least_j);
-    status.add("least_energy_any_delay_j", felt.surely_j);
-    status.add("device_delay_s", felt.delay_s);
     status.add("stiffness_share", felt.share);
   }
   if (!now_) return;
