@@ -86,8 +86,8 @@ TEST(DeviceProfile, RegistrationIsLaidOverIt) {
 
 TEST(DeviceProfile, ErrorsNameFileLineKeyAndWhatIsAccepted) {
   EXPECT_EQ(fault("about: a\nbutton3: {}\n"),
-            "device.yaml:2: unknown key 'button3'; accepted here: about, name, pose, tip, base, scale, stale_after_s, "
-            "delay_s, button1, button2, clutch, gripper, force, arm");
+            "device.yaml:2: unknown key 'button3'; accepted here: button1, button2, about, name, pose, tip, base, "
+            "scale, stale_after_s, delay_s, clutch, gripper, force, arm");
   EXPECT_EQ(fault("about: a\npose: {unit_m: 1000}\n"),
             "device.yaml:2: 'pose.unit_m' is a number, 1e-06 .. 10 m; found '1000'");
   EXPECT_EQ(fault("about: a\npose: {type: tf, tf_frame: a}\n"),

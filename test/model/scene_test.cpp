@@ -43,7 +43,7 @@ TEST(Scene, PartIsLikeTheMaterialOfItsBodyButForWhatItSays) {
 
 TEST(Scene, UnknownKeyIsRefusedWithFileLineKeyAndTheAcceptedKeys) {
   expectRefusals({
-      {"bodies: [{}]\nbodeis: 1\n", {"s.yaml:2: ", "unknown key 'bodeis'", "name, bodies, styluses, cameras"}},
+      {"bodies: [{}]\nbodeis: 1\n", {"s.yaml:2: ", "unknown key 'bodeis'", "bodies, name, cameras, styluses"}},
       {"bodies:\n  - name: a\n    material:\n      young: 3\n",
        {"s.yaml:4: ", "unknown key 'bodies[0].material.young'", "young_modulus_pa, poisson_ratio, density_kg_per_m3"}},
       {"bodies:\n  - name: a\n  - name: b\n    spacing: 1\n",
@@ -66,11 +66,11 @@ TEST(Scene, WrongTypeIsRefusedWithFileLineKeyAndWhatIsAccepted) {
       {"bodies:\n  - name: [a]\n", {"s.yaml:2: 'bodies[0].name' is a text that is not empty; found a list of 1"}},
       {"bodies:\n  - name: ''\n", {"s.yaml:2: 'bodies[0].name' is a text that is not empty"}},
       {"bodies:\n  - source: fish\n",
-       {"s.yaml:2: 'bodies[0].source' is one of phantom, mesh, box, sheet, ball, labels; found 'fish'"}},
+       {"s.yaml:2: 'bodies[0].source' is one of mesh, box, ball, phantom, sheet, labels; found 'fish'"}},
       {"bodies: [{}]\ncameras:\n  - overlays: lattice\n",
        {"s.yaml:3: 'cameras[0].overlays' is a list of some of lattice, springs, normals, strain, forces, wind"}},
       {"bodies: [{}]\ncameras:\n  - overlays: [latice]\n",
-       {"s.yaml:3: 'cameras[0].overlays': there is no overlay 'latice'; there are lattice, springs, normals"}},
+       {"s.yaml:3: 'cameras[0].overlays': there is no overlay 'latice'; there are lattice, forces, wind"}},
       {"bodies:\n  - target_nodes: 10.5\n", {"s.yaml:2: 'bodies[0].target_nodes' is a whole number, 0 .. 2e+07"}},
       {"bodies:\n  material: soft\n", {"s.yaml:2: 'bodies' is a list of at most 16; found a map"}},
       {"bodies:\n  - material: soft\n", {"s.yaml:2: 'bodies[0].material' must be a map of keys, not 'soft'"}},

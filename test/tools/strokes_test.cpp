@@ -35,7 +35,7 @@ StylusSample sample(const std::string& yaml, double time_s, size_t stylus = 0) {
 
 TEST(StrokesFile, BadKeyIsRefusedWithFileLineKeyAndRange) {
   EXPECT_TRUE(says(keysRefusal("      - {t_s: 0}\n      - {time: 1}\n"),
-                   {"f.yaml:5: ", "unknown key 'strokes[0].keys[1].time'", "t_s, position_m"}));
+                   {"f.yaml:5: ", "unknown key 'strokes[0].keys[1].time'", "t_s, button1, button2, position_m"}));
   EXPECT_TRUE(says(keysRefusal("      - {t_s: -1}\n"), {"f.yaml:4: ", "'strokes[0].keys[0].t_s'", "0 .. 3600 s"}));
   EXPECT_TRUE(says(keysRefusal("      - {t_s: .nan}\n"), {"f.yaml:4: ", "'strokes[0].keys[0].t_s'", "0 .. 3600 s"}));
   EXPECT_TRUE(

@@ -109,8 +109,8 @@ TEST_F(LabelBody, ErrorsNameBodyFileAndWhatIsAccepted) {
   EXPECT_TRUE(says(refusal("scan: {file: none.nii}"), {"'organs'", "none.nii"}));
   EXPECT_TRUE(says(refusal("scan: {file: scan.nrrd, labels: [[3]]}"), {"labels", "list of texts"}));
   EXPECT_TRUE(says(refusal("scan: {file: scan.nrrd}, structure: tetrahedra"), {"tetrahedra", "labels"}));
-  const Body body = model("parts: [{part: lung}]").bodies.at(0);
-  EXPECT_TRUE(says(messageOf<SceneError>([&] { (void)strengths(body); }), {"lung", "bone, liver"}));
+  EXPECT_TRUE(says(refusal("scan: {file: scan.nrrd}, parts: [{part: lung}]"),
+                   {"scene.yaml:1", "bodies[0].parts[0]", "'lung'", "bone, liver"}));
 }
 
 }  // namespace

@@ -103,7 +103,7 @@ TEST(ScanRefusals, NumbersThatAreNone) {
                                   }),
                             "accepted: 0.001 .. 100 mm");
   scanRefusalsExpectError(nifti("u.nii", [](auto& h) { h.template put<uint8_t>(123, 0, 1); }),
-                          "in the unit of xyzt_units: voxels 1000.000000 mm apart");
+                          "in the unit of xyzt_units: voxels 1000 mm apart");
   scanRefusalsExpectError(nifti("v.nii", [](auto& h) { h.template put<uint8_t>(123, 0, 5); }), "xyzt_units is 5");
   scanRefusalsExpectError(nifti("d0.nii", [](auto& h) { h.dim(0, 9); }), "accepted: 3 .. 7");
   scanRefusalsExpectError(nifti("d1.nii", [](auto& h) { h.dim(1, 0); }), "accepted: 1 .. 65535");

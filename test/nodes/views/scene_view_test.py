@@ -130,8 +130,8 @@ class SceneViewTest(unittest.TestCase):
         wait_until(lambda: not self.legend(image.message), LIMIT_S, "image without a legend again")
         answer = set_overlays("camera", ["latice"])
         self.assertFalse(answer.success)
-        self.assertEqual(answer.message, "overlays: there is no overlay 'latice'; there are lattice, springs, normals, "
-                                         "strain, forces, wind")
+        self.assertEqual(answer.message, "overlays: there is no overlay 'latice'; there are lattice, forces, wind, "
+                                         "springs, normals, strain")
         answer = set_overlays("unknown", [])
         self.assertFalse(answer.success)
         self.assertEqual(answer.message, "camera: the scene has no camera 'unknown'")
