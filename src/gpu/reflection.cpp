@@ -100,7 +100,8 @@ std::vector<std::string> declaredUniforms(const std::string& source) {
     if (word == std::string::npos || end == std::string::npos || code.find('{') != std::string::npos) continue;
     TextIn words(code.substr(word, end - word));
     std::string qualifier, type, name;
-    if (words >> qualifier >> type >> name) out.push_back(withoutIndex(name));
+    words >> qualifier >> type;
+    while (std::getline(words >> std::ws, name, ',')) out.push_back(withoutIndex(name.substr(0, name.find(' '))));
   }
   return out;
 }

@@ -17,7 +17,7 @@ struct ActiveUniform {
 };
 std::vector<ActiveUniform> activeUniforms(uint32_t program);
 
-/// Names of all uniforms that a source declares outside of blocks, whatever the features make of them: one a line.
+/// Names of all uniforms that a source declares outside of blocks, whatever the features make of them.
 std::vector<std::string> declaredUniforms(const std::string& source);
 
 /// Numbers are of their own for storage blocks, uniform blocks and texture units.

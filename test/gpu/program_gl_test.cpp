@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <string>
+#include <vector>
 
 #include "gpu/buffer.h"
 #include "gpu/gl.h"
@@ -80,6 +82,13 @@ TEST(ProgramsOfSoftware, AreNotCompiledUntilTheyAreUsed) {
   const MadePrograms made;
   const Program broken = Program::compute("lattice.glsl", {"kBrickEdge broken("});
   EXPECT_NO_THROW(made.require());
+}
+
+TEST(DeclaredUniforms, AreAllNamesOfADeclaration) {
+  const std::string source =
+      "uniform uint first_item, count;  // of nodes\nuniform vec4 tips[4] , ends[4];\nlayout(binding = 3) uniform "
+      "samplerBuffer rest;\nlayout(std140) uniform Bodies { vec4 a; };\n";
+  EXPECT_EQ(declaredUniforms(source), (std::vector<std::string>{"first_item", "count", "tips", "ends", "rest"}));
 }
 
 TEST_P(Programs, NameTheUniformThatTheyDoNotHave) {

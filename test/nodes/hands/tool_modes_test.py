@@ -32,7 +32,7 @@ class ToolModesTest(unittest.TestCase):
         self.assertIn(text, answer.message)
 
     def test_0_wrong_names_are_told(self):
-        self.refused("no stylus 'middle'; it has left, right", "middle", "idle", "probe")
+        self.refused("the scene has no stylus 'middle'; it has right, left", "middle", "idle", "probe")
         self.refused("'button3' is none of idle, button1, button2", "left", "button3", "probe")
         self.refused("'laser' is none of none, probe, grab, cut, cut_particles, suction, needle, scissors", "left", "idle", "laser")
 
