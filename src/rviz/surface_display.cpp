@@ -24,7 +24,6 @@
 #include <utility>
 
 #include "rviz/surface_mesh.h"
-#include "rviz/view_fit.h"
 
 namespace viscera::rviz_plugin {
 namespace {
@@ -32,13 +31,6 @@ namespace {
 enum ColorBy { kByBody, kBySent, kByStrain };
 constexpr std::chrono::seconds kTellEvery{1};
 constexpr double kGoldenTurn = 0.618034;  // of the circle of hues: bodies side by side in the list differ most
-
-/// @param color  sRGB, red in the low byte
-Ogre::ColourValue sentColor(uint32_t color, float alpha) {
-  constexpr float kMost = 255;
-  const auto share = [color](unsigned shift) { return static_cast<float>(color >> shift & 0xffU) / kMost; };
-  return Ogre::ColourValue(share(0), share(8), share(16), alpha);
-}
 
 Ogre::ColourValue ofBody(const QColor& color, size_t body, float alpha) {
   QColor turned = color;
@@ -55,27 +47,18 @@ SurfaceDisplay::SurfaceDisplay() {
                                       "Vertices; triangles come from the topics that have _topology and "
                                       "_topology_change behind this name.",
                                       this);
-  color_ = new rviz::ColorProperty("Color", QColor(184, 64, 56),
-                                   "Of the skin of the first body, where the simulator sends none or Color by is body.",
-                                   this);
+  color_ = new rviz::ColorProperty("Color", QColor(184, 64, 56), "Of the skin of the first body.", this);
   wall_color_ = new rviz::ColorProperty("Wound color", QColor(120, 20, 24), "Of walls of its wounds.", this);
   by_body_ = new rviz::BoolProperty("Hues of bodies", true, "Other bodies have other hues.", this);
-  color_by_ =
-      new rviz::EnumProperty("Color by", "sent",
-                             "sent: the colors of the scene and, where the simulator sends some, of vertices, as "
-                             "of burns; body: the colors here; strain: from blue, none, to yellow, as overlay "
-                             "`strain`.",
-                             this);
+  color_by_ = new rviz::EnumProperty("Color by", "sent",
+                                     "body: the colors here; sent: those of vertices, as of burns, where the simulator "
+                                     "sends some; strain: from dark, none, to yellow, as overlay `strain`.",
+                                     this);
   for (const auto& [name, value] : {std::pair{"body", kByBody}, {"sent", kBySent}, {"strain", kByStrain}})
     color_by_->addOption(name, value);
   alpha_ = new rviz::FloatProperty("Alpha", 1, "0 is transparent, 1 opaque.", this);
   alpha_->setMin(0);
   alpha_->setMax(1);
-  fits_view_ = new rviz::BoolProperty("Fit first view", false,
-                                      "The view is moved so that the first surface fits into it, and the first one of "
-                                      "another scene unless the view was moved meanwhile. Not saved in layouts.",
-                                      this);
-  fits_view_->setShouldBeSaved(false);  // a layout that a person saves keeps its view
   for (rviz::Property* property : {static_cast<rviz::Property*>(topic_), static_cast<rviz::Property*>(color_by_)})
     connect(property, &rviz::Property::changed, this, [this] { reset(); });
   for (rviz::Property* property : {static_cast<rviz::Property*>(color_), static_cast<rviz::Property*>(wall_color_),
@@ -100,7 +83,6 @@ void SurfaceDisplay::warnOfSamples() const {
 void SurfaceDisplay::onInitialize() {
   warnOfSamples();
   mesh_ = std::make_unique<SurfaceMesh>(scene_manager_, scene_node_);
-  view_ = std::make_unique<ViewFit>(context_);
 }
 
 void SurfaceDisplay::onEnable() {
@@ -119,18 +101,13 @@ void SurfaceDisplay::setTopic(const QString& topic, const QString&) {
 void SurfaceDisplay::reset() {
   rviz::Display::reset();
   feed_.clear();
-  placed_ = true;
-  told_ = {};
-  senders_.clear();
-  forget();
-  if (isEnabled() && initialized()) subscribe();
-}
-
-void SurfaceDisplay::forget() {
   drawn_topology_.reset();
   drawn_vertices_.reset();
   drawn_ = 0;
+  placed_ = true;
+  told_ = {};
   if (mesh_) mesh_->clear();
+  if (isEnabled() && initialized()) subscribe();
 }
 
 void SurfaceDisplay::subscribe() {
@@ -146,10 +123,6 @@ void SurfaceDisplay::subscribe() {
 }
 
 void SurfaceDisplay::update(float, float) {
-  if (feed_.vertices() && feed_.renew()) {
-    forget();
-    context_->queueRender();
-  }
   const SentSurface& sent = feed_.surface();
   if (sent.vertices() && sent.vertices() != drawn_vertices_) {
     const bool topology_is_new = sent.topology() != drawn_topology_;
@@ -162,29 +135,8 @@ void SurfaceDisplay::update(float, float) {
     if (topology_is_new || anew) paint();
     context_->queueRender();
   }
-  if (drawn_vertices_) {
-    const bool placed = place();
-    scene_node_->setVisible(placed);
-    if (placed && fits_view_->getBool()) fitView();
-  }
-  tellSenders();
+  if (drawn_vertices_) scene_node_->setVisible(place());
   if (std::chrono::steady_clock::now() >= told_ + kTellEvery) tell();
-}
-
-/// The status line of the simulator, as soon as something changes.
-void SurfaceDisplay::tellSenders() {
-  using rviz::StatusProperty;
-  const ros::Subscriber& vertices = feed_.vertices();
-  const SenderWatch::Senders senders = feed_.senders();
-  if (!vertices || !senders.known) return;
-  const std::string topic = vertices.getTopic();
-  std::string text = "no simulator sends " + topic;
-  if (senders.alive.size() == 1) text = "sends " + topic;
-  if (senders.alive.size() > 1) text = std::to_string(senders.alive.size()) + " nodes send " + topic;
-  if (senders.alive.empty() && !senders.uris.empty())
-    text = "the simulator that sent " + topic + " has died" + (drawn_vertices_ ? "; its last surface is shown" : "");
-  if (std::exchange(senders_, text) == text) return;
-  setStatusStd(senders.alive.size() == 1 ? StatusProperty::Ok : StatusProperty::Warn, "Simulator", text);
 }
 
 /// @returns whether it is known where the surface's frame is
@@ -204,22 +156,12 @@ bool SurfaceDisplay::place() {
   return true;
 }
 
-/// Once for each scene.
-void SurfaceDisplay::fitView() {
-  if (drawn_topology_->triangles.empty() || fitted_ == drawn_topology_->bodies) return;
-  fitted_ = drawn_topology_->bodies;
-  if (view_->fit(*scene_node_, mesh_->bounds())) context_->queueRender();
-}
-
 void SurfaceDisplay::paint() {
   if (!drawn_topology_) return;
   std::vector<Ogre::ColourValue> colors;
-  for (const SentPart& part : drawn_topology_->parts) {
-    const bool sent = part.color && color_by_->getOptionInt() != kByBody;
-    colors.push_back(sent ? sentColor(*part.color, alpha_->getFloat())
-                          : ofBody((part.walls ? wall_color_ : color_)->getColor(), by_body_->getBool() ? part.body : 0,
-                                   alpha_->getFloat()));
-  }
+  for (const SentPart& part : drawn_topology_->parts)
+    colors.push_back(ofBody((part.walls ? wall_color_ : color_)->getColor(), by_body_->getBool() ? part.body : 0,
+                            alpha_->getFloat()));
   mesh_->paint(colors);
   context_->queueRender();
 }
@@ -233,7 +175,13 @@ void SurfaceDisplay::tell() {
   told_ = now;
   const ros::Subscriber& vertices = feed_.vertices();
   if (!vertices) return;
+  const uint32_t senders = vertices.getNumPublishers();
   const QString topic = QString::fromStdString(vertices.getTopic());
+  if (senders == 1)
+    setStatus(StatusProperty::Ok, "Simulator", "sends " + topic);
+  else
+    setStatus(StatusProperty::Warn, "Simulator",
+              senders == 0 ? "no simulator sends " + topic : QString("%1 nodes send ").arg(senders) + topic);
   if (!feed_.surface().hasTopology())
     setStatus(StatusProperty::Warn, "Topology", "waiting for " + topic + "_topology");
   else if (!drawn_topology_)

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "rviz/surface_feed.h"
 
@@ -22,7 +21,6 @@ class RosTopicProperty;
 namespace viscera::rviz_plugin {
 
 class SurfaceMesh;
-class ViewFit;
 
 /// `viscera/Surface`: the skin of a simulator by `surface` or `surface_strain`, `surface_topology` and
 /// `surface_topology_change`. All of it is done by rviz's own thread.
@@ -44,26 +42,20 @@ class SurfaceDisplay : public rviz::Display {
   void warnOfSamples() const;
   void subscribe();
   bool place();
-  void fitView();
   void paint();
   void tell();
-  void tellSenders();
-  void forget();
 
   rviz::RosTopicProperty* topic_;
   rviz::ColorProperty *color_, *wall_color_;
   rviz::EnumProperty* color_by_;
-  rviz::BoolProperty *by_body_, *fits_view_;
+  rviz::BoolProperty* by_body_;
   rviz::FloatProperty* alpha_;
   SurfaceFeed feed_;
   std::unique_ptr<SurfaceMesh> mesh_;
-  std::unique_ptr<ViewFit> view_;
-  std::vector<std::string> fitted_;  ///< bodies that the view was fitted to
   std::shared_ptr<const SentTopology> drawn_topology_;
   SurfaceVerticesConstPtr drawn_vertices_;
-  size_t drawn_ = 0;     ///< surfaces since told_
-  std::string senders_;  ///< status that is shown of them
-  bool placed_ = true;   ///< no error about the transform is shown
+  size_t drawn_ = 0;    ///< surfaces since told_
+  bool placed_ = true;  ///< no error about the transform is shown
   std::chrono::steady_clock::time_point told_{};
 };
 

@@ -8,7 +8,6 @@
 #include <string>
 #include <utility>
 
-#include "rviz/sender_watch.h"
 #include "rviz/sent_surface.h"
 
 namespace viscera::rviz_plugin {
@@ -29,13 +28,9 @@ class SurfaceFeed {
   void unsubscribe();
   /// Forgets what was sent.
   void clear();
-  /// Forgets what was sent and subscribes again if a simulator that sent it has gone and another is there.
-  /// @returns whether that was so   @throws ros::Exception
-  bool renew();
 
   const SentSurface& surface() const { return surface_; }
   const ros::Subscriber& vertices() const { return vertices_; }
-  SenderWatch::Senders senders() const { return watch_.senders(); }
   /// What was wrong with the last message that was left out; empty: nothing since it was taken.
   const std::string& wrong() const { return wrong_; }
   void forgive() { wrong_.clear(); }
@@ -47,14 +42,7 @@ class SurfaceFeed {
     if (!wrong.empty()) wrong_ = std::move(wrong);
   }
 
-  void connect();
-
-  ros::NodeHandle node_;
-  std::string topic_;
-  bool strain_ = false;
   ros::Subscriber whole_, changes_, vertices_;
-  SenderWatch watch_;
-  std::set<std::string> senders_;  ///< that were alive when any was seen last
   SentSurface surface_;
   std::string wrong_;
 };

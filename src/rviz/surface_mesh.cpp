@@ -20,9 +20,7 @@ namespace {
 
 constexpr const char* kGroup = "General";  // of resources: Ogre's own, which is always there
 constexpr size_t kVectorBytes = 3 * sizeof(float);
-// Of the colour, seen whatever the direction, and as much again by rviz's light, which comes from the eye: the top of a
-// flat pad that is seen from low down is brighter than half of what faces the eye.
-constexpr float kOfEach = 0.5F;
+constexpr float kAmbient = 0.6F;    // of the colour, in rviz's light from all sides
 constexpr float kSpecular = 0.15F;  // wet, not plastic
 constexpr float kShininess = 30;
 
@@ -73,7 +71,7 @@ void SurfaceMesh::make(size_t parts, bool colored) {
     material->setReceiveShadows(false);
     material->setLightingEnabled(true);
     material->setCullingMode(Ogre::CULL_NONE);  // into what is cut open one looks from behind
-    if (colored) material->getTechnique(0)->getPass(0)->setVertexColourTracking(Ogre::TVC_EMISSIVE | Ogre::TVC_DIFFUSE);
+    if (colored) material->getTechnique(0)->getPass(0)->setVertexColourTracking(Ogre::TVC_AMBIENT | Ogre::TVC_DIFFUSE);
     materials_.push_back(material);
     Ogre::SubMesh* shown = mesh_->createSubMesh();
     shown->useSharedVertices = true;
@@ -154,7 +152,7 @@ void SurfaceMesh::writeColors(const std::vector<uint32_t>& colors, float alpha) 
   const uint32_t top = static_cast<uint32_t>(std::lround(255 * alpha)) << 24U;
   seen_colors_.resize(colors.size());
   std::transform(colors.begin(), colors.end(), seen_colors_.begin(),
-                 [top](uint32_t color) { return (color >> 1U & 0x7f7f7fU) | top; });  // kOfEach
+                 [top](uint32_t color) { return (color & 0xffffffU) | top; });
   colors_->writeData(0, colors.size() * sizeof(uint32_t), seen_colors_.data(), true);
 }
 
@@ -163,9 +161,8 @@ void SurfaceMesh::paint(const std::vector<Ogre::ColourValue>& colors) {
     Ogre::Material& material = *materials_[part];
     const Ogre::ColourValue& color = colors[part];
     const bool blends = color.a < 1;
-    material.setAmbient(Ogre::ColourValue::Black);
-    material.setSelfIllumination(color * kOfEach);
-    material.setDiffuse(color.r * kOfEach, color.g * kOfEach, color.b * kOfEach, color.a);
+    material.setAmbient(color * kAmbient);
+    material.setDiffuse(color);
     material.setSpecular(Ogre::ColourValue(kSpecular, kSpecular, kSpecular, color.a));
     material.setShininess(kShininess);
     material.setSceneBlending(blends ? Ogre::SBT_TRANSPARENT_ALPHA : Ogre::SBT_REPLACE);
