@@ -85,8 +85,8 @@ TEST_F(BadInput, SpacingThatDoesNotFitTheTissue) {
 
 TEST_F(BadInput, SceneThatCannotBeStepped) {
   expectSetRefusal("solver.max_substeps=2", {"solver.max_substeps = 2"});
-  expectSetRefusal("bodies[0].fixed=[{shape: part, part: nose}]", {"'block'", "'nose'"});
-  expectSetRefusal("bodies[0].fixed=[{shape: sphere, center_m: [1, 1, 1]}]", {"'block'", "fixed[0]", "no node"});
+  expectSetRefusal("bodies[0].fixed=[{shape: part, part: nose}]", {"block.yaml:7", "fixed[0]", "'nose'"});
+  expectSetRefusal("bodies[0].fixed=[{shape: sphere, center_m: [1, 1, 1]}]", {"block.yaml:7", "fixed[0]", "no node"});
 }
 
 TEST_F(BadInput, MeshFile) {

@@ -79,7 +79,7 @@ TEST_F(ErrorLines, MemoryThatDoesNotSufficeSaysWhatFor) {
 
 TEST_F(ErrorLines, WhatIsWrongWithABodyNamesTheScene) {
   EXPECT_TRUE(says(lineOfRun({"--set", "bodies[0].fixed=[{shape: sphere, center_m: [1, 1, 1]}]"}),
-                   {scene_ + ": body 'block'", "fixed[0]"}));
+                   {scene_ + ":7: bodies[0].fixed[0]", "no node"}));
   EXPECT_TRUE(says(lineOfRun({"--set", "bodies[0].spacing_m=5"}), {scene_ + ": body 'block'", "spacing_m 5"}));
 }
 

@@ -106,7 +106,7 @@ TEST_F(ReplayCommand, SaysWhatIsWrong) {
       {{"replay", scene_}, "scene.yaml: is no recorded session"},
       {{"replay", folder_.file("none")}, "none: cannot be read"},
       {{"replay", folder_.path()}, "is no recorded session"},
-      {{"run", scene_, "--no-view", "--record", scene_}, "scene.yaml: is there already"},
+      {{"run", scene_, "--no-view", "--record", scene_}, "scene.yaml: cannot be written: this command reads it"},
       {{"run", scene_, "--no-view", "--record", folder_.file("a/b")}, "a/b: cannot be made for a recording"},
   };
   for (const auto& [arguments, text] : cases) {

