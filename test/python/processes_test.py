@@ -163,11 +163,6 @@ class ForkTest(Guarded):
             self.assertEqual(pool.apply_async(stepped_hash).get(LONGEST_S), stepped_hash())
         KEPT = None
 
-    def test_an_interpreter_ends_in_the_child(self):
-        text = f"import os, viscera\nsession = viscera.Session(viscera.Scene({SMALL!r}))\nsession.step()\nchild = os.fork()\n" \
-               "if child:\n    assert os.waitpid(child, 0)[1] == 0\n    session.step()\n"
-        subprocess.run([sys.executable, "-c", text], check=True, timeout=LONGEST_S)
-
     def test_opengl_is_of_one_process(self):
         text = f"""
 import os, viscera

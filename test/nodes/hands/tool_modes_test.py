@@ -34,7 +34,7 @@ class ToolModesTest(unittest.TestCase):
     def test_0_wrong_names_are_told(self):
         self.refused("the scene has no stylus 'middle'; it has right, left", "middle", "idle", "probe")
         self.refused("'button3' is none of idle, button1, button2", "left", "button3", "probe")
-        self.refused("'laser' is none of none, probe, grab, cut, cut_particles, suction, needle, scissors", "left", "idle", "laser")
+        self.refused("mode: 'laser' is none of grasper, none, cautery, probe, grab", "left", "idle", "laser")
 
     def test_1_running(self):
         self.assertTrue(self.set_mode("left", "button1", "suction").success)
