@@ -104,6 +104,8 @@ class ReconfigureTest(unittest.TestCase):
         self.assertEqual(self.left.get_configuration(timeout=1)["idle"], "none")
         self.assertEqual(self.left.get_configuration(timeout=1)["max_force_n"], 0.1)
         self.left.update_configuration({"idle": "probe"})
+        wait_until(lambda: self.left.get_configuration(timeout=1)["idle"] == "probe", 10, "news of the mode")
+        time.sleep(0.5)  # a tip that becomes a probe within tissue does not push
         self.hand.y_m = DEEP_Y_M
         wait_until(lambda: self.newtons() > 0.09, 20, "force")
         wait_until(lambda: abs(self.watch.value("left", "force_n") - 0.1) < SLACK_N, 10, "force within the limit of now, in the diagnostics too")
