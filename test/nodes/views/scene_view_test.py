@@ -264,8 +264,8 @@ class SceneViewTest(unittest.TestCase):
         markers.stop()  # subscribers of one process share a connection
         time.sleep(0.5)
         another = Latest("scene_markers", MarkerArray, late.append, queue_size=1000)
-        wait_until(lambda: len(late) >= 3, LIMIT_S, "markers")
-        self.assertTrue(any(drawn(array) for array in late[:3]))  # one of the usual ones may come first
+        # one of the usual ones may come first
+        wait_until(lambda: any(drawn(array) for array in late), 0.7 * AGAIN_S, "tool for who comes")
         self.left.position = None
         another.stop()
 
