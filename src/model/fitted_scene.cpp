@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <memory>
 #include <optional>
 
 #include "math/number_text.h"
 #include "model/scene/file_bounds.h"
-#include "model/scene/structure_rules.h"
 #include "model/scene/tool_size.h"
 #include "model/scene/within_ranges.h"
 #include "model/scene/yaml_overrides.h"
@@ -148,62 +146,18 @@ Vector3d sightOf(const Scene& scene) {
   return Vector3d::UnitY();
 }
 
-/// Box of what is tissue in a cell, from its middle and over its edge: that of the slab that has its moments.
-Eigen::AlignedBox3d boxWithin(const CellFill& fill) {
-  const Vector3d middle = fill.first / fill.share;
-  const Vector3d half = (3 * (fill.second.diagonal() / fill.share - middle.cwiseAbs2())).cwiseMax(0).cwiseSqrt();
-  return {(middle - half).cwiseMax(-0.5), (middle + half).cwiseMin(0.5)};
+/// Box of the first body: of its closed surfaces, without open sheets and crumbs. None if the organ cannot be read,
+/// which making a model of it says better.
+std::optional<Eigen::AlignedBox3d> boxOf(const Scene& scene) {
+  BodyConfig body = scene.bodies[0];
+  body.textures = false;  // shape alone
+  body.fixed.clear();     // which may be another body's
+  try {
+    return makeTissue(body, scene.folder)->bounds();
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
 }
-
-/// Box of a solid's tissue [m].
-Eigen::AlignedBox3d filledBox(const Solid& solid) {
-  Eigen::AlignedBox3d box;
-  size_t next = 0;  // of the partial cells, which come in the same order
-  for (int z = 0; z < solid.cells.z(); ++z) {
-    for (int y = 0; y < solid.cells.y(); ++y) {
-      for (int x = 0; x < solid.cells.x(); ++x) {
-        const size_t cell = solid.index(x, y, z);
-        if (solid.labels[cell] == 0) continue;
-        while (next < solid.partial.size() && solid.partial[next].cell < cell) ++next;
-        const bool is_partial = next < solid.partial.size() && solid.partial[next].cell == cell;
-        const Eigen::AlignedBox3d within = boxWithin(is_partial ? solid.partial[next].fill : CellFill{});
-        const Vector3d middle = Vector3d(x, y, z) + Vector3d::Constant(0.5);
-        box.extend(solid.origin_m + solid.spacing_m * (middle + within.min()));
-        box.extend(solid.origin_m + solid.spacing_m * (middle + within.max()));
-      }
-    }
-  }
-  return box;
-}
-
-/// The first body of a scene, as far as its shape goes.
-class Shape {
- public:
-  explicit Shape(const Scene& scene) : body_(scene.bodies[0]) {
-    body_.textures = false;
-    body_.fixed.clear();  // which may be another body's
-    tissue_ = makeTissue(body_, scene.folder);
-  }
-  Eigen::AlignedBox3d bounds() const { return tissue_->bounds(); }
-  /// Box of its tissue: what of a file encloses nothing, or falls off when it is filled, is not of the body.
-  Eigen::AlignedBox3d filled(double spacing_m) const {
-    if (isNetwork(body_.structure)) return bounds();
-    constexpr double kSliver = 0.1;  // of a cell: thinner ones than about this are filled with the cell beside them
-    const Eigen::AlignedBox3d all_m = bounds();
-    Eigen::AlignedBox3d box_m = filledBox(tissue_->fill(spacing_m, {}).solid).intersection(all_m);
-    for (int axis = 0; axis < 3; ++axis) {
-      if (box_m.min()[axis] - all_m.min()[axis] < kSliver * spacing_m) box_m.min()[axis] = all_m.min()[axis];
-      if (all_m.max()[axis] - box_m.max()[axis] < kSliver * spacing_m) box_m.max()[axis] = all_m.max()[axis];
-    }
-    return box_m;
-  }
-  /// Its own spacing [m]; 0: none is given.
-  double spacing_m() const { return hasSpacing(body_) ? body_.spacing_m : 0; }
-
- private:
-  BodyConfig body_;
-  std::unique_ptr<Tissue> tissue_;
-};
 
 /// A mesh whose unit is not set, and that is far too large: the next step would be a grid of it.
 /// @throws MeshError
@@ -219,34 +173,14 @@ void requireLikelyUnit(const Scene& scene, const Eigen::AlignedBox3d& made_m, co
                   " times as wide as the scene's body; a mesh of that size in metres needs " + key + "=1");
 }
 
-/// None if the organ cannot be read, which making a model of it says better.
-std::optional<Shape> shapeOf(const Scene& scene) {
-  try {
-    return Shape(scene);
-  } catch (const std::exception&) {
-    return std::nullopt;
-  }
-}
-
-/// None if one of the organs cannot be read or filled, which making a model of it says better.
+/// None if one of the organs cannot be read, or is out of all proportion.
 /// @throws MeshError  of requireLikelyUnit()
 std::optional<OrganFit> fitOf(const Scene& made, const Scene& scene, const Overrides& own) {
-  constexpr double kCellsAcross = 30;  // of an organ whose spacing is not given
-  const std::optional<Shape> from = shapeOf(made), to = shapeOf(scene);
+  const std::optional<Eigen::AlignedBox3d> from = boxOf(made), to = boxOf(scene);
   if (!from || !to) return std::nullopt;
-  requireLikelyUnit(scene, from->bounds(), to->bounds(), own);
-  try {
-    const Vector3d sight = sightOf(made);
-    const OrganFit by_files = OrganFit::between(from->bounds(), to->bounds(), sight);
-    if (!by_files.isSound()) return std::nullopt;
-    const double from_m = from->spacing_m() > 0 ? from->spacing_m() : from->bounds().sizes().maxCoeff() / kCellsAcross;
-    const double set_m = to->spacing_m() == from->spacing_m() ? 0 : to->spacing_m();
-    const double to_m = std::max(set_m, from_m * std::cbrt(by_files.stretch.prod()));
-    const OrganFit fit = OrganFit::between(from->filled(from_m), to->filled(to_m), sight);
-    if (fit.isSound()) return fit;
-  } catch (const std::exception&) {
-  }
-  return std::nullopt;
+  requireLikelyUnit(scene, *from, *to, own);
+  const OrganFit fit = OrganFit::between(*from, *to, sightOf(made));
+  return fit.isSound() ? std::optional<OrganFit>(fit) : std::nullopt;
 }
 
 /// The scene as its file alone has it; none if it waits for a mesh.
