@@ -1,7 +1,7 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
 # What rviz loads: a display, a panel and a tool (src/rviz), named in config/rviz_plugins.xml, which package.xml exports.
-# Of the project it has the messages, the names of tools, and how a tip follows a mouse. Without rviz's headers the markers remain.
+# Of the project it has the messages, the names of tools, how a tip follows a mouse, and how numbers are read. Without rviz's headers the markers remain.
 find_package(rviz QUIET)
 find_package(Qt5 QUIET COMPONENTS Widgets)
 if(NOT rviz_FOUND OR NOT Qt5_FOUND)
@@ -9,8 +9,9 @@ if(NOT rviz_FOUND OR NOT Qt5_FOUND)
   return()
 endif()
 file(GLOB rviz_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/rviz/*.cpp)
-# A source of devices itself, not its library: rviz loads this one beside others.
-add_library(viscera_rviz SHARED ${rviz_sources} ${PROJECT_SOURCE_DIR}/src/devices/steered_hand.cpp)
+# Sources of devices and math themselves, not their libraries: rviz loads this one beside others.
+add_library(viscera_rviz SHARED ${rviz_sources} ${PROJECT_SOURCE_DIR}/src/devices/steered_hand.cpp
+                                ${PROJECT_SOURCE_DIR}/src/math/number_text.cpp)
 viscera_unity(viscera_rviz 24)
 add_dependencies(viscera_rviz ${PROJECT_NAME}_generate_messages_cpp ${catkin_EXPORTED_TARGETS})
 target_include_directories(viscera_rviz PUBLIC ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)

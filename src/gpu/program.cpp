@@ -9,16 +9,14 @@
 #include <memory>
 #include <mutex>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "gpu/buffer.h"
-#include "gpu/embedded_shaders.h"
 #include "gpu/gl.h"
 #include "gpu/limits.h"
 #include "gpu/reflection.h"
 #include "gpu/storage_blocks.h"
-#include "math/number_text.h"
+#include "gpu/unfinished_program.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 
@@ -29,159 +27,6 @@ struct ProgramLabel {
   explicit ProgramLabel(std::string of) : name(std::move(of)) {}
   std::string name;
   std::atomic<bool> has_run{false};  ///< a dispatch of it has been looked at: asking after each would cost
-};
-
-namespace {
-
-const EmbeddedShader* find(const std::string& name) {
-  for (int i = 0; i < kEmbeddedShaderCount; ++i) {
-    if (name == kEmbeddedShaders[i].name) return &kEmbeddedShaders[i];
-  }
-  return nullptr;
-}
-
-/// The files of one program in the order of their numbers in #line, so that a log can be read back.
-using Files = std::vector<std::string>;
-
-int fileNumber(Files& files, const std::string& name) {
-  for (size_t i = 0; i < files.size(); ++i) {
-    if (files[i] == name) return static_cast<int>(i);
-  }
-  files.push_back(name);
-  return static_cast<int>(files.size()) - 1;
-}
-
-/// What an #include line names, without its folder: that is for C++.
-std::string includedName(const std::string& line) {
-  if (line.rfind("#include", 0) != 0) return "";
-  const size_t open = line.find('"');
-  const size_t close = line.rfind('"');
-  if (open == std::string::npos || close == open) return "";
-  const std::string path = line.substr(open + 1, close - open - 1);
-  return path.substr(path.rfind('/') + 1);
-}
-
-void expand(const std::string& name, const std::string& from, Files& files, std::ostringstream& out) {
-  const EmbeddedShader* shader = find(name);
-  if (!shader) throw GpuError("no shader '" + name + "'" + (from.empty() ? "" : ", included from " + from));
-  const int number = fileNumber(files, name);
-  out << "#line 1 " << number << '\n';
-  TextIn lines(shader->text);
-  std::string line;
-  for (int line_number = 1; std::getline(lines, line); ++line_number) {
-    const std::string included = includedName(line);
-    if (included.empty()) {
-      out << line << '\n';
-      continue;
-    }
-    if (std::find(files.begin(), files.end(), included) == files.end()) {  // every file at most once
-      expand(included, name + ":" + std::to_string(line_number), files, out);
-    }
-    out << "#line " << line_number + 1 << ' ' << number << '\n';
-  }
-}
-
-std::string expanded(const std::string& name, const std::vector<std::string>& defines, Files& files) {
-  TextOut out;
-  out << "#version 450 core\n";
-  for (const std::string& define : defines) out << "#define " << define << '\n';
-  expand(name, "", files, out);
-  return out.str();
-}
-
-std::string filesLegend(const Files& files) {
-  std::string out;
-  for (size_t i = 0; i < files.size(); ++i) out += (i ? ", " : "") + std::to_string(i) + " = " + files[i];
-  return out;
-}
-
-/// One shader of a program.
-struct ShaderStage {
-  GLenum kind;
-  uint32_t id;  ///< 0: the driver was not told to compile it yet
-  std::string name;
-  Files files;
-  std::string source;  ///< until then
-};
-
-/// @throws GpuError  it does not compile
-void finishStage(const ShaderStage& stage) {
-  GLint ok = 0, length = 0;
-  glGetShaderiv(stage.id, GL_COMPILE_STATUS, &ok);
-  if (ok) return;
-  glGetShaderiv(stage.id, GL_INFO_LOG_LENGTH, &length);
-  std::string log(static_cast<size_t>(length) + 1, '\0');
-  glGetShaderInfoLog(stage.id, length, nullptr, log.data());
-  throw GpuError("shader '" + stage.name + "' does not compile (files: " + filesLegend(stage.files) + "):\n" +
-                 log.c_str());
-}
-
-/// A uniform's value that was set before its program was compiled.
-struct PendingValue {
-  UniformName name;
-  uint32_t type;
-  size_t components, count;  ///< words of an element, elements
-  std::vector<uint32_t> words;
-};
-
-}  // namespace
-
-namespace {
-
-/// Where programs that this thread makes are listed until they are finished.
-thread_local std::set<UnfinishedProgram*>* listed = nullptr;
-
-}  // namespace
-
-/// What a Program needs until it is first used: its shaders, and the values set so far.
-struct UnfinishedProgram {
-  uint32_t id = 0;  ///< 0: the driver was not told to compile it yet
-  std::string name;
-  std::vector<ShaderStage> stages;
-  std::vector<std::string> uniforms;  ///< that its shaders declare, as often as they like
-  std::vector<PendingValue> values;
-
-  UnfinishedProgram() {
-    if (listed) listed->insert(this);
-  }
-  UnfinishedProgram(const UnfinishedProgram&) = delete;
-  UnfinishedProgram& operator=(const UnfinishedProgram&) = delete;
-  ~UnfinishedProgram() {
-    if (listed) listed->erase(this);
-    for (const ShaderStage& stage : stages) glDeleteShader(stage.id);
-    if (id) glDeleteProgram(id);
-  }
-  void add(GLenum kind, const std::string& shader, const std::vector<std::string>& defines) {
-    ShaderStage stage{kind, 0, shader, {}, {}};
-    stage.source = expanded(shader, defines, stage.files);
-    for (std::string& uniform : declaredUniforms(stage.source)) uniforms.push_back(std::move(uniform));
-    stages.push_back(std::move(stage));
-  }
-  /// Tells the driver to compile and link it, once.
-  void start() {
-    if (id) return;
-    id = glCreateProgram();
-    for (ShaderStage& stage : stages) {
-      const char* text = stage.source.c_str();
-      stage.id = glCreateShader(stage.kind);
-      glShaderSource(stage.id, 1, &text, nullptr);
-      glCompileShader(stage.id);
-      glAttachShader(id, stage.id);
-      stage.source.clear();
-    }
-    glLinkProgram(id);
-  }
-  /// @throws GpuError  it does not compile or link
-  void require() const {
-    for (const ShaderStage& stage : stages) finishStage(stage);
-    GLint ok = 0, length = 0;
-    glGetProgramiv(id, GL_LINK_STATUS, &ok);
-    if (ok) return;
-    glGetProgramiv(id, GL_INFO_LOG_LENGTH, &length);
-    std::string log(static_cast<size_t>(length) + 1, '\0');
-    glGetProgramInfoLog(id, length, nullptr, log.data());
-    throw GpuError("program '" + name + "' does not link:\n" + log.c_str());
-  }
 };
 
 namespace {
@@ -248,8 +93,8 @@ std::vector<std::string> withLoads(const std::string& name, const std::vector<st
 }
 
 std::string shaderSource(const std::string& name, const std::vector<std::string>& defines) {
-  Files files;
-  return expanded(name, defines, files);
+  ShaderFiles files;
+  return expandedShader(name, defines, files);
 }
 
 Program Program::compute(const std::string& name, const std::vector<std::string>& features) {
@@ -371,18 +216,6 @@ void Program::dispatchIndirect(const RawBuffer& groups) {
   checkFirstRun();
 }
 
-MadePrograms::MadePrograms() : before_(std::exchange(listed, &made_)) {}
-
-MadePrograms::~MadePrograms() {
-  listed = before_;
-}
-
-void MadePrograms::require() const {
-  for (const UnfinishedProgram* program : made_) {
-    if (program->id) program->require();
-  }
-}
-
 std::string lastKernel() {
   return in_use ? in_use->name : "none";
 }
@@ -406,30 +239,12 @@ const Program::Uniform* Program::changed(UniformName name, uint32_t type, const 
     std::memcpy(&values_[uniform.first], value, bytes);
     return &uniform;
   }
-  refuseUnknown(name);
-}
-
-void Program::refuseUnknown(UniformName name) const {
   throw GpuError("program '" + name_ + "' has no uniform '" + name.text() + "'");
-}
-
-/// Keeps a value for the time when the program is compiled.
-void Program::keep(UniformName name, uint32_t type, const void* value, size_t components, size_t count) const {
-  const auto& declared = unfinished_->uniforms;
-  if (std::find(declared.begin(), declared.end(), name.text()) == declared.end()) refuseUnknown(name);
-  auto& values = unfinished_->values;
-  const auto same = [name](const PendingValue& it) { return it.name.key() == name.key(); };
-  auto kept = std::find_if(values.begin(), values.end(), same);
-  if (kept == values.end()) kept = values.insert(values.end(), PendingValue{name, type, components, 0, {}});
-  if (kept->type != type) throw GpuError("program '" + name_ + "': uniform '" + name.text() + "' is of another type");
-  kept->count = std::max(kept->count, count);
-  kept->words.resize(kept->count * components);
-  std::memcpy(kept->words.data(), value, count * components * sizeof(uint32_t));
 }
 
 /// @param type  of OpenGL @param value  [count][components] words
 void Program::set(UniformName name, uint32_t type, const void* value, size_t components, size_t count) const {
-  if (unfinished_ && unfinished_->id == 0) return keep(name, type, value, components, count);
+  if (unfinished_ && unfinished_->id == 0) return unfinished_->keep(name, type, value, components, count);
   const Uniform* u = changed(name, type, value, components * count);
   if (!u) return;
   const auto n = static_cast<GLsizei>(count);

@@ -112,9 +112,7 @@ class Program {
   explicit Program(std::string name);
   void begin();
   void set(UniformName name, uint32_t type, const void* value, size_t components, size_t count) const;
-  void keep(UniformName name, uint32_t type, const void* value, size_t components, size_t count) const;
   const Uniform* changed(UniformName name, uint32_t type, const void* value, size_t words) const;
-  [[noreturn]] void refuseUnknown(UniformName name) const;
 
   mutable uint32_t id_ = 0;  ///< 0 until it is finished
   std::string name_;

@@ -9,7 +9,9 @@
 #include <QWheelEvent>
 
 #include <algorithm>
-#include <charconv>
+#include <optional>
+
+#include "math/number_text.h"
 
 namespace viscera::rviz_plugin {
 namespace {
@@ -130,16 +132,8 @@ void keepWidthOf(QPushButton* button, const QStringList& texts) {
   button->setMinimumWidth(width);
 }
 
-std::optional<double> numberOf(const std::string& text) {
-  double value = 0;
-  const char* const end = text.data() + text.size();
-  const auto read = std::from_chars(text.data(), end, value);
-  if (read.ec != std::errc() || read.ptr != end) return std::nullopt;
-  return value;
-}
-
 QString rounded(const std::string& number, int digits) {
-  const std::optional<double> value = numberOf(number);
+  const std::optional<double> value = readNumber(number);
   return value ? QString::number(*value, 'f', digits) : QString::fromStdString(number);
 }
 

@@ -8,7 +8,6 @@
 #include <QPushButton>
 #include <QSpinBox>
 
-#include <optional>
 #include <string>
 
 namespace viscera::rviz_plugin {
@@ -47,9 +46,6 @@ void write(QLabel* label, const QString& text);
 
 /// Makes a button as wide as the widest of the texts that it will have, so that its neighbours keep their places.
 void keepWidthOf(QPushButton* button, const QStringList& texts);
-
-/// Reads a decimal number, with a point in every locale. @returns nothing if the text is not a number
-std::optional<double> numberOf(const std::string& text);
 
 /// Writes a number that a node sent as text. @param digits  after the point   @returns the text as it is if it is none
 QString rounded(const std::string& number, int digits);

@@ -365,59 +365,6 @@ uint64_t Session::stateHash() const {
   return solver_->threads() ? solver_->threads()->hashWith(tissue) : tissue;
 }
 
-size_t Session::threadPieces() const {
-  return solver_->threads() ? solver_->threads()->count() : 0;
-}
-
-size_t Session::threadOf(size_t piece) const {
-  return solver_->threads()->piece(piece).thread;
-}
-
-const std::vector<Vector3d>& Session::threadPlaces(size_t piece) const {
-  return solver_->threads()->chain(piece).places_m();
-}
-
-std::vector<SeenThread> Session::seenThreads() const {
-  std::vector<SeenThread> out;
-  for (size_t p = 0; p < threadPieces(); ++p) out.push_back(solver_->threads()->piece(p).seen());
-  return out;
-}
-
-SeenClips Session::seenClips() const {
-  const ThreadBodies* const threads = solver_->threads();
-  return threads && threads->clips() ? threads->clips()->seen() : SeenClips();
-}
-
-SeenBurns Session::seenBurns() const {
-  return solver_->burns() ? solver_->burns()->seen() : SeenBurns();
-}
-
-SeenBlood Session::seenBlood() const {
-  return solver_->bleeding() ? solver_->bleeding()->seen() : SeenBlood();
-}
-
-std::string Session::threadRefusal() const {
-  return solver_->threads() ? solver_->threads()->refused() : std::string();
-}
-
-void Session::tieThread(size_t piece, const ThreadTie& tie) {
-  if (!solver_->threads()) throw Error("the scene has no threads");
-  solver_->threads()->tie(piece, tie);
-  for (SessionLog* log : logs_) log->threadTied(piece, tie);
-}
-
-std::vector<Vector3d> Session::needlePlaces(size_t thread) const {
-  const Needle* const needle = solver_->threads()->needle(static_cast<uint32_t>(thread));
-  return needle ? needle->places_m() : std::vector<Vector3d>();
-}
-
-std::vector<double> Session::threadTensions_n(size_t piece) const {
-  const Chain& chain = solver_->threads()->chain(piece);
-  std::vector<double> out;
-  for (size_t link = 0; link + 1 < chain.nodes(); ++link) out.push_back(chain.tension_n(link));
-  return out;
-}
-
 std::shared_ptr<const ShownTopology> Session::wholeSkin() const {
   return view_->wholeSkin();
 }

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Of a session, what its tools met: from which forces between ticks are made; and the needles that they lead.
+// Of a session, what its tools met: from which forces between ticks are made.
 #include <algorithm>
 
 #include "model/scene/tool_kinds.h"
@@ -45,19 +45,6 @@ TickContact Session::contactOf(size_t stylus, const Reaction& raw) const {
   const double limit_n =
       kindOf(motion.mode).does(kCuts) ? solver_->bladeWork(static_cast<uint32_t>(stylus)).limit_n : 0;
   if (limit_n > 0) out.limit_n = std::max(limit_n, raw.force_n.norm());
-  return out;
-}
-
-std::vector<SeenNeedle> Session::seenNeedles() const {
-  std::vector<SeenNeedle> out;
-  const ThreadBodies* const threads = solver_->threads();
-  for (size_t t = 0; threads && t < scene_.threads.size(); ++t) {
-    const Needle* const needle = threads->needle(t);
-    if (!needle) continue;
-    const NeedleShape& shape = needle->shape();
-    out.push_back({t, needle->pose(), shape.radius_m(), shape.length_m() / shape.radius_m(), shape.wireRadius_m(),
-                   threads->needleHolder(t), needle->isInTissue()});
-  }
   return out;
 }
 

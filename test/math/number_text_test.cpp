@@ -67,9 +67,9 @@ TEST(NumberText, ReadsWholeNumbersOnly) {
   EXPECT_EQ(value, 0.25);
 }
 
-TEST(NumberText, TheTestsHaveALocaleWithACommaWhereLocaledefIs) {
+TEST(NumberText, TheTestsHaveALocaleWithAComma) {
   const CommaLocale comma;
-  if (!comma.hasC()) GTEST_SKIP() << "no localedef, or no de_DE";
+  ASSERT_TRUE(comma.hasC()) << "localedef cannot make de_DE.UTF-8: install the Debian package locales";
   char text[16];
   std::snprintf(text, sizeof text, "%.1f", 1.5);
   EXPECT_STREQ(text, "1,5");

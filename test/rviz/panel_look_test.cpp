@@ -6,12 +6,10 @@
 
 #include <QApplication>
 #include <QWheelEvent>
-#include <clocale>
-#include <cstdlib>
 #include <string>
 
 #include "rviz/hand_table.h"
-#include "support/temporary_folder.h"
+#include "support/comma_locale.h"
 
 namespace viscera::rviz_plugin {
 namespace {
@@ -95,36 +93,14 @@ TEST(PanelLook, ButtonIsAsWideAsItsWidestText) {
   EXPECT_EQ(button.shortcut(), QKeySequence("Alt+C"));
 }
 
-/// Makes the C library write and read numbers with a comma while it lives, as Qt does on a German desktop.
-class CommaLocale {
- public:
-  CommaLocale() : before_(std::setlocale(LC_NUMERIC, nullptr)) {
-    const std::string command = "localedef -i de_DE -f UTF-8 --no-archive " + folder_.file("de_DE.UTF-8");
-    if (std::system(command.c_str()) != 0) return;
-    setenv("LOCPATH", folder_.path().c_str(), 1);
-    std::setlocale(LC_NUMERIC, "de_DE.UTF-8");
-  }
-  ~CommaLocale() {
-    std::setlocale(LC_NUMERIC, before_.c_str());
-    unsetenv("LOCPATH");
-  }
-  static bool isThere() { return *std::localeconv()->decimal_point == ','; }
-
- private:
-  test::TemporaryFolder folder_;
-  const std::string before_;
-};
-
 TEST(PanelLook, NumbersHaveAPointInEveryLocale) {
   application();
-  const CommaLocale locale;
-  ASSERT_TRUE(CommaLocale::isThere()) << "localedef cannot make de_DE.UTF-8: install the Debian package locales";
-  EXPECT_EQ(numberOf("1.73"), 1.73);
+  const test::CommaLocale locale;
+  ASSERT_TRUE(locale.hasC()) << "localedef cannot make de_DE.UTF-8: install the Debian package locales";
   EXPECT_EQ(rounded("1.73", 2), "1.73");
   EXPECT_EQ(rounded("-0.5", 1), "-0.5");
   EXPECT_EQ(rounded("1e-05", 5), "0.00001");
-  EXPECT_FALSE(numberOf("1,73"));
-  EXPECT_FALSE(numberOf(""));
+  EXPECT_EQ(rounded("1,73", 2), "1,73");
   EXPECT_EQ(rounded("none", 2), "none");
   HandTable table([](const std::string&, const std::string&, const std::string&) {});
   table.show({{"left", {"none", "grab", "cut"}, "tracked", "1.73", "2", "0"}});

@@ -11,8 +11,7 @@
 
 namespace viscera::test {
 
-/// Until it ends, the program has numbers as in German: 1.234,5, in C++ streams, and in C where the system can make
-/// de_DE.UTF-8.
+/// Makes the program write and read numbers as in German while it lives: 1.234,5, in C++ streams and in C.
 class CommaLocale {
  public:
   CommaLocale() : before_(std::locale::global(std::locale(std::locale::classic(), new Punctuation))) {
@@ -31,6 +30,7 @@ class CommaLocale {
   CommaLocale(const CommaLocale&) = delete;
   CommaLocale& operator=(const CommaLocale&) = delete;
 
+  /// Returns whether C has it too: the system has the sources of de_DE, which are in the Debian package locales.
   bool hasC() const { return has_c_; }
 
  private:

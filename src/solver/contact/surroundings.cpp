@@ -10,6 +10,7 @@
 
 #include "layout/wind.h"
 #include "math/archive.h"
+#include "math/number_text.h"
 #include "model/scene/integrators.h"
 #include "solver/contact/collision.h"
 #include "viscera/math/error.h"
@@ -145,7 +146,7 @@ void Surroundings::persist(Archive& archive) {
   if (!archive.reads()) return;
   substeps_ = 0;  // the motions of substeps are made again
   if (!(time_s_ >= 0 && std::isfinite(time_s_)))
-    throw Error("section 'ticks': the time is " + std::to_string(time_s_) + " s; 0 s and more is accepted");
+    throw Error("section 'ticks': the time is " + numberText(time_s_) + " s; 0 s and more is accepted");
   const auto lost = [](const Pose& pose) {
     return !pose.position_m.allFinite() || !pose.orientation.coeffs().allFinite();
   };

@@ -1,0 +1,54 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gpu/gl.h"
+#include "gpu/program.h"
+#include "gpu/shader_text.h"
+
+namespace viscera::gpu {
+
+/// One shader of a program.
+struct ShaderStage {
+  GLenum kind;
+  uint32_t id;  ///< 0: the driver was not told to compile it yet
+  std::string name;
+  ShaderFiles files;
+  std::string source;  ///< until then
+};
+
+/// A uniform's value that was set before its program was compiled.
+struct PendingValue {
+  UniformName name;
+  uint32_t type;
+  size_t components, count;  ///< words of an element, elements
+  std::vector<uint32_t> words;
+};
+
+/// What a Program needs until it is first used: its shaders, and the values set so far. Listed by MadePrograms.
+struct UnfinishedProgram {
+  uint32_t id = 0;  ///< 0: the driver was not told to compile it yet
+  std::string name;
+  std::vector<ShaderStage> stages;
+  std::vector<std::string> uniforms;  ///< that its shaders declare, as often as they like
+  std::vector<PendingValue> values;
+
+  UnfinishedProgram();
+  UnfinishedProgram(const UnfinishedProgram&) = delete;
+  UnfinishedProgram& operator=(const UnfinishedProgram&) = delete;
+  ~UnfinishedProgram();
+  void add(GLenum kind, const std::string& shader, const std::vector<std::string>& defines);
+  /// Tells the driver to compile and link it, once.
+  void start();
+  /// @throws GpuError  it does not compile or link
+  void require() const;
+  /// Keeps a value for the time when the program is compiled. @param value  [count][components] words
+  /// @throws GpuError  the shaders declare no such uniform; it was set with another type before
+  void keep(UniformName uniform, uint32_t type, const void* value, size_t components, size_t count);
+};
+
+}  // namespace viscera::gpu
