@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -47,6 +48,12 @@ class Archive {
     if (reads_ && next_ > 0 && at_ != sections_[next_ - 1].bytes.size()) throw misfit();
   }
 
+  /// Checks what was read, because a checksum says only that the file is as it was written.
+  /// @param what  is wrong, and what is accepted   @throws Error  names the section
+  void require(bool holds, const std::string& what) const {
+    if (!holds) throw Error("section '" + sections_[reads_ ? next_ - 1 : sections_.size() - 1].name + "': " + what);
+  }
+
   /// Of a section that is read: is there more of it?
   bool more() const { return next_ > 0 && at_ < sections_[next_ - 1].bytes.size(); }
 
@@ -61,6 +68,17 @@ class Archive {
     if (size > from.size() - at_) throw misfit();
     std::memcpy(data, from.data() + at_, size);
     at_ += size;
+  }
+  /// @throws Error  the file has neither 0 nor 1
+  void value(bool& flag) {
+    auto byte = static_cast<uint8_t>(flag);
+    bytes(&byte, 1);
+    require(byte <= 1, "a flag is " + std::to_string(byte) + "; 0 or 1 is accepted");
+    flag = byte == 1;
+  }
+  template <size_t N>
+  void value(std::array<bool, N>& flags) {
+    for (bool& flag : flags) value(flag);
   }
   /// Plain data: numbers, and structs and matrices of numbers.
   template <class T>

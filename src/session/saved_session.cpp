@@ -10,6 +10,7 @@
 #include "session/state_file.h"
 #include "session/view.h"
 #include "solver/tissue/carried_tissue.h"
+#include "tools/restored_tools.h"
 #include "viscera/math/state_hash.h"
 #include "viscera/session/session.h"
 #include "viscera/session/session_log.h"
@@ -90,6 +91,7 @@ void Session::persist(Archive& archive) {
   archive.values(obstacle_forces_);
   archive.value(extremes_);
   archive.value(look_.motions);
+  requireModes(archive, look_.motions);
   archive.values(look_.obstacles);
   for (ForceLimiter& limiter : limiters_) archive.value(limiter);
   tools_.persist(archive);

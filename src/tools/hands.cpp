@@ -6,6 +6,7 @@
 
 #include "math/archive.h"
 #include "model/scene/tool_kinds.h"
+#include "tools/restored_tools.h"
 
 namespace viscera {
 
@@ -115,14 +116,18 @@ void Tools::forget() {
 
 void Tools::persist(Archive& archive) {
   for (StylusConfig& config : configs_) {
-    archive.value(config.idle);
-    archive.value(config.button1);
-    archive.value(config.button2);
+    for (ToolMode* mode : {&config.idle, &config.button1, &config.button2}) {
+      ToolMode read = *mode;
+      archive.value(read);
+      requireMode(archive, read);
+      *mode = read;
+    }
   }
   archive.value(last_);
   archive.value(mode_);
   archive.value(inside_);
   archive.value(forgotten_);
+  for (const ToolMode mode : mode_) requireMode(archive, mode);
   for (Fingers& fingers : fingers_) fingers.persist(archive);
 }
 

@@ -304,7 +304,7 @@ TEST_F(RecordingTest, SpoiltChunksWithRightSumsAreRefusedOrReplayed) {
       RecordFileWriter writer(file);
       while (const std::optional<ChunkKind> kind = reader.next()) {
         std::vector<char> bytes = reader.bytes();
-        const bool states = *kind == ChunkKind::kState && time % 3 != 0;  // their sections trust their checksum
+        const bool states = *kind == ChunkKind::kState && time % 3 != 0;  // Saved.SpoiltBytes... has more of them
         for (unsigned n = random() % 4; n > 0 && !bytes.empty() && !states; --n)
           bytes[random() % bytes.size()] = static_cast<char>(random());
         if (random() % 8 == 0) bytes.resize(bytes.size() - std::min<size_t>(bytes.size(), random() % 40));

@@ -3,9 +3,11 @@
 // A session that goes on from a saved one ends as the one that was never stopped: to the bit, whatever was going on.
 #include <gtest/gtest.h>
 
+#include <random>
 #include <tuple>
 
 #include "session/block_session.h"
+#include "session/state_file.h"
 #include "support/gpu_fixture.h"
 #include "support/temporary_folder.h"
 #include "viscera/math/error.h"
@@ -124,6 +126,38 @@ TEST_P(Saved, GoesOnToTheSameEndWhenTissueFallsAsleep) {
     return tick < 8 ? press(tick) : tick > 55 ? press(tick - 50) : StylusSamples{};
   };
   for (const int after : {20, 50}) expectSameEnd(scene, once, after, 62);
+}
+
+/// Files whose checksum is right though their bytes are not: whatever they hold, the session goes on.
+TEST_P(Saved, SpoiltBytesWithRightSumsAreRefusedOrGoOn) {
+  constexpr int kMostSpoilt = 200;
+  const auto& [steps, backend] = GetParam();
+  const int files = steps.integrator == Integrator::kLeapfrog && backend == Backend::kCpu ? 100 : 10;
+  const std::string file = folder_.file("state"), spoilt = folder_.file("spoilt");
+  Session session = made(scene());
+  for (int t = 1; t <= kCutTicks; ++t) session.step(cutAndPull(t), {});
+  session.save(file);
+  const std::vector<Archive::Section> sections = readStateFile(file);
+  std::mt19937 random(1);
+  int refused = 0;
+  for (int time = 0; time < files; ++time) {
+    std::vector<Archive::Section> made = sections;
+    for (unsigned n = 1 + random() % kMostSpoilt; n > 0; --n) {
+      std::vector<char>& bytes = made[1 + random() % (made.size() - 1)].bytes;  // all but that of the scene
+      if (!bytes.empty()) bytes[random() % bytes.size()] = static_cast<char>(random());
+    }
+    writeStateFile(spoilt, made);
+    try {
+      session.restore(spoilt);
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(spoilt), std::string::npos) << error.what();
+      ++refused;
+    }
+    for (int t = 1; t <= 3; ++t) session.step(cutAndPull(t), {});
+  }
+  EXPECT_GT(refused, 0);
+  session.restore(file);
+  EXPECT_EQ(session.tick(), static_cast<uint64_t>(kCutTicks));
 }
 
 TEST_P(Saved, IsRefusedByAnotherSceneAndByOtherTissue) {

@@ -349,8 +349,12 @@ void CpuBackend::persist(Archive& archive) {
   archive.value(stats_);
   archive.value(springs_cut_);
   archive.value(rate_springs_cut_);
-  archive.value(next_good_);
-  archive.value(kept_good_);
+  int next = next_good_, kept = kept_good_;
+  archive.value(next);
+  archive.value(kept);
+  archive.require(next >= 0 && next < kGoodStates && kept >= 0 && kept <= kGoodStates, "there is no such good state");
+  next_good_ = next;
+  kept_good_ = kept;
   for (Good& good : good_) {
     archive.values(good.displacement);
     archive.values(good.velocity);

@@ -61,8 +61,13 @@ void GoodStates::persist(Archive& archive) {
     gpu::persist(archive, state.displacement);
     gpu::persist(archive, state.velocity);
   }
-  archive.value(next_);
-  archive.value(kept_);
+  const auto states = static_cast<int>(ring_.size());
+  int next = next_, kept = kept_;
+  archive.value(next);
+  archive.value(kept);
+  archive.require(next >= 0 && next < states && kept >= 0 && kept <= states, "there is no such good state");
+  next_ = next;
+  kept_ = kept;
   same_ = 0;
 }
 

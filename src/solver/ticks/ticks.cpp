@@ -30,13 +30,6 @@ constexpr double kWorthwhile = 1.01;   // a stable substep must have grown by th
 // What is read from a saved state, over the same of this machine: of computed and of measured stable substeps.
 constexpr double kRoundedHere = 0.999, kLeastMeasured = 0.5;
 
-void persistFlag(Archive& archive, bool& flag) {
-  auto byte = static_cast<uint8_t>(flag);
-  archive.value(byte);
-  if (byte > 1) throw Error("section 'ticks': a flag is " + std::to_string(byte) + "; 0 or 1 is accepted");
-  flag = byte == 1;
-}
-
 void requireInTicks(const char* what, double value, double least, double most) {
   if (value >= least && value <= most) return;
   std::ostringstream text;
@@ -251,10 +244,10 @@ void Ticks::persistSubsteps(Archive& archive) {
   archive.value(substeps_done_);
   archive.value(springs_cut_);
   archive.value(n_);
-  persistFlag(archive, recovering_);
-  persistFlag(archive, restarted_);
+  archive.value(recovering_);
+  archive.value(restarted_);
   archive.value(last_dt_s_);
-  persistFlag(archive, looks_for_folds_);
+  archive.value(looks_for_folds_);
   folds_.persist(archive);
   if (!archive.reads()) return;
   constexpr double kAny = std::numeric_limits<double>::infinity();

@@ -7,6 +7,7 @@
 
 #include "math/archive.h"
 #include "solver/thread/thread_bodies.h"
+#include "tools/restored_tools.h"
 
 namespace viscera {
 
@@ -157,6 +158,7 @@ void Watch::persist(Archive& archive) {
   OpenTick tick = open_.value_or(OpenTick{});
   layout::TickStats stats = tick.stats.value_or(layout::TickStats{});
   archive.value(tick.motions);
+  requireModes(archive, tick.motions);
   archive.value(tick.recovering);
   archive.value(tick.undone);
   archive.value(tick.long_substeps);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "math/archive.h"
+#include "solver/tissue/restored_nodes.h"
 
 namespace viscera {
 
@@ -120,6 +121,7 @@ void CpuLattice::persist(Archive& archive) {
     archive.values(state.velocity[i]);
   }
   archive.values(store.nodes);
+  if (archive.reads()) requireNodesOf(store.whole_nodes, store.bodies, store.nodes, archive);
   archive.section("cuts");
   std::vector<float> spring_cut = links.spring_cut;
   archive.values(spring_cut);

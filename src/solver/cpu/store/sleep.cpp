@@ -98,6 +98,21 @@ void Sleep::persist(Archive& archive) {
   archive.value(moving_bricks_);
   archive.value(since_look_s_);
   archive.value(substeps_since_look_);
+  if (archive.reads()) requireListed(archive);
+}
+
+/// Bricks are awake or not, and the list is of those that are. @throws Error
+void Sleep::requireListed(const Archive& archive) const {
+  std::vector<uint32_t> listed;
+  for (uint32_t b = 0; b < is_awake_.size(); ++b) {
+    const bool flags = moves_[b] <= 1 && is_awake_[b] <= 1 && changed_[b] <= 1;
+    if (!flags) archive.require(false, "brick " + std::to_string(b) + " has a flag that is neither 0 nor 1");
+    if (is_awake_[b]) listed.push_back(b);
+  }
+  archive.require(listed == awake_, "the list of bricks that are awake is not of those that are marked as awake");
+  archive.require(substeps_since_look_ >= 0 && substeps_since_look_ < kSubsteps,
+                  std::to_string(substeps_since_look_) + " substeps since the last look; 0 .. " +
+                      std::to_string(kSubsteps - 1) + " are accepted");
 }
 
 void Sleep::restart() {

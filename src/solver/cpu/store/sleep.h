@@ -42,6 +42,7 @@ class Sleep {
   void persist(Archive& archive);
 
  private:
+  void requireListed(const Archive& archive) const;
   void look(CpuLattice& lattice, const std::vector<float>& speed2);
   void list(CpuLattice& lattice);
   void freeze(CpuLattice& lattice, uint32_t brick);

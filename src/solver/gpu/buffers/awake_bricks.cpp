@@ -3,6 +3,7 @@
 #include "solver/gpu/buffers/awake_bricks.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "gpu/archive.h"
 #include "gpu/limits.h"
@@ -176,10 +177,44 @@ void AwakeBricks::slept(const Substep& step) {
   if (isLook(step)) restart();
 }
 
+/// @param here  what they are in this scene   @throws Error  they are others
+void AwakeBricks::requireBricks(const Archive& archive, const std::vector<layout::SleepingBrick>& here) const {
+  const std::vector<layout::SleepingBrick> read = bricks_.read();
+  for (size_t b = 0; b < here.size(); ++b) {
+    const layout::SleepingBrick &is = read[b], &was = here[b];
+    const bool same = is.kind <= layout::kNeverSleeps && is.first_node == was.first_node &&
+                      is.node_count == was.node_count && is.first_cell == was.first_cell &&
+                      is.cell_count == was.cell_count;
+    if (!same) archive.require(false, "brick " + std::to_string(b) + " is not of this tissue");
+    if (is.awake > 1) archive.require(false, "brick " + std::to_string(b) + " is neither awake nor asleep");
+  }
+}
+
+/// A list, into an archive or out of it. @param items  that it may have, of slots below `slots`   @throws Error
+void AwakeBricks::persistList(Archive& archive, gpu::RawBuffer& list, size_t slots) {
+  gpu::persist(archive, list);
+  if (!archive.reads() || list.bytes() == 0) return;
+  std::vector<uint32_t> words(list.bytes() / sizeof(uint32_t));
+  list.read(0, list.bytes(), words.data());
+  layout::AwakeList head;
+  std::memcpy(&head, words.data(), sizeof head);
+  constexpr size_t kHead = sizeof head / sizeof(uint32_t);
+  archive.require(head.count <= words.size() - kHead, "more is listed as awake than there is");
+  const uint32_t groups = (head.count + group_size_ - 1) / group_size_;
+  archive.require(head.groups_x <= std::max(1U, groups) && head.groups_y <= std::max(1U, groups) && head.groups_z <= 1,
+                  "more is dispatched than is listed as awake");
+  archive.require(std::all_of(words.begin() + kHead, words.begin() + kHead + head.count,
+                              [slots](uint32_t slot) { return slot < slots; }),
+                  "what is listed as awake is not there");
+}
+
 void AwakeBricks::persist(Archive& archive) {
+  const std::vector<layout::SleepingBrick> here = bricks_.read();
   gpu::persist(archive, bricks_);
-  gpu::persist(archive, nodes_);
-  gpu::persist(archive, cells_);
+  if (archive.reads()) requireBricks(archive, here);
+  const size_t slots = bricks_.size() * layout::kBrickSlots;
+  persistList(archive, nodes_, slots);
+  persistList(archive, cells_, slots);
   archive.value(all_);
   archive.value(listed_);
   archive.value(since_look_s_);

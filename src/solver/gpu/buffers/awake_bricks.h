@@ -54,6 +54,8 @@ class AwakeBricks {
   std::vector<uint8_t> awake() const;
 
  private:
+  void requireBricks(const Archive& archive, const std::vector<layout::SleepingBrick>& here) const;
+  void persistList(Archive& archive, gpu::RawBuffer& list, size_t slots);
   bool isLook(const Substep& step);
   void run(const gpu::Program& program);
 

@@ -7,6 +7,7 @@
 #include "layout/bindings.h"
 #include "layout/edge_forces.h"
 #include "solver/tissue/joined_lattice.h"
+#include "solver/tissue/restored_nodes.h"
 
 namespace viscera {
 
@@ -36,6 +37,14 @@ void StoreBuffers::bind() const {
 
 void StoreBuffers::reset() {
   nodes.write(whole_nodes_);
+}
+
+void StoreBuffers::persistNodes(Archive& archive) {
+  std::vector<layout::NodeBits> bits = archive.reads() ? whole_nodes_ : nodes.read();
+  archive.values(bits);
+  if (!archive.reads()) return;
+  requireNodesOf(whole_nodes_, bodies.read(), bits, archive);
+  nodes.write(bits);
 }
 
 namespace {
@@ -222,7 +231,7 @@ void LatticeBuffers::persist(Archive& archive) {
     gpu::persist(archive, state.velocity[i]);
   }
   if (state.compensation.size()) gpu::persist(archive, state.compensation);
-  gpu::persist(archive, store.nodes);
+  store.persistNodes(archive);
   archive.section("cuts");
   std::vector<float> spring_cut = links.spring_cut.read();
   archive.values(spring_cut);

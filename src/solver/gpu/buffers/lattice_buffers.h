@@ -22,6 +22,8 @@ struct StoreBuffers {
   StoreBuffers(const Model& model, const std::vector<layout::BodyParams>& bodies, const FeatureSet& features);
   void bind() const;
   void reset();
+  /// @throws Error  the nodes of a saved state are not of this tissue
+  void persistNodes(Archive& archive);
 
   size_t active_count, slot_count;
   gpu::Buffer<uint32_t> active;            ///< [active]
