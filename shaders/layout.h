@@ -9,7 +9,6 @@
 #include "layout/edge_forces.h"
 #include "layout/edge_nodes.h"
 #include "layout/moments.h"
-#include "layout/multigrid.h"
 #include "layout/network_skin.h"
 #include "layout/overlay.h"
 #include "layout/surface_node.h"

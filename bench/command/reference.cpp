@@ -46,7 +46,6 @@ class Comparison {
  private:
   static Scene ungoverned(Scene scene) {
     scene.solver.governor = false;
-    if (scene.solver.integrator == Integrator::kAuto) scene.solver.integrator = Integrator::kLeapfrog;  // as truthOf()
     return scene;
   }
   gpu::Context context_;

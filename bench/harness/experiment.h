@@ -28,8 +28,6 @@ struct Method {
   int iterations = 1;  ///< per substep, of those who iterate
 
   bool iterates() const { return traitsOf(integrator).iterates; }  ///< as often as it says
-  /// Is it measured on a backend?
-  bool runsOn(Backend backend) const { return backend == Backend::kCpu || !traitsOf(integrator).prefers_cpu; }
   /// Gathers over all nodes per tick: what an explicit substep and an implicit iteration cost alike.
   int sweeps() const { return substeps * (iterates() ? iterations : 1); }
   bool operator==(const Method& other) const {

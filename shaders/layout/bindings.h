@@ -96,16 +96,6 @@ const uint kBindAwakeNodes = 77u;         // AwakeList, then uint[active]: slots
 const uint kBindAwakeCells = 78u;         // AwakeList, then uint[cells]: slots of the lowest corners of cells around these
 const uint kBindWindow = 79u;             // vec4[]: what it sees of them, or does
 const uint kBindEdgeNodes = kBindPositions;  // count, uint[kMostEdgeNodes] slots, vec4[2 * kMostEdgeNodes]: of leapfrog, see edges.comp
-// Integrator multigrid (layout/multigrid.h), which knows no collisions: OpenGL on the processor has 80 numbers
-const uint kBindStepVectors = kBindBuckets;  // vec4[kStepVectors * slots]
-const uint kBindSystemVectors = kBindUnsorted;  // vec4[kSystemVectors * slots]
-const uint kBindTangents = kBindEntries;  // uvec2[9 * slots]: of even springs, see multigrid_springs.glsl
-const uint kBindCellTangents = kBindEntriesBefore;  // vec4[3 * slots]: of cells, see multigrid_cell_tangents.glsl
-const uint kBindTouched = kBindContacts;  // vec4[kTouchedVectors * slots]
-const uint kBindSums = kBindCorrections;  // MultigridScalars, then dvec4[kSumsRows]
-const uint kBindCoarseVectors = kBindPairs;  // vec4[3 * nodes] of every coarse level: right side, solution, change
-const uint kBindCoarseMatrices = kBindSortItems;  // vec4[]: blocks of 3x3 in columns, see multigrid_coarse.comp
-const uint kBindCoarseGraph = kBindRanks;  // uint[]: rows of these, and who takes from whom
 
 // Texture units: buffers seen through texel fetches. OpenGL promises 16 of them.
 const uint kUnitDisplacement = 0u;  // rgba32f, as kBindDisplacementIn

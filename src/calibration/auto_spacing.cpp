@@ -136,8 +136,7 @@ Scene withChosenSpacing(const Scene& asked, const gpu::Context* context, const P
                         const std::optional<StepTime>& known) {
   const std::vector<size_t> chosen = autoBodies(asked);
   if (chosen.empty()) return asked;
-  Scene scene = asked;  // an integrator that is chosen later is never slower than leapfrog
-  if (scene.solver.integrator == Integrator::kAuto) scene.solver.integrator = Integrator::kLeapfrog;
+  Scene scene = asked;
   if (progress) progress("measure this machine", 0);
   const UndividedBodies bodies(scene);
   const Model others = bodies.others();

@@ -42,7 +42,6 @@ Json metricsOf(const Session& session, const layout::TickStats& stats, const std
   RunMetrics metrics{session.scene().name, session.model()};
   metrics.springs_cut = stats.springs_cut;
   metrics.substeps = counters.substeps;
-  metrics.work = counters.work;
   metrics.dt_s = session.solver().dt_s();
   metrics.dt_safe_s = session.solver().dtSafe_s();
   metrics.dt_limit_s = session.solver().dtLimit_s();

@@ -15,10 +15,6 @@ nlohmann::ordered_json toJson(const RunMetrics& metrics) {
   out["springs_cut"] = metrics.springs_cut;
   out["faces"] = metrics.model.skinTriangles();
   out["steps"] = metrics.substeps;
-  if (metrics.work.systems > 0) {
-    out["solver_systems"] = metrics.work.systems;
-    out["solver_iterations"] = metrics.work.iterations;
-  }
   out["dt_s"] = metrics.dt_s;
   out["dt_safe_s"] = metrics.dt_safe_s;
   out["dt_limit_s"] = metrics.dt_limit_s;

@@ -5,7 +5,7 @@
 
 #include "cli/commands.h"
 #include "cli/scene_lookup.h"
-#include "solver/multigrid/steps/equilibrium.h"
+#include "solver/cpu/equilibrium.h"
 #include "viscera/math/state_hash.h"
 #include "viscera/solver/solver.h"
 
@@ -20,15 +20,10 @@ int settle(const RunOptions& options) {
   out["scene"] = scene.name;
   out["nodes"] = model.activeNodes();
   out["residual"] = report.residual;
-  out["last_change"] = report.last_change;
+  out["left"] = report.left;
   out["settled"] = report.settled;
-  out["newton_steps"] = report.newton;
-  out["iterations"] = report.iterations;
-  out["forces"] = report.forces;
-  out["products"] = report.products;
-  out["work_units"] = report.forces + report.products;
+  out["substeps"] = report.substeps;
   out["solve_s"] = report.seconds;
-  out["build_s"] = report.build_s;
   out["max_displacement_m"] = report.largest_m;
   out["state_hash"] = StateHash::text(stateHash(model, state));
   std::cout << out.dump() << '\n';

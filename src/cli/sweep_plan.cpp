@@ -8,7 +8,7 @@
 
 #include "cli/scene_lookup.h"
 #include "math/nearest_names.h"
-#include "model/scene/yaml_reader.h"
+#include "model/scene/yaml/yaml_reader.h"
 #include "viscera/math/error.h"
 
 namespace viscera::cli {

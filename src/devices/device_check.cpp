@@ -13,7 +13,7 @@
 
 #include "devices/millimetres.h"
 #include "math/number_text.h"
-#include "model/scene/yaml_overrides.h"
+#include "model/scene/yaml/yaml_overrides.h"
 
 namespace viscera {
 namespace {

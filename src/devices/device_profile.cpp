@@ -10,8 +10,8 @@
 #include "devices/registration_file.h"
 #include "math/number_text.h"
 #include "model/scene/key_table.h"
-#include "model/scene/yaml_overrides.h"
-#include "model/scene/yaml_reader.h"
+#include "model/scene/yaml/yaml_overrides.h"
+#include "model/scene/yaml/yaml_reader.h"
 
 namespace viscera {
 

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "math/out_file.h"
-#include "model/scene/yaml_reader.h"
+#include "model/scene/yaml/yaml_reader.h"
 
 namespace viscera {
 namespace {

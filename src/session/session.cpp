@@ -63,10 +63,10 @@ Session::Session(const Scene& scene, gpu::Context* context, const Progress& prog
       tools_(scene.styluses, handLimits(*model_, scene.solver.tick_hz)),
       obstacles_(scene.obstacles, waveSpeed(*model_) / scene.solver.tick_hz),
       pose_times_(kNotedTicks) {
-  std::string integrator;
+  std::string note;
   if (progress) progress("start the solver", 0);
-  solver_ = makeSolver(*model_, scene_, context, options.threads, &integrator);
-  backend_note_ = viscera::backendNote(scene_, context, *solver_, integrator);
+  solver_ = makeSolver(*model_, scene_, context, options.threads, &note);
+  backend_note_ = viscera::backendNote(scene_, context, *solver_, note);
   if (progress) progress("prepare pictures", 0);
   view_ = makeView(*solver_, *model_, scene_, context);
   lookAtObstacles();
@@ -374,7 +374,6 @@ Counters Session::counters() const {
   static_cast<ViewCounters&>(out) = view_->counters();
   out.ticks = ticks_;
   out.substeps = solver_->substepsDone();
-  out.work = solver_->work();
   return out;
 }
 

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/make_solver.h"
 
+#include "math/number_text.h"
 #include "model/fracture/tearing.h"
 #include "model/fracture/toughness.h"
 #include "model/scene/integrators.h"
+#include "model/scene/tool_kinds.h"
 #include "solver/cpu/cpu_solver.h"
+#include "solver/cpu/equilibrium.h"
 #include "solver/gpu/gpu_solver.h"
-#include "solver/integrator_choice.h"
-#include "solver/multigrid/steps/equilibrium.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 
@@ -32,21 +33,35 @@ std::unique_ptr<Ticks> ticksOf(const Model& model, const Scene& scene, Backend b
   return std::make_unique<CpuSolver>(model, scene, options);
 }
 
+/// What a person should know of probes that only leapfrog stops between nodes; empty where all are as wide as cells.
+std::string thinProbeNote(const Model& model, const Scene& scene) {
+  if (scene.solver.integrator == Integrator::kLeapfrog) return "";
+  double spacing_m = 0;
+  for (const Body& body : model.bodies)
+    spacing_m = std::max(spacing_m, body.network ? body.network->meanLength() : body.lattice.spacing_m);
+  for (const StylusConfig& stylus : scene.styluses) {
+    if (!mayPush(stylus) || stylus.probe.radius_m >= spacing_m) continue;
+    return std::string(traitsOf(scene.solver.integrator).name) + "'s probes meet nodes alone, and probe.radius_m of '" +
+           stylus.name + "', " + numberText(stylus.probe.radius_m, 3) + " m, is less than a spacing, " +
+           numberText(spacing_m, 3) + " m";
+  }
+  return "";
+}
+
 }  // namespace
 
 Backend chooseBackend(const Scene& scene, const gpu::Context* context) {
   const SolverConfig& config = scene.solver;
   if (config.backend != Backend::kAuto) return config.backend;
-  if (traitsOf(config.integrator).prefers_cpu || resistsBlades(scene) || tears(scene)) return Backend::kCpu;
+  if (resistsBlades(scene) || tears(scene)) return Backend::kCpu;
   return !context || context->isSoftware() ? Backend::kCpu : Backend::kGpu;
 }
 
 std::string backendNote(const Scene& scene, const gpu::Context* context, const Solver& solver,
-                        const std::string& choice) {
+                        const std::string& note) {
   const SolverConfig& config = scene.solver;
-  const std::string taken = (choice.empty() ? "" : "integrator: " + choice + "; ") + solver.backend();
+  const std::string taken = (note.empty() ? "" : "integrator: " + note + "; ") + solver.backend();
   if (config.backend != Backend::kAuto) return taken + ", as solver.backend asks";
-  if (traitsOf(config.integrator).prefers_cpu) return taken + ", as solver.integrator is measured on the CPU only";
   if (resistsBlades(scene))
     return taken + ", as tissue that resists blades (material.cut) would have a GPU waited for in every substep";
   if (tears(scene)) return taken + ", as only there tissue tears (material.tear)";
@@ -56,23 +71,12 @@ std::string backendNote(const Scene& scene, const gpu::Context* context, const S
 }
 
 std::unique_ptr<Solver> makeSolver(const Model& model, const Scene& scene, const gpu::Context* context,
-                                   const std::shared_ptr<ThreadPool>& threads, std::string* choice) {
+                                   const std::shared_ptr<ThreadPool>& threads, std::string* note) {
   const Backend backend = chooseBackend(scene, context);
   if (backend != Backend::kCpu && !context)
     throw GpuError("solver.backend: gpu needs an OpenGL context, and there is none: use cpu or auto");
-  const auto tell = [&](const std::string& reason, Integrator integrator) {
-    const std::string note = thinProbeNote(model, scene, integrator);
-    if (choice) *choice = reason + (reason.empty() || note.empty() ? "" : "; ") + note;
-  };
-  if (scene.solver.integrator != Integrator::kAuto) {
-    tell("", scene.solver.integrator);
-    return started(ticksOf(model, scene, backend, threads), model, scene, threads);
-  }
-  const IntegratorChoice found = chooseIntegrator(model, scene, backend, threads);
-  tell(found.reason, found.integrator);
-  Scene chosen = scene;
-  chosen.solver.integrator = found.integrator;
-  return started(ticksOf(model, chosen, backend, threads), model, chosen, threads);
+  if (note) *note = thinProbeNote(model, scene);
+  return started(ticksOf(model, scene, backend, threads), model, scene, threads);
 }
 
 }  // namespace viscera

@@ -21,15 +21,15 @@ class Context;
 Backend chooseBackend(const Scene& scene, const gpu::Context* context);
 
 /// One line for a person: which backend steps the tissue, and why.
-/// @param choice  that makeSolver() told
+/// @param note  that makeSolver() gave
 std::string backendNote(const Scene& scene, const gpu::Context* context, const Solver& solver,
-                        const std::string& choice = {});
+                        const std::string& note = {});
 
 /// The solver on the backend that the scene asks for. @param model  must outlive it
 /// @throws GpuError  the scene asks for the GPU, and there is no context
 /// @param threads  of the CPU backend, shared with others; null: solver.threads of its own
-/// @param choice   where solver.integrator is auto, which integrator steps and why; and thinProbeNote()
+/// @param note     set to what a person should know of the integrator; empty: nothing
 std::unique_ptr<Solver> makeSolver(const Model& model, const Scene& scene, const gpu::Context* context,
-                                   const std::shared_ptr<ThreadPool>& threads = nullptr, std::string* choice = nullptr);
+                                   const std::shared_ptr<ThreadPool>& threads = nullptr, std::string* note = nullptr);
 
 }  // namespace viscera

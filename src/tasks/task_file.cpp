@@ -4,7 +4,7 @@
 
 #include "math/number_text.h"
 #include "model/scene/key_table.h"
-#include "model/scene/yaml_reader.h"
+#include "model/scene/yaml/yaml_reader.h"
 #include "tasks/task_fields.h"
 
 namespace viscera {

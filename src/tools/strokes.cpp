@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "math/memory_for.h"
-#include "model/scene/yaml_reader.h"
+#include "model/scene/yaml/yaml_reader.h"
 #include "tools/stroke_samples.h"
 #include "viscera/math/error.h"
 

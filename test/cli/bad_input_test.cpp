@@ -54,11 +54,10 @@ TEST_F(BadInput, SceneThatIsNotThere) {
                 {folder_.file("none.yaml")});
 }
 
-TEST_F(BadInput, WhatAnIntegratorHasNot) {
-  for (const std::string backend : {"cpu", "gpu"})
-    expectRunRefusal({"--set", "solver.integrator=multigrid", "--set", "solver.backend=" + backend, "--set",
-                      "collision.enabled=true"},
-                     {"solver.integrator: multigrid", "collision.enabled"});
+TEST_F(BadInput, IntegratorsThatWereRemoved) {
+  for (const std::string integrator : {"multigrid", "auto"})
+    expectRunRefusal({"--set", "solver.integrator=" + integrator},
+                     {"'solver.integrator: " + integrator + "' was removed", "use leapfrog"});
   expectRefusal({"settle", folder_.file("none.yaml")}, {folder_.file("none.yaml")});
 }
 

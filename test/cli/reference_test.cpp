@@ -143,14 +143,6 @@ TEST_F(BenchReference, RefusesWhatRunRefuses) {
   EXPECT_TRUE(says(refusal({"--set", "bodies[0].spacing=1"}), {"override", "'bodies[0].spacing'"}));
 }
 
-TEST_F(BenchReference, SolvesImplicitEulerForPdAndMultigrid) {
-  const auto hashOf = [&](const std::string& integrator) {
-    return lastLine(reference(
-        {"--seconds", "0.05", "--set", "solver.integrator=" + integrator, "--set", "solver.substeps=4"}))["state_hash"];
-  };
-  EXPECT_EQ(hashOf("pd"), hashOf("multigrid"));
-}
-
 bool resistsBlades(const std::filesystem::path& scene) {
   const std::vector<BodyConfig> bodies = loadScene(scene.string()).bodies;
   return std::any_of(bodies.begin(), bodies.end(),

@@ -73,7 +73,6 @@ class Saved : public GpuTest, public ::testing::WithParamInterface<std::tuple<St
 INSTANTIATE_TEST_SUITE_P(All, Saved,
                          ::testing::Combine(::testing::Values(Steps{"leapfrog", Integrator::kLeapfrog},
                                                               Steps{"pd", Integrator::kPd},
-                                                              Steps{"multigrid", Integrator::kMultigrid},
                                                               Steps{"verlet_paper", Integrator::kVerletPaper}),
                                             ::testing::Values(Backend::kCpu, Backend::kGpu)),
                          [](const auto& info) {
@@ -96,12 +95,6 @@ TEST_P(Saved, GoesOnToTheSameEndWhileCutTissueIsPushedAndPulled) {
   expectSameEnd(scene(), cutAndPull, kCutTicks + 5, 3 * kCutTicks);
 }
 
-/// Multigrid builds its levels again some ticks after a cut: before, on the way and after it.
-TEST_P(Saved, GoesOnToTheSameEndLongAfterACut) {
-  if (std::get<0>(GetParam()).integrator != Integrator::kMultigrid) GTEST_SKIP() << "others keep nothing of old cuts";
-  for (const int after : {25, 35, 50}) expectSameEnd(scene(), cutAndPull, after, 60);
-}
-
 TEST_P(Saved, GoesOnToTheSameEndAmongMovingThings) {
   if (std::get<0>(GetParam()).integrator == Integrator::kVerletPaper) GTEST_SKIP() << "knows no surroundings";
   Scene scene = Saved::scene();
@@ -114,7 +107,7 @@ TEST_P(Saved, GoesOnToTheSameEndAmongMovingThings) {
   scene.obstacles = {ball};
   scene.environment.wind.velocity_m_per_s = Vector3d(3, 0, 0);
   scene.environment.wind.gust_ratio = 0.5;
-  scene.collision.enabled = std::get<0>(GetParam()).integrator != Integrator::kMultigrid;
+  scene.collision.enabled = true;
   expectSameEnd(scene, cutAndPull, kCutTicks + 3, 2 * kCutTicks);
 }
 

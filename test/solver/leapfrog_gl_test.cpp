@@ -40,19 +40,9 @@ class Integrate : public OnBackend {
   }
 };
 
-class Unchosen : public OnBackend {};
-
 INSTANTIATE_TEST_SUITE_P(Backends, Integrate, ::testing::ValuesIn(backendNames()), backendSuffix);
-INSTANTIATE_TEST_SUITE_P(Backends, Unchosen, ::testing::ValuesIn(backendKinds()), backendSuffix);
 
 }  // namespace
-
-TEST_P(Unchosen, AutoIsNoStepperOfItsOwn) {
-  const Model model = modelOf({blobBody(3, 0.01, 3)});
-  Scene scene = sceneFor(model, kSubsteps);
-  scene.solver.integrator = Integrator::kAuto;
-  EXPECT_THROW(make(model, scene), SceneError);
-}
 
 TEST_P(Integrate, MatchesReferenceAtEverySize) {
   for (size_t size : kSizes) {

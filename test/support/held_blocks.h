@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Blocks that integrator multigrid is tested with.
+// Blocks that hang from one face.
 #pragma once
 
 #include "solver/make_solver.h"

@@ -59,8 +59,6 @@ std::vector<Method> methods(const Tissue& tissue, bool short_form) {
       out.push_back({Integrator::kPd, substeps, iterations});
     }
   }
-  for (int substeps : short_form ? std::vector<int>{1, 4} : std::vector<int>{1, 2, 4, 8, 16, 32})
-    out.push_back({Integrator::kMultigrid, substeps});
   out.push_back({Integrator::kLeapfrog, substepsOf(tissue, kMeasured)});
   return out;
 }

@@ -115,8 +115,6 @@ std::vector<Method> methods(const Experiment& experiment, bool short_form) {
       out.push_back(method);
     }
   }
-  for (int substeps : short_form ? std::vector<int>{1} : std::vector<int>{1, 2, 4})
-    out.push_back({Integrator::kMultigrid, substeps});
   return out;
 }
 

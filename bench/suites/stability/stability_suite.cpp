@@ -105,11 +105,9 @@ class Trials {
               {}};
     Worst stable, above;
     for (const IntegratorTraits& traits : kIntegrators) {
-      if (traits.integrator == Integrator::kAuto) continue;  // one of the others
       // Software rasterisers take long to compile implicit integrators' shaders for cells by moments.
       const bool by_moments = hasMoments(model_) && backend == Backend::kGpu;
       if (report_.isShort() && by_moments && !traits.is_explicit) continue;
-      if (traits.prefers_cpu && backend == Backend::kGpu) continue;
       report_.stage("starts, " + nameOf(traits.integrator) + ", " + nameOf(backend));
       for (double ratio : ratios) {
         const bool promised = !traits.own_positions && (!traits.is_explicit || ratio <= 1);

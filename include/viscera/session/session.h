@@ -31,7 +31,6 @@ class SessionLog;
 /// Work done since the start, for diagnostics. With a view on a thread of its own, its part is that of what was ready.
 struct Counters : ViewCounters {
   uint64_t ticks = 0, substeps = 0;
-  SolverWork work;
 };
 
 /// The worst since the start or the last reset.

@@ -23,11 +23,6 @@ class Burns;
 class ThreadBodies;
 struct ThreadPull;
 
-/// Of integrators that solve to a tolerance, since the solver was made.
-struct SolverWork {
-  uint64_t systems = 0, iterations = 0;  ///< linear systems; iterations of all of them
-};
-
 /// What a stylus's blade did to tissue that resists it (material.cut, docs/cutting.md).
 struct BladeWork {
   double area_m2 = 0;    ///< parted since the last reset, at rest
@@ -70,7 +65,6 @@ class Solver {
   virtual double dtLimit_s() const { return dtSafe_s(); }
   virtual int substeps() const = 0;           ///< per tick, in calm states
   virtual uint64_t substepsDone() const = 0;  ///< since the solver was made
-  virtual SolverWork work() const { return {}; }
   /// @param stylus  < kMaxStyluses
   virtual BladeWork bladeWork(uint32_t /*stylus*/) const { return {}; }
   /// What a stylus gave threads and needles in the tick that pollStats() was last told of.

@@ -7,18 +7,15 @@
 // stationary point of the incremental potential
 //   P(du) = sum of m (1 + gamma dt)/(2 dt^2) |du - y|^2 + E(u + du) + sum of c/(2 dt) (n . (du_far - du_near))^2
 // increment.w is 1 where du is prescribed: fixed, sleeping and held nodes; -1 where the node has contacts (implicit_contact.glsl), -2
-// where it may touch other nodes (implicit_pairs.glsl). Feature NO_SWEEPS: who includes it has none (multigrid).
+// where it may touch other nodes (implicit_pairs.glsl).
 #ifndef __cplusplus
 layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
-#ifndef NO_SWEEPS
 // Word 0: float bits of the share of y that the iterations start from, in the end of the share of du that was taken. Then two
 // words per iteration of pd: float bits of its largest change; 1 if acceleration was given up by then.
 layout(std430, binding = kBindGuard) buffer GuardBuffer { uint guard[]; };
 #endif
-#endif
 
-#ifndef NO_SWEEPS
 uint changeWord(uint iteration) { return 1u + 2u * iteration; }
 uint plainWord(uint iteration) { return 2u + 2u * iteration; }
 
@@ -28,7 +25,6 @@ float reach(float h, uint iteration) {
   const float longest = 0.1f, shortest = 1e-3f;
   return iteration == 0u ? longest * h : clamp(2.0f * uintBitsToFloat(guard[changeWord(iteration - 1u)]), shortest * h, longest * h);
 }
-#endif
 
 bool isPrescribed(vec4 du) { return du.w > 0.0f; }
 bool isInContact(vec4 du) { return du.w < 0.0f; }

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "model/scene/integrators.h"
-#include "model/scene/yaml_reader.h"
+#include "model/scene/yaml/yaml_reader.h"
 #include "viscera/math/error.h"
 
 namespace viscera {

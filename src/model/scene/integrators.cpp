@@ -15,8 +15,7 @@ double stableFraction(Integrator integrator, double dashpot_ratio) {
 }
 
 SceneError notStepped(Integrator integrator, const std::string& by) {
-  return SceneError("solver.integrator: " + by + " knows no '" + traitsOf(integrator).name +
-                    "' ('auto' is for makeSolver() to choose, 'multigrid' has a class of its own)");
+  return SceneError("solver.integrator: " + by + " knows no '" + traitsOf(integrator).name + "'");
 }
 
 }  // namespace viscera

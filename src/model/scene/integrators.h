@@ -21,20 +21,16 @@ struct IntegratorTraits {
   bool iterates;           ///< solver.iterations says how often a substep goes over the nodes
   bool lets_bricks_sleep;  ///< steps only bricks that move
   bool compensates;        ///< can sum u and v with Kahan's compensation
-  bool steps_ticks;        ///< solves to a tolerance: a tick is one substep, unless solver.substeps says otherwise
-  bool prefers_cpu;        ///< solver.backend: auto takes the CPU, where alone it was measured
   bool takes_edge_forces;  ///< can take forces of explicit connections edge by edge (solver.spring_forces)
 };
 
-/// By the value of the enum. Of `auto`, which makeSolver() makes leapfrog or multigrid, what leapfrog needs is asked.
+/// By the value of the enum.
 // clang-format off
-constexpr std::array<IntegratorTraits, 5> kIntegrators = {{
-    //                                        explicit dashpot stagger shorten own_pos iterate sleep  compens ticks  cpu    edges
-    {Integrator::kLeapfrog, "leapfrog",         true,  true,  true,  true,  false, false, true,  true,  false, false, true},
-    {Integrator::kVerletPaper, "verlet_paper",  true,  false, false, false, true,  false, false, false, false, false, false},
-    {Integrator::kPd, "pd",                     false, false, false, false, false, true,  false, false, false, false, false},
-    {Integrator::kMultigrid, "multigrid",       false, false, false, false, false, false, false, false, true,  true,  false},
-    {Integrator::kAuto, "auto",                  true,  true,  true,  true,  false, false, true,  true,  false, false, true},
+constexpr std::array<IntegratorTraits, 3> kIntegrators = {{
+    //                                        explicit dashpot stagger shorten own_pos iterate sleep  compens edges
+    {Integrator::kLeapfrog, "leapfrog",         true,  true,  true,  true,  false, false, true,  true,  true},
+    {Integrator::kVerletPaper, "verlet_paper",  true,  false, false, false, true,  false, false, false, false},
+    {Integrator::kPd, "pd",                     false, false, false, false, false, true,  false, false, false},
 }};
 // clang-format on
 

@@ -9,7 +9,7 @@
 
 #include "math/number_text.h"
 #include "model/scene/scene_fields.h"
-#include "model/scene/yaml_reader.h"
+#include "model/scene/yaml/yaml_reader.h"
 
 namespace viscera {
 

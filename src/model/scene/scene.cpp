@@ -11,8 +11,8 @@
 #include "model/scene/file_bounds.h"
 #include "model/scene/integrators.h"
 #include "model/scene/structure_rules.h"
-#include "model/scene/yaml_overrides.h"
-#include "model/scene/yaml_reader.h"
+#include "model/scene/yaml/yaml_overrides.h"
+#include "model/scene/yaml/yaml_reader.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -166,16 +166,16 @@ void requireNeedles(const std::string& file, const Scene& scene) {
 /// Clips are on tissue whose substeps can be told afterwards.
 void requireClips(const std::string& file, const Scene& scene) {
   const Integrator integrator = scene.solver.integrator;
-  if (mayClip(scene.styluses) && (integrator == Integrator::kVerletPaper || integrator == Integrator::kMultigrid))
-    throw SceneError(file + ": a stylus with mode clip needs solver.integrator leapfrog, pd or auto, not " +
+  if (mayClip(scene.styluses) && integrator == Integrator::kVerletPaper)
+    throw SceneError(file + ": a stylus with mode clip needs solver.integrator leapfrog or pd, not " +
                      traitsOf(integrator).name);
 }
 
 /// Burnt tissue pulls after substeps: beside an implicit one it would be too strong.
 void requireBurns(const std::string& file, const Scene& scene) {
   const Integrator integrator = scene.solver.integrator;
-  if (mayBurn(scene.styluses) && integrator != Integrator::kLeapfrog && integrator != Integrator::kAuto)
-    throw SceneError(file + ": a stylus with mode cautery needs solver.integrator leapfrog or auto, not " +
+  if (mayBurn(scene.styluses) && integrator != Integrator::kLeapfrog)
+    throw SceneError(file + ": a stylus with mode cautery needs solver.integrator leapfrog, not " +
                      traitsOf(integrator).name);
 }
 
@@ -203,9 +203,9 @@ void requireConsistent(const std::string& file, const Scene& scene) {
   for (const ThreadConfig& thread : scene.threads) {
     requireThread(file, thread);
     const Integrator integrator = scene.solver.integrator;
-    if (thread.feelsTissue() && (integrator == Integrator::kVerletPaper || integrator == Integrator::kMultigrid))
+    if (thread.feelsTissue() && integrator == Integrator::kVerletPaper)
       throw SceneError(file + ": thread '" + thread.name +
-                       "': 'channels' and 'needle' need solver.integrator leapfrog, pd or auto, not " +
+                       "': 'channels' and 'needle' need solver.integrator leapfrog or pd, not " +
                        traitsOf(integrator).name);
     requireNeedle(file, thread);
   }

@@ -334,15 +334,12 @@ inline Choices<Integrator> namesOfIntegrators() {
 template <class V>
 void visitFields(V& v, SolverConfig& c) {
   v.number("tick_hz", c.tick_hz, {1, 1000}, "Hz", "ticks per second: tools, forces and surface follow at this rate");
+  v.choice("integrator", c.integrator, namesOfIntegrators(),
+           "leapfrog: explicit, order 2; verlet_paper: as VR05 and GW print it; pd: implicit Euler");
   v.choice(
-      "integrator", c.integrator, namesOfIntegrators(),
-      "leapfrog: explicit, order 2; verlet_paper: as VR05 and GW print it; pd: implicit Euler; "
-      "multigrid: implicit, a step per tick, for stiff and nearly incompressible lattices without contacts between "
-      "nodes; auto: leapfrog or, on the CPU backend, multigrid, whichever is measured to be faster here");
-  v.choice("start", c.start, {{"rest", SolverStart::kRest}, {"equilibrium", SolverStart::kEquilibrium}},
-           "the state that it begins in: all at rest, or as it hangs in its weight and the forces on bodies, without "
-           "obstacles, "
-           "wind and tools; implicit lattices that are held");
+      "start", c.start, {{"rest", SolverStart::kRest}, {"equilibrium", SolverStart::kEquilibrium}},
+      "the state that it begins in: all at rest, or in equilibrium with its weight and the forces on bodies, without "
+      "obstacles, wind, contacts and tools; every body has fixed nodes");
   v.number("dt_fraction", c.dt_fraction, {0.01, 1000}, "1",
            "substep over the largest stable one; leapfrog with a dashpot of ratio xi needs less than "
            "sqrt(1 + xi^2) - xi");

@@ -16,7 +16,7 @@
 #include "math/number_text.h"
 #include "math/one_line.h"
 #include "math/out_file.h"
-#include "model/scene/yaml_reader.h"
+#include "model/scene/yaml/yaml_reader.h"
 #include "nodes/hands/device_choice.h"
 #include "nodes/hands/device_subscribers.h"
 #include "nodes/ros/conversions.h"

@@ -140,8 +140,6 @@ void SimulatorDiagnostics::simulation(Status& status) {
   status.add("wound_slivers", now_->counters.wound_slivers);
   status.add("ticks", now_->counters.ticks);
   status.add("substeps", now_->counters.substeps);
-  status.add("solver_systems", now_->counters.work.systems);
-  status.add("solver_iterations", now_->counters.work.iterations);
   status.add("mappings", now_->counters.mappings);
   status.add("renders", now_->counters.renders);
   status.add("read_backs", now_->counters.readbacks);

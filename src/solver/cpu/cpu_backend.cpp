@@ -58,9 +58,8 @@ CpuBackend::CpuBackend(const Model& model, const Scene& scene, const TickPlan& p
   if (features_.network) network_ = std::make_unique<CpuNetwork>(lattice_, pool_, features_, kernels_);
   if (plan.surroundings) surroundings_.emplace(model, scene, lattice_, pool_);
   if (solvesContacts(scene)) pairs_ = std::make_unique<CpuNodePairs>(model, scene, lattice_, pool_);
-  stepper_ = makeCpuStepper(
-      config_.integrator, config_.iterations, lattice_,
-      {pool_, sleep_, network_.get(), features_, kernels_, pairs_.get(), plan.tick_s / plan.substeps.calm, &model});
+  stepper_ = makeCpuStepper(config_.integrator, config_.iterations, lattice_,
+                            {pool_, sleep_, network_.get(), features_, kernels_, pairs_.get()});
   work_->stats.resize(bricks());
   work_->changed.reserve(bricks());
   if (resistsBlades(scene)) {
@@ -167,7 +166,6 @@ void CpuBackend::cutWith(const layout::ToolMotion& motion, bool particles, const
   cut_->tearCells(lattice_);
   springs_cut_ += springs;
   if (springs == 0) return;
-  stepper_->springsChanged();
   for (uint32_t brick : cut_->bricks()) sleep_.wake(brick);
 }
 
@@ -183,7 +181,6 @@ void CpuBackend::tear() {
   if (springs == 0) return;
   springs_cut_ += springs;
   torn_ = true;
-  stepper_->springsChanged();
   for (const uint32_t brick : tearing_->bricks()) sleep_.wake(brick);
 }
 
@@ -281,7 +278,6 @@ void CpuBackend::changeAll() {
   lattice_.state.displacement[1 - lattice_.state.current] = lattice_.state.displacement[lattice_.state.current];
   lattice_.state.velocity[1 - lattice_.state.current] = lattice_.state.velocity[lattice_.state.current];
   stepper_->restart();
-  stepper_->springsChanged();
   if (network_) network_->restart(lattice_);
   if (surroundings_) surroundings_->restart();
   if (pairs_) pairs_->restart();

@@ -38,7 +38,6 @@ class CpuBackend : public SolverBackend {
   ~CpuBackend() override;
 
   std::string name() const override;  ///< such as "cpu (AVX3, 2 threads)"
-  SolverWork work() const override { return stepper_->work(); }
   size_t awakeBricks() const;          ///< in the last substep
   std::vector<uint8_t> awake() const;  ///< [bricks] 1 where awake
   size_t bricks() const { return lattice_.brickCount(); }

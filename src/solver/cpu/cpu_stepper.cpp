@@ -3,7 +3,6 @@
 #include "solver/cpu/store/cpu_stepper.h"
 
 #include "model/scene/integrators.h"
-#include "solver/cpu/cpu_multigrid.h"
 #include "solver/cpu/steps/cpu_device.h"
 #include "solver/cpu/steps/leapfrog.h"
 #include "solver/cpu/steps/verlet_paper.h"
@@ -19,12 +18,8 @@ std::unique_ptr<CpuStepper> makeCpuStepper(Integrator integrator, int iterations
     case Integrator::kPd:
       return std::make_unique<PdStepper<CpuDevice>>(CpuDevice(lattice, parts.parallel, parts.pairs),
                                                     PdOptions{iterations});
-    case Integrator::kMultigrid:
-      return std::make_unique<CpuMultigrid>(*parts.model, lattice, parts);
     case Integrator::kLeapfrog:
       return std::make_unique<CpuLeapfrog>(lattice, parts);
-    case Integrator::kAuto:
-      break;
   }
   throw notStepped(integrator, "makeCpuStepper()");
 }

@@ -16,7 +16,6 @@
 #include "model/scene/integrators.h"
 #include "model/scene/tool_kinds.h"
 #include "solver/cpu/store/sleep.h"
-#include "solver/gpu/steps/multigrid_pass.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 #include "viscera/solver/material.h"
@@ -45,10 +44,8 @@ GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& p
       pairs_(solvesContacts(scene) ? std::make_unique<NodePairs>(model, scene, features_, buffers_) : nullptr),
       awake_(makeAwakeBricks(model, scene, plan, features_, buffers_)),
       rest_(model, awake_ && !features_.network && plan.tick_s < Sleep::kQuiet_s && !pushesAfterSubsteps(scene)),
-      stepper_(scene.solver.integrator == Integrator::kMultigrid
-                   ? std::make_unique<MultigridPass>(model, scene, plan, features_, buffers_)
-                   : makeStepper(scene.solver.integrator, scene.solver.iterations, features_, buffers_, pairs_.get(),
-                                 awake_.get())),
+      stepper_(makeStepper(scene.solver.integrator, scene.solver.iterations, features_, buffers_, pairs_.get(),
+                           awake_.get())),
       measure_(features_, buffers_.store.active_count),
       has_springs_(std::isfinite(plan.dt_safe_s) && plan.dt_safe_s > 0),
       stats_ring_(sizeof(layout::TickStats) + sizeof(layout::AwakeList), kStatsInFlight, "the measurements of a tick") {
@@ -159,7 +156,6 @@ void GpuBackend::cut(uint32_t stylus, bool particles) {
 void GpuBackend::cutBut(uint32_t spared, uint32_t stylus, bool particles) {
   const gpu::TimedStage timed(gpu::Stage::kCut);
   tools_->cut.run(buffers_, stylus, particles, spared);
-  stepper_->springsChanged();
   if (awake_) awake_->wakeCut(stylus);
 }
 
@@ -312,7 +308,6 @@ void GpuBackend::resetState() {
   foreign_ = false;
   buffers_.reset();
   stepper_->restart();
-  stepper_->springsChanged();
   wakeAll();
   if (awake_) awake_->restart();
   if (surroundings_) surroundings_->restart();
@@ -322,7 +317,6 @@ void GpuBackend::resetState() {
 void GpuBackend::loadState(const HostState& state) {
   foreign_ = true;
   stepper_->restart();
-  stepper_->springsChanged();
   buffers_.state.displacement[buffers_.state.current].write(state.displacement_m);
   buffers_.state.velocity[buffers_.state.current].write(state.velocity_m_per_s);
   buffers_.store.nodes.write(state.nodes);

@@ -42,7 +42,6 @@ class GpuBackend final : public SolverBackend {
   GpuBackend(const Model& model, const Scene& scene, const TickPlan& plan, const GpuSolverOptions& options = {});
 
   std::string name() const override { return "gpu"; }
-  SolverWork work() const override { return stepper_->work(); }
   uint64_t waits() const { return stats_ring_.waits(); }  ///< of the host for measurements, see GpuSolver
 
   std::vector<uint8_t> awake() const;  ///< see GpuSolver

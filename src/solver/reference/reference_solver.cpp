@@ -56,10 +56,8 @@ ReferenceIntegrator truthOf(Integrator integrator) {
     case Integrator::kVerletPaper:
       return ReferenceIntegrator::kVerletPaper;
     case Integrator::kPd:
-    case Integrator::kMultigrid:
       return ReferenceIntegrator::kImplicitEuler;
     case Integrator::kLeapfrog:
-    case Integrator::kAuto:
       return ReferenceIntegrator::kLeapfrog;
   }
   throw notStepped(integrator, "truthOf()");

@@ -25,7 +25,6 @@ class Archive;
 class SolverBackend : public ToolTarget, public BladeTarget {
  public:
   virtual std::string name() const = 0;  ///< for a person, such as "gpu"
-  virtual SolverWork work() const { return {}; }
 
   /// States that are kept for rollbacks, one per good tick; with them those of lag() ticks not judged yet.
   static constexpr int kGoodStates = 4;

@@ -40,7 +40,6 @@ class Ticks : public Solver {
   double dtLimit_s() const final { return dt_limit_s_ > 0 ? dt_limit_s_ : dt_safe_s_; }
   int substeps() const final { return substeps_.calm; }
   uint64_t substepsDone() const final { return substeps_done_; }
-  SolverWork work() const final { return backend_->work(); }
   BladeWork bladeWork(uint32_t stylus) const final { return blades_ ? blades_->done(stylus) : BladeWork{}; }
   using Solver::threads;
   ThreadBodies* threads() final { return threads_.get(); }

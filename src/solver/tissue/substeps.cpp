@@ -48,7 +48,6 @@ SubstepPlan planSubsteps(const Model& model, const SolverConfig& config, double 
     if (!allow_unstable) requireStable(model, config, dt_safe_s);
     return {config.substeps, config.substeps};
   }
-  if (traitsOf(config.integrator).steps_ticks) return {1, 1};
   SubstepPlan plan;
   plan.calm = plan.strained = count(config, config.dt_fraction, dt_safe_s);
   const bool shortens = config.governor && traitsOf(config.integrator).shortens;

@@ -20,9 +20,8 @@ struct Way {
   Integrator integrator;
   double fraction;  ///< of dt_safe
 };
-constexpr Way kWays[] = {{Integrator::kLeapfrog, 0.5}, {Integrator::kPd, 2},        {Integrator::kPd, 5},
-                         {Integrator::kPd, 10},        {Integrator::kMultigrid, 2}, {Integrator::kMultigrid, 10},
-                         {Integrator::kMultigrid, 40}};
+constexpr Way kWays[] = {
+    {Integrator::kLeapfrog, 0.5}, {Integrator::kPd, 2}, {Integrator::kPd, 5}, {Integrator::kPd, 10}};
 constexpr int kIterations = 20;  // the default: what is at rest is the solution, however few
 
 class ImplicitContact : public OnBackend {

@@ -163,7 +163,7 @@ TEST(CpuLattice, IsAtRestAfterReset) {
   EXPECT_EQ(lattice.hands.touched[0], 0);
 }
 
-TEST(CpuLattice, StoreAndStrengthsStandWithoutAState) {  // as a level of a multigrid has them
+TEST(CpuLattice, StoreAndStrengthsStandWithoutAState) {
   const Model model = twoBodies();
   const CpuLattice lattice = latticeOf(model);
   CpuStore store(model, bodyParams(model, safeTimeStep(model)));

@@ -17,8 +17,7 @@ namespace {
 
 constexpr int kTicks = 5, kMost = 7;
 constexpr double kThreadsJoinAndLeaveSpacing_m = 0.004;
-constexpr Integrator kAllIntegrators[] = {Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kPd,
-                                          Integrator::kMultigrid};
+constexpr Integrator kAllIntegrators[] = {Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kPd};
 
 /// A block held at its bottom, with energy of volume and a dashpot.
 Model heldBlock() {

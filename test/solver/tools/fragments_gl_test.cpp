@@ -116,8 +116,7 @@ class HeldFragments : public OnSolver {
 };
 
 INSTANTIATE_TEST_SUITE_P(Backends, HeldFragments,
-                         solversUnderTest({Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kPd,
-                                           Integrator::kMultigrid}),
+                         solversUnderTest({Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kPd}),
                          solverSuffix);
 
 }  // namespace

@@ -31,7 +31,7 @@ enum class Fill {
   kParts,    ///< the inside of each of its parts
   kEnclosed  ///< what all of them enclose together, gaps closed
 };
-enum class Integrator { kLeapfrog, kVerletPaper, kPd, kMultigrid, kAuto };
+enum class Integrator { kLeapfrog, kVerletPaper, kPd };
 /// What a simulation begins with: everything at rest, or hanging in its weight.
 enum class SolverStart { kRest, kEquilibrium };
 enum class Backend { kAuto, kGpu, kCpu };

@@ -28,13 +28,9 @@ class CpuStepper {
   virtual void run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) = 0;
   /// The state was written from outside: sums of rounding errors start at 0. (substep.h says of a new start in time.)
   virtual void restart() {}
-  /// Springs were cut, or are whole again.
-  virtual void springsChanged() {}
   /// What substeps to come depend on beside the lattice (Solver::persist()).
   /// @param lattice  may be another one's afterwards, where it is read: the caller's goes next
   virtual void persist(Archive& /*archive*/, CpuLattice& /*lattice*/) {}
-  /// Since it was made.
-  virtual SolverWork work() const { return {}; }
 };
 
 /// What integrators work with besides the lattice. All of it must outlive them.
@@ -45,11 +41,9 @@ struct CpuParts {
   const FeatureSet& features;
   const simd::Kernels& kernels;
   CpuNodePairs* pairs = nullptr;  ///< contacts between nodes within an implicit substep; null: none
-  double dt_s = 0;                ///< of substeps in calm states, for what is built for one
-  const Model* model = nullptr;   ///< of the lattice; multigrid needs it while it is made
 };
 
-/// Leapfrog and multigrid: SIMD kernels. pd and verlet_paper: the text of their shaders, compiled as C++.
+/// Leapfrog: SIMD kernels. pd and verlet_paper: the text of their shaders, compiled as C++.
 /// @param iterations  of pd   @param lattice  that it will be run on
 /// @throws SceneError  what the integrator cannot step
 std::unique_ptr<CpuStepper> makeCpuStepper(Integrator integrator, int iterations, CpuLattice& lattice,

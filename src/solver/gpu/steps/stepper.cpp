@@ -19,9 +19,6 @@ std::unique_ptr<Stepper> makeStepper(Integrator integrator, int iterations, cons
       return std::make_unique<PdStepper<GpuDevice>>(GpuDevice(features, buffers, pairs), PdOptions{iterations});
     case Integrator::kLeapfrog:
       return std::make_unique<LeapfrogPass>(features, awake);
-    case Integrator::kMultigrid:
-    case Integrator::kAuto:
-      break;
   }
   throw notStepped(integrator, "makeStepper()");
 }

@@ -25,18 +25,14 @@ class Stepper {
   virtual void run(LatticeBuffers& buffers, const Substep& step) = 0;
   /// The state was written from outside.
   virtual void restart() {}
-  /// Springs may have been cut, or are whole again.
-  virtual void springsChanged() {}
   /// What substeps to come depend on beside the lattice's buffers (Solver::persist()).
   virtual void persist(Archive& /*archive*/) {}
-  /// Since it was made.
-  virtual SolverWork work() const { return {}; }
 };
 
-/// The kernels of an integrator other than multigrid (MultigridPass), compiled. @param iterations  of pd
+/// The kernels of an integrator, compiled. @param iterations  of pd
 /// @param pairs  contacts between nodes within an implicit substep; null: none
 /// @param awake  of leapfrog: steps only these, and says when they were; null: steps all. Must outlive the stepper
-/// @throws GpuError with file, line and the driver's log   @throws SceneError  multigrid, auto
+/// @throws GpuError with file, line and the driver's log
 std::unique_ptr<Stepper> makeStepper(Integrator integrator, int iterations, const FeatureSet& features,
                                      const LatticeBuffers& buffers, const NodePairs* pairs = nullptr,
                                      AwakeBricks* awake = nullptr);

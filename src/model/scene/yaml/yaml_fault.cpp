@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/scene/yaml_fault.h"
+#include "model/scene/yaml/yaml_fault.h"
 
 #include <vector>
 

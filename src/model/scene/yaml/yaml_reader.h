@@ -13,7 +13,7 @@
 #include "math/number_text.h"
 #include "model/scene/scene_fields.h"
 #include "model/scene/tissue_presets.h"
-#include "model/scene/yaml_fault.h"
+#include "model/scene/yaml/yaml_fault.h"
 
 namespace viscera {
 
@@ -73,6 +73,7 @@ class YamlReader {
       }
       accepted.emplace_back(n.name);
     }
+    if (node.IsScalar()) failIfRemoved(key, node);
     fail(key, node, "is one of " + nearestFirstText(node.IsScalar() ? node.Scalar() : "", accepted));
   }
   template <class E>
@@ -124,6 +125,8 @@ class YamlReader {
   void requireList(const char* key, const YAML::Node& node, double max_count) const;
   std::string child(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
   YAML::Node keyNode(const std::string& key) const;
+  /// @throws SceneError  the value was accepted once: says what to write instead
+  void failIfRemoved(const std::string& key, const YAML::Node& node) const;
   [[noreturn]] void fail(const std::string& key, const YAML::Node& node, const std::string& accepted) const;
 
   const YAML::Node map_;

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "model/scene/yaml_reader.h"
+#include "model/scene/yaml/yaml_reader.h"
 
 namespace viscera {
 

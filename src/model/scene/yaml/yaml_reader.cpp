@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/scene/yaml_reader.h"
+#include "model/scene/yaml/yaml_reader.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +11,7 @@
 #include "math/memory_for.h"
 #include "math/nearest_names.h"
 #include "math/out_file.h"
+#include "model/scene/yaml/removed_keys.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -99,6 +100,12 @@ YAML::Node YamlReader::keyNode(const std::string& key) const {
 void YamlReader::fail(const std::string& key, const YAML::Node& node, const std::string& accepted) const {
   const YAML::Node place = node.IsNull() ? keyNode(key) : node;  // an empty value has the line of what comes after it
   throw SceneError(whereIs(source_, child(key), place) + "'" + child(key) + "' " + accepted + "; found " + shown(node));
+}
+
+void YamlReader::failIfRemoved(const std::string& key, const YAML::Node& node) const {
+  const std::string note = removedNote(child(key), node.Scalar());
+  if (!note.empty())
+    throw SceneError(whereIs(source_, child(key), node) + "'" + child(key) + ": " + node.Scalar() + "' " + note);
 }
 
 double YamlReader::scalar(const char* key, const YAML::Node& node, Range range, const std::string& unit,
@@ -224,6 +231,8 @@ void YamlReader::finish() const {
   for (const auto& entry : map_) {
     const std::string key = entry.first.Scalar();
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+    const std::string note = removedNote(child(key));
+    if (!note.empty()) throw SceneError(whereIs(source_, child(key), entry.first) + "'" + child(key) + "' " + note);
     throw UnknownKeyError(whereIs(source_, child(key), entry.first) + "unknown key '" + child(key) +
                           "'; accepted here: " + nearestFirstText(key, known_));
   }

@@ -1,0 +1,287 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/cpu/equilibrium.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "solver/contact/surroundings.h"
+#include "solver/cpu/cpu_backend.h"
+#include "solver/cpu/steps/network.h"
+#include "solver/ticks/stable_step.h"
+#include "viscera/math/error.h"
+#include "viscera/solver/material.h"
+
+namespace viscera {
+
+namespace {
+
+/// Substep over the longest stable one of tissue at rest: over the proven bound, and over what was measured of
+/// lattices. Strained tissue has faster motions (docs/stability.md); a relaxation that diverges starts again.
+constexpr double kOfSafe = 0.75, kOfMeasured = 0.68;
+constexpr double kShorter = 0.6;  ///< substep of the next attempt over that of the last
+constexpr int kAttempts = 5;
+constexpr double kDiverged = 1e3;  ///< residual over the load
+constexpr int kMostSubsteps = 100000;
+constexpr int kWindow = 32;  ///< substeps over which the slowest motion is looked at
+/// Substeps in a row that must be settled: what swings is slow at its turning points.
+constexpr int kCalm = 8;
+/// `left` where rounding leaves more than kSettled of the forces.
+constexpr double kLeftAtMost = kLeft / 3;
+/// Motion that float32 does not resolve, over the spacing.
+constexpr double kUnresolved = 1e-7;
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void requireHeld(const Model& model) {
+  for (const Body& body : model.bodies) {
+    const Lattice& lattice = body.lattice;
+    const bool held = std::any_of(lattice.active_slots.begin(), lattice.active_slots.end(),
+                                  [&lattice](uint32_t slot) { return isFixed(lattice.nodes[slot]); });
+    if (!held)
+      throw SceneError("body '" + body.name + "' is held nowhere: it has no equilibrium. Give it 'fixed' nodes");
+  }
+}
+
+/// The scene with its tissue and its load alone.
+Scene tissueOf(const Scene& scene) {
+  Scene out = scene;
+  out.styluses.clear();
+  out.obstacles.clear();
+  out.environment.wind = {};
+  out.collision.enabled = false;
+  out.solver.integrator = Integrator::kLeapfrog;
+  out.solver.governor = false;
+  return out;
+}
+
+double substepOf_s(const Model& model, const Scene& tissue, const std::shared_ptr<ThreadPool>& threads) {
+  const double proven_s = kOfSafe * safeTimeStep(model);
+  if (!std::all_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.hasCells(); }))
+    return proven_s;
+  CpuSolverOptions options;
+  options.threads = threads;
+  options.allow_unstable = true;
+  CpuBackend backend(model, tissue, planTicks(model, tissue, options), options);
+  return std::max(proven_s, kOfMeasured * measureLimit_s(backend, model));
+}
+
+/// Bodies without drag and dashpots: the drag of a relaxation is another in every substep.
+std::vector<layout::BodyParams> undamped(std::vector<layout::BodyParams> bodies) {
+  for (layout::BodyParams& body : bodies) body.drag_per_s = body.dashpot_s = 0;
+  return bodies;
+}
+
+FeatureSet featuresToSettle(const Model& model, const Scene& tissue, double dt_s) {
+  FeatureSet features = featuresOf(model, tissue, dt_s);
+  features.dashpot = features.predicted = false;
+  return features;
+}
+
+double meanSpacing_m(const Model& model) {
+  double sum = 0;
+  for (const Body& body : model.bodies) sum += body.lattice.spacing_m;
+  return sum / static_cast<double>(model.bodies.size());
+}
+
+/// Sums over nodes, of mass times ...
+struct Sums {
+  double speed2 = 0;  ///< squared velocity [kg m2/s2]
+  double size2 = 0;   ///< squared displacement [kg m2]
+  double way2 = 0;    ///< squared displacement since the reference [kg m2]
+  double pull = 0;    ///< -that . acceleration since the reference [kg m2/s2]
+  double force2 = 0;  ///< squared force [N2]; without the mass
+};
+
+/// Leapfrog with the drag that dampens critically what moves slowest.
+class Relaxation {
+ public:
+  Relaxation(const Model& model, const Scene& tissue, double dt_s, const ThreadPool& pool)
+      : dt_s_(dt_s),
+        features_(featuresToSettle(model, tissue, dt_s_)),
+        lattice_(model, undamped(bodyParams(model, dt_s_)), features_),
+        sleep_(lattice_, 0),
+        parallel_(pool),
+        gravity_(tissue.environment.gravity_m_per_s2.cast<float>()),
+        influences_(bodyInfluences(model, tissue)),
+        reference_u_(3 * lattice_.slotCount()),
+        reference_a_(3 * lattice_.slotCount()),
+        parts_(lattice_.brickCount()) {
+    const simd::Kernels kernels = *simd::kernelsFor({});
+    if (features_.network) network_ = std::make_unique<CpuNetwork>(lattice_, pool, features_, kernels);
+    stepper_ = makeCpuStepper(Integrator::kLeapfrog, 0, lattice_, {pool, sleep_, network_.get(), features_, kernels});
+    for (const layout::vec4& a : influences_) pushed_ = pushed_ || a.x != 0 || a.y != 0 || a.z != 0;
+    for (const uint32_t slot : lattice_.store.active) {
+      if (lattice_.strengths.mobility[slot] <= 0) continue;
+      const double mass_kg = static_cast<double>(lattice_.strengths.mass[slot]);
+      mass_kg_ += mass_kg;
+      load_n_ += std::pow(mass_kg * static_cast<double>((gravity_ + influenceOn(slot)).norm()), 2);
+    }
+    load_n_ = std::sqrt(load_n_);
+    unresolved2_ = mass_kg_ * std::pow(kUnresolved * meanSpacing_m(model), 2);
+  }
+
+  /// @returns false if the substep proved too long
+  bool run(SettleReport& report) {
+    int calm = 0, next = 1;
+    for (int s = 0; s < kMostSubsteps && calm < kCalm; ++s, ++report.substeps) {
+      // The reference is replaced at substeps 1, 3, 7, 15 ..., then every kWindow substeps.
+      const bool renews = s == next;
+      if (renews) next += std::min(next + 1, kWindow);
+      const Sums sums = substep(s == 0, renews);
+      if (s == 0) load_n_ = std::max(load_n_, std::sqrt(sums.force2));
+      report.residual = load_n_ > 0 ? std::sqrt(sums.force2) / load_n_ : 0;
+      if (!(report.residual < kDiverged)) return false;
+      if (renews && sums.way2 > 0) rate2_ = std::max(0.0, sums.pull / sums.way2);
+      calm = isSettled(sums, report) ? calm + 1 : 0;
+    }
+    report.settled = calm == kCalm;
+    return true;
+  }
+
+  /// @returns displacements of the nodes, velocities 0
+  HostState state() const {
+    HostState out = lattice_.read();
+    std::fill(out.velocity_m_per_s.begin(), out.velocity_m_per_s.end(), layout::vec4{0, 0, 0, 0});
+    return out;
+  }
+
+  double largest_m() const {
+    float largest = 0;
+    for (const uint32_t slot : lattice_.store.active)
+      largest = std::max(largest, planesAt(lattice_.state.displacement[lattice_.state.current].data(), slot).norm());
+    return static_cast<double>(largest);
+  }
+
+ private:
+  bool isSettled(const Sums& sums, SettleReport& report) const {
+    if (sums.speed2 == 0) report.left = 0;
+    if (sums.speed2 == 0 || rate2_ == 0) return sums.speed2 == 0;
+    const double way2 = sums.speed2 / rate2_;  // what is left of a critically damped motion, mass times squared length
+    report.left = sums.size2 > 0 ? std::sqrt(way2 / sums.size2) : 1;
+    if (way2 <= unresolved2_) return true;
+    return report.left <= kLeft && (report.residual <= kSettled || report.left <= kLeftAtMost) &&
+           report.residual <= kLargestResidual;
+  }
+
+  Vector3f influenceOn(uint32_t slot) const {
+    const layout::vec4& a = influences_[lattice_.store.nodes[slot].hi >> layout::kBodyShift];
+    return {a.x, a.y, a.z};
+  }
+
+  /// @param renews  the substep begins at the next reference
+  Sums substep(bool first, bool renews) {
+    // Leapfrog: v' = ((1 - g) v + kick a) / (1 + g), g = drag kick / 2; the drag is 2 omega of the slowest motion.
+    const auto drag_per_s = static_cast<float>(2 * std::sqrt(rate2_));
+    for (layout::BodyParams& body : lattice_.store.bodies) body.drag_per_s = drag_per_s;
+    Substep step;
+    step.dt_s = static_cast<float>(dt_s_);
+    step.kick_s = first ? 0.5F * step.dt_s : step.dt_s;
+    step.gravity = gravity_;
+    step.sleep_distance_m = std::numeric_limits<float>::max();
+    step.restarted = first;
+    const float g = 0.5F * drag_per_s * step.kick_s;
+    stepper_->run(lattice_, step, nullptr);
+    lattice_.swap();
+    if (pushed_) push(step, g);
+    return sum(step.kick_s, g, renews);
+  }
+
+  /// Adds what the forces on bodies give in a substep.
+  void push(const Substep& step, float g) {
+    float* u = lattice_.state.displacement[lattice_.state.current].data();
+    float* v = lattice_.state.velocity[lattice_.state.current].data();
+    for (const uint32_t slot : lattice_.store.active) {
+      if (lattice_.strengths.mobility[slot] <= 0) continue;
+      const Vector3f more = step.kick_s / (1 + g) * influenceOn(slot);
+      setPlanes(v, slot, planesAt(v, slot) + more);
+      setPlanes(u, slot, planesAt(u, slot) + step.dt_s * more);
+    }
+  }
+
+  Sums sum(float kick_s, float g, bool renews) {
+    constexpr Portions kBricks{4, 64};
+    parallel_.ranges(lattice_.brickCount(), kBricks, [&](size_t first, size_t end) {
+      for (size_t brick = first; brick < end; ++brick) parts_[brick] = sumBrick(brick, kick_s, g, renews);
+    });
+    Sums out;
+    for (const Sums& part : parts_) {
+      out.speed2 += part.speed2;
+      out.size2 += part.size2;
+      out.way2 += part.way2;
+      out.pull += part.pull;
+      out.force2 += part.force2;
+    }
+    return out;
+  }
+
+  /// Accelerations are those at the beginning of the substep, and so are displacements.
+  Sums sumBrick(size_t brick, float kick_s, float g, bool renews) {
+    const CpuState& state = lattice_.state;
+    const float* mass = &lattice_.strengths.mass[brick * layout::kBrickSlots];
+    const size_t at = 3 * layout::kBrickSlots * brick;
+    const float *u = &state.displacement[1 - state.current][at], *before = &state.velocity[1 - state.current][at];
+    const float* after = &state.velocity[state.current][at];
+    float *reference_u = &reference_u_[at], *reference_a = &reference_a_[at];
+    float speed2 = 0, size2 = 0, way2 = 0, pull = 0, force2 = 0;
+    for (size_t k = 0; k < 3 * layout::kBrickSlots; ++k) {
+      const float m = mass[k % layout::kBrickSlots];
+      const float a = ((1 + g) * after[k] - (1 - g) * before[k]) / kick_s, way = u[k] - reference_u[k];
+      speed2 += m * after[k] * after[k];
+      size2 += m * u[k] * u[k];
+      way2 += m * way * way;
+      pull -= m * way * (a - reference_a[k]);
+      force2 += m * a * m * a;
+      if (renews) {
+        reference_u[k] = u[k];
+        reference_a[k] = a;
+      }
+    }
+    return {speed2, size2, way2, pull, force2};
+  }
+
+  double dt_s_;
+  FeatureSet features_;
+  CpuLattice lattice_;
+  Sleep sleep_;
+  const Parallel& parallel_;
+  Vector3f gravity_;
+  std::vector<layout::vec4> influences_;
+  /// [3 * slots] displacement [m] and acceleration [m/s2] of a substep before, from which the stiffness is seen that
+  /// the motion meets: over many substeps, since rounding is as large as what changes in one.
+  AlignedVector<float> reference_u_, reference_a_;
+  std::vector<Sums> parts_;  ///< [bricks]
+  std::unique_ptr<CpuNetwork> network_;
+  std::unique_ptr<CpuStepper> stepper_;
+  bool pushed_ = false;
+  double mass_kg_ = 0, load_n_ = 0, unresolved2_ = 0;
+  double rate2_ = 0;  ///< squared angular frequency of what moves slowest [1/s2], by Rayleigh's quotient
+};
+
+}  // namespace
+
+HostState equilibriumOf(const Model& model, const Scene& scene, SettleReport& report,
+                        const std::shared_ptr<ThreadPool>& threads) {
+  requireHeld(model);
+  report = {};
+  const std::shared_ptr<ThreadPool> pool = threads ? threads : makeThreadPool(scene.solver.threads);
+  const Scene tissue = tissueOf(scene);
+  const auto start = std::chrono::steady_clock::now();
+  double dt_s = substepOf_s(model, tissue, pool);
+  for (int attempt = 0; attempt < kAttempts; ++attempt, dt_s *= kShorter) {
+    Relaxation relaxation(model, tissue, dt_s, *pool);
+    if (!relaxation.run(report)) continue;
+    report.seconds = secondsSince(start);
+    report.largest_m = relaxation.largest_m();
+    if (!report.settled) break;
+    return relaxation.state();
+  }
+  throw Error("no equilibrium was found after " + std::to_string(report.substeps) +
+              " substeps: what is not balanced is " + std::to_string(report.residual) + " of the load");
+}
+
+}  // namespace viscera
