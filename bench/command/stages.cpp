@@ -8,6 +8,7 @@
 #include "gpu/stage_clock.h"
 #include "session/inline_view.h"
 #include "solver/gpu/gpu_solver.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::bench {
 

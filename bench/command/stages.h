@@ -6,6 +6,10 @@
 
 #include "viscera/model/model.h"
 
+namespace viscera {
+struct Scene;
+}
+
 namespace viscera::bench {
 
 /// Heads the columns of printStages().

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/overrides.h"
 
 namespace viscera::bench {
 

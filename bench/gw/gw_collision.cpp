@@ -9,6 +9,7 @@
 #include "model/shape/mesh/plain_meshes.h"
 #include "solver/cpu/steps/surroundings.h"
 #include "solver/reference/collision.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::bench {
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/harness/specimens/block.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::bench {
 

@@ -10,6 +10,7 @@
 #include "surface/follow/state_mirror.h"
 #include "surface/surface.h"
 #include "viscera/model/model.h"
+#include "viscera/model/scene/body_config.h"
 #include "viscera/model/shape/triangle_mesh.h"
 
 namespace viscera::bench {

@@ -8,7 +8,7 @@
 
 #include "bench/harness/plot.h"
 #include "bench/harness/table.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/solver_config.h"
 
 namespace viscera::gpu {
 class Context;

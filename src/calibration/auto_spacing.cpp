@@ -13,6 +13,7 @@
 #include "solver/ticks/stable_step.h"
 #include "solver/tissue/substeps.h"
 #include "viscera/gpu/context.h"
+#include "viscera/model/scene/scene.h"
 #include "viscera/solver/governor.h"
 #include "viscera/solver/material.h"
 

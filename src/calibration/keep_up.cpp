@@ -9,6 +9,7 @@
 #include "math/number_text.h"
 #include "viscera/math/error.h"
 #include "viscera/model/body/spacing_choice.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "viscera/model/scene/scene.h"
-
 namespace viscera {
+
+struct Scene;
 
 /// Does a session keep up whose lattices were made as fine as this machine was found to step (`spacing_m: auto`)? If
 /// not, as other load has come since: which spacing would. Any thread.

@@ -10,6 +10,7 @@
 #include "solver/make_solver.h"
 #include "solver/tissue/substeps.h"
 #include "viscera/gpu/context.h"
+#include "viscera/model/scene/scene.h"
 #include "viscera/solver/material.h"
 #include "viscera/tools/hands.h"
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "viscera/model/model.h"
+#include "viscera/model/scene/solver_config.h"
 #include "viscera/solver/solver.h"
 
 namespace viscera {

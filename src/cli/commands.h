@@ -9,7 +9,6 @@
 #include "export/exporter.h"
 #include "model/scan/labels.h"
 #include "model/scan/window.h"
-#include "viscera/model/scene/scene.h"
 
 namespace viscera::cli {
 

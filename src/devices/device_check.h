@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "devices/device_profile.h"
+#include "viscera/model/scene/overrides.h"
 
 namespace viscera {
 

@@ -6,7 +6,8 @@
 
 #include "viscera/math/error.h"
 #include "viscera/math/types.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/overrides.h"
+#include "viscera/model/scene/stylus_config.h"
 
 namespace viscera {
 

@@ -10,6 +10,7 @@
 #include "render/mesh_uniforms.h"
 #include "render/shapes/obstacle_shape.h"
 #include "render/vertex_array.h"
+#include "viscera/model/scene/environment_config.h"
 
 namespace viscera {
 

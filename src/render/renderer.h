@@ -15,6 +15,7 @@
 #include "render/render_target.h"
 #include "render/seen_target.h"
 #include "surface/surface.h"
+#include "viscera/model/scene/environment_config.h"
 #include "viscera/render/camera.h"
 #include "viscera/render/shown_thread.h"
 #include "viscera/tools/stylus.h"

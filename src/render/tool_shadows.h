@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "viscera/model/scene/camera_config.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {

@@ -13,6 +13,7 @@
 #include "model/scene/tool_kinds.h"
 #include "render/overlay_painter.h"
 #include "session/thread_looks.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

@@ -19,6 +19,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 /// A view that lives on the thread that made it: queues its work on the GPU and never waits for it unless asked to.
 class InlineView : public View {
  public:

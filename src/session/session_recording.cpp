@@ -7,6 +7,7 @@
 #include "model/scene/scene_yaml.h"
 #include "session/state_file.h"
 #include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {

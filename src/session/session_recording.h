@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "math/archive.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/overrides.h"
 
 namespace viscera {
+
+struct Scene;
 
 // What chunks of a recording hold, to memory and back.
 

@@ -5,6 +5,7 @@
 #include "model/scene/tool_kinds.h"
 #include "solver/thread/needle_shape.h"
 #include "solver/thread/thread_shape.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "render/thread_painter.h"
-#include "viscera/model/scene/scene.h"
 
 namespace viscera {
+
+struct Scene;
 
 /// How the threads of a scene are drawn: in their own width, and the colour of their material. Behind them needles, and
 /// clips where a stylus sets them.

@@ -11,6 +11,7 @@
 #include "session/inline_view.h"
 #include "surface/follow/state_mirror.h"
 #include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

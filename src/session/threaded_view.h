@@ -12,6 +12,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 class InlineView;
 class StateMirror;
 

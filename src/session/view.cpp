@@ -8,6 +8,7 @@
 #include "session/host_view.h"
 #include "session/inline_view.h"
 #include "session/threaded_view.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

@@ -10,6 +10,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 namespace gpu {
 class Context;
 }

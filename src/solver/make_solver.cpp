@@ -12,6 +12,7 @@
 #include "solver/gpu/gpu_solver.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

@@ -5,10 +5,13 @@
 #include <memory>
 #include <string>
 
+#include "viscera/model/scene/solver_config.h"
 #include "viscera/solver/solver.h"
 #include "viscera/solver/threads.h"
 
 namespace viscera {
+
+struct Scene;
 
 namespace gpu {
 class Context;

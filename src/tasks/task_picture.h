@@ -3,7 +3,7 @@
 #pragma once
 
 #include "tasks/task.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/camera_config.h"
 #include "viscera/session/frame.h"
 
 namespace viscera {

@@ -4,7 +4,7 @@
 
 #include "viscera/layout/tool_motion.h"
 #include "viscera/math/types.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/stylus_config.h"
 
 namespace viscera {
 

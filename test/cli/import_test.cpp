@@ -13,6 +13,7 @@
 #include "support/text.h"
 #include "viscera/layout/picture_labels.h"
 #include "viscera/model/model.h"
+#include "viscera/model/scene/scene.h"
 #include "viscera/model/shape/mesh_import.h"
 #include "viscera/model/shape/triangle_mesh.h"
 

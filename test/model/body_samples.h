@@ -6,6 +6,7 @@
 #include "mesh_samples.h"
 #include "viscera/math/error.h"
 #include "viscera/model/model.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::test {
 

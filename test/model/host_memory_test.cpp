@@ -11,6 +11,7 @@
 #include "support/temporary_folder.h"
 #include "support/text.h"
 #include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
 
 using namespace viscera;
 

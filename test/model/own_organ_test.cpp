@@ -9,6 +9,7 @@
 #include "solid_probe.h"
 #include "viscera/model/body/elasticity.h"
 #include "viscera/model/model.h"
+#include "viscera/model/scene/scene.h"
 #include "viscera/model/shape/mesh_import.h"
 
 namespace viscera::test {

@@ -12,6 +12,7 @@
 #include "support/text.h"
 #include "viscera/math/error.h"
 #include "viscera/model/model.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 namespace {

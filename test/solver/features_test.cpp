@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "support/lattices.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 namespace {

@@ -8,6 +8,7 @@
 #include "support/backends.h"
 #include "support/implicit.h"
 #include "support/networks.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::test {
 

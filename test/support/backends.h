@@ -13,6 +13,7 @@
 #include "solver/cpu/cpu_solver.h"
 #include "solver/gpu/gpu_solver.h"
 #include "support/gpu_fixture.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::test {
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "solver/tissue/features.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::test {
 

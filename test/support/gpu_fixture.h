@@ -13,6 +13,7 @@
 #include "solver/reference/reference_solver.h"
 #include "support/lattices.h"
 #include "viscera/gpu/context.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::test {
 

@@ -11,6 +11,7 @@
 #include "solver/cpu/cpu_solver.h"
 #include "surface/tetrahedra_rig.h"
 #include "surface/wound_checks.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::testing {
 namespace {

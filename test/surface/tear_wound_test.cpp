@@ -9,6 +9,7 @@
 #include "solver/cpu/cpu_solver.h"
 #include "surface/wound_checks.h"
 #include "surface/wound_rig.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::testing {
 namespace {

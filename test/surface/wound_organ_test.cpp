@@ -9,6 +9,7 @@
 
 #include "model/mesh_samples.h"
 #include "surface/wound_checks.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::testing {
 namespace {

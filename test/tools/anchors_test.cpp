@@ -4,6 +4,7 @@
 
 #include "support/text.h"
 #include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
 #include "viscera/tools/strokes.h"
 
 namespace viscera {

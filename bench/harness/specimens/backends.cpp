@@ -5,6 +5,7 @@
 #include "solver/cpu/cpu_solver.h"
 #include "solver/gpu/gpu_solver.h"
 #include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::bench {
 

@@ -8,6 +8,11 @@
 
 #include "solver/ticks/ticks.h"
 #include "viscera/gpu/context.h"
+#include "viscera/model/scene/solver_config.h"
+
+namespace viscera {
+struct Scene;
+}
 
 namespace viscera::bench {
 

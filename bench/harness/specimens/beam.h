@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bench/harness/specimens/block.h"
+#include "viscera/model/scene/body_config.h"
 
 namespace viscera::bench {
 

@@ -6,6 +6,7 @@
 
 #include "bench/harness/specimens/backends.h"
 #include "solver/reference/reference_solver.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::bench {
 

@@ -11,6 +11,7 @@
 #include "model/scene/tissue_presets.h"
 #include "solver/cpu/cpu_solver.h"
 #include "viscera/model/model.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::bench {
 

@@ -17,6 +17,7 @@
 #include "model/fracture/toughness.h"
 #include "solver/reference/reference_lattice.h"
 #include "viscera/model/model.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::bench {
 

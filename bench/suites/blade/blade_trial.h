@@ -4,7 +4,8 @@
 
 #include <cstddef>
 
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/body_config.h"
+#include "viscera/model/scene/solver_config.h"
 
 namespace viscera::bench {
 

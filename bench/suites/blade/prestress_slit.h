@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "bench/harness/report.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/body_config.h"
 
 namespace viscera::bench {
 

@@ -8,6 +8,7 @@
 
 #include "solver/cpu/cpu_solver.h"
 #include "viscera/model/model.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::bench {
 

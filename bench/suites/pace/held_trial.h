@@ -8,6 +8,7 @@
 
 #include "haptics/force_loop.h"
 #include "viscera/haptics/simulated_device.h"
+#include "viscera/model/scene/scene.h"
 #include "viscera/session/session.h"
 
 namespace viscera::bench {

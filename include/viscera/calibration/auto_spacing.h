@@ -8,6 +8,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 /// The scene with a number in place of every `spacing_m: auto`: one spacing for all of these bodies, the finest that
 /// this machine steps solver.real_time_factor times as fast as the clock. A line that tells the choice and its reason
 /// becomes a note of the first of them. Other scenes come back as they are, and nothing is measured.

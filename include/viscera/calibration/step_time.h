@@ -6,6 +6,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 namespace gpu {
 class Context;
 }

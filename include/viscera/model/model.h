@@ -9,11 +9,12 @@
 #include "viscera/model/body/lattice.h"
 #include "viscera/model/body/skin.h"
 #include "viscera/model/body/spring_network.h"
-#include "viscera/model/scene/scene.h"
 #include "viscera/model/shape/mesh_import.h"
 #include "viscera/model/shape/solid.h"
 
 namespace viscera {
+
+struct Scene;
 
 /// One piece of tissue, ready to simulate.
 struct Body {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "viscera/math/types.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/camera_config.h"
 
 namespace viscera {
 

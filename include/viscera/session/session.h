@@ -11,6 +11,7 @@
 #include "viscera/layout/limits.h"
 #include "viscera/layout/tick_stats.h"
 #include "viscera/model/model.h"
+#include "viscera/model/scene/scene.h"
 #include "viscera/session/frame.h"
 #include "viscera/solver/seen_blood.h"
 #include "viscera/solver/seen_burns.h"

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "viscera/math/types.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/stylus_config.h"
 
 namespace viscera {
 

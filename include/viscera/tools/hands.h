@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "viscera/model/scene/stylus_config.h"
 #include "viscera/tools/jaws.h"
 #include "viscera/tools/stylus.h"
 

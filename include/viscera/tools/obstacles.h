@@ -8,7 +8,7 @@
 
 #include "viscera/layout/obstacle_motion.h"
 #include "viscera/math/types.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/environment_config.h"
 
 namespace viscera {
 

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "viscera/model/model.h"
+#include "viscera/model/scene/organ_fit.h"
+#include "viscera/model/scene/stylus_config.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {

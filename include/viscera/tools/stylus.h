@@ -7,7 +7,7 @@
 #include "viscera/layout/limits.h"
 #include "viscera/layout/tool_motion.h"
 #include "viscera/math/types.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/stylus_config.h"
 
 namespace viscera {
 

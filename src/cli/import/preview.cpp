@@ -8,6 +8,7 @@
 #include "cli/import/preview_canvas.h"
 #include "model/shape/organ/tissue.h"
 #include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::cli {
 namespace {

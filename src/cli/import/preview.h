@@ -7,8 +7,11 @@
 #include <vector>
 
 #include "model/scan/volume.h"
-#include "viscera/model/scene/scene.h"
 #include "viscera/model/shape/triangle_mesh.h"
+
+namespace viscera {
+struct Scene;
+}
 
 namespace viscera::cli {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/shape/detail/detail_paint.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/body_config.h"
 #include "viscera/model/shape/solid.h"
 #include "viscera/model/shape/triangle_mesh.h"
 

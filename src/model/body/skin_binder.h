@@ -7,7 +7,6 @@
 #include "model/body/skin_anchor.h"
 #include "viscera/layout/skin.h"
 #include "viscera/model/body/lattice.h"
-#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

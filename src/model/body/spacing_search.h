@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "model/shape/organ/tissue.h"
+#include "viscera/model/scene/body_config.h"
 
 namespace viscera {
 

@@ -8,6 +8,7 @@
 #include "model/scene/integrators.h"
 #include "viscera/math/error.h"
 #include "viscera/model/body/elasticity.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

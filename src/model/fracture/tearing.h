@@ -8,6 +8,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 /// How springs of a lattice part by what material.tear.toughness_j_per_m2 says, G (docs/cutting.md 8): elastic up to
 /// an onset, from there on they soften, and at the end they have taken the work of the area that they stand for.
 struct TearLaw {

@@ -8,6 +8,7 @@
 #include "model/scene/integrators.h"
 #include "model/scene/yaml/yaml_reader.h"
 #include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

@@ -9,6 +9,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 /// What a body's structure makes of a toughness J (docs/cutting.md).
 struct Toughness {
   double asked_j_per_m2 = 0;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "model/scene/field_ranges.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/body_config.h"
 
 namespace viscera {
 

@@ -10,6 +10,7 @@
 #include "math/number_text.h"
 #include "model/scene/integrators.h"
 #include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 namespace {

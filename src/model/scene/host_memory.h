@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <string>
 
-#include "viscera/model/scene/scene.h"
-
 namespace viscera {
+
+struct Scene;
 
 /// Memory that this process can have without swapping [bytes]: what the machine has, or what its control group (of
 /// version 1 or 2, such as a container's) leaves of a limit, where that is less. Infinite where none is told.

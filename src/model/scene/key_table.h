@@ -10,6 +10,7 @@
 #include "math/number_text.h"
 #include "model/scene/scene_fields.h"
 #include "model/scene/yaml/yaml_reader.h"
+#include "viscera/model/scene/overlays.h"
 
 namespace viscera {
 

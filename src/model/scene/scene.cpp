@@ -11,6 +11,7 @@
 #include "model/scene/file_bounds.h"
 #include "model/scene/integrators.h"
 #include "model/scene/structure_rules.h"
+#include "model/scene/whole_scene_fields.h"
 #include "model/scene/yaml/yaml_overrides.h"
 #include "model/scene/yaml/yaml_reader.h"
 #include "viscera/math/error.h"

@@ -6,6 +6,12 @@
 #include "model/scene/integrators.h"
 #include "model/scene/tool_kinds.h"
 #include "viscera/layout/limits.h"
+#include "viscera/model/scene/camera_config.h"
+#include "viscera/model/scene/environment_config.h"
+#include "viscera/model/scene/knot_kind.h"
+#include "viscera/model/scene/plumb_bob.h"
+#include "viscera/model/scene/solver_config.h"
+#include "viscera/model/scene/thread_config.h"
 
 namespace viscera {
 
@@ -373,19 +379,6 @@ void visitFields(V& v, SolverConfig& c) {
   v.integer("threads", c.threads, {0, 256},
             "CPU backend: threads; 0: one per processor that may be used (affinity, cgroup cpu.max)");
   v.integer("device", c.device, {-1, 31}, "EGL device to take, as listed by `viscera check`; -1: the first that works");
-}
-
-template <class V>
-void visitFields(V& v, Scene& c) {
-  v.text("name", c.name, "name, for reports");
-  v.list("bodies", c.bodies, layout::kMaxBodies, "pieces of tissue, at least one");
-  v.list("styluses", c.styluses, layout::kMaxStyluses, "tools");
-  v.list("cameras", c.cameras, 8, "views");
-  v.list("obstacles", c.obstacles, layout::kMaxObstacles, "rigid things that nodes do not enter");
-  v.group("collision", c.collision, "bodies against themselves and each other; costs nothing while it is off");
-  v.group("environment", c.environment, "gravity and frames");
-  v.group("solver", c.solver, "time stepping");
-  v.list("threads", c.threads, 8, "threads that do not stretch, on obstacles, in hands that grab and through tissue");
 }
 
 }  // namespace viscera

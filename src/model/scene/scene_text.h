@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "viscera/model/scene/scene.h"
-
 namespace viscera {
+
+struct Scene;
 
 /// All keys of a scene with the values that they have, one `key=value` a line, numbers to the bit: two scenes with the
 /// same text are the same but for what their files hold.

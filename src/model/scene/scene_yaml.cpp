@@ -9,6 +9,8 @@
 
 #include "math/number_text.h"
 #include "model/scene/scene_fields.h"
+#include "model/scene/whole_scene_fields.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

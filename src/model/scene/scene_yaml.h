@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "viscera/model/scene/scene.h"
-
 namespace viscera {
+
+struct Scene;
 
 /// A scene file of all keys with the values that they have, numbers to the bit: parseScene() makes the same scene of
 /// it, but for `folder`, where relative files are looked up, and `file`.

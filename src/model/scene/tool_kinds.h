@@ -10,9 +10,11 @@
 #include <vector>
 
 #include "viscera/layout/tool_motion.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/stylus_config.h"
 
 namespace viscera {
+
+struct Scene;
 
 /// What a kind of tool does to tissue: bits. Kernels ask for these and know no kinds.
 enum ToolEffect : uint32_t {
@@ -177,14 +179,10 @@ inline bool mayPush(const StylusConfig& stylus) {
   return pushes(stylus.idle) || pushes(stylus.button1) || pushes(stylus.button2);
 }
 
-inline bool hasThreadsOrClips(const Scene& scene) {
-  return !scene.threads.empty() || mayClip(scene.styluses);
-}
+bool hasThreadsOrClips(const Scene& scene);
 
 /// Are there threads, clips or burns, which push nodes after each substep?
-inline bool pushesAfterSubsteps(const Scene& scene) {
-  return hasThreadsOrClips(scene) || mayBurn(scene.styluses);
-}
+bool pushesAfterSubsteps(const Scene& scene);
 
 /// Does some stylus? What a model and a solver keep of cuts is there only then.
 inline bool maySever(const std::vector<StylusConfig>& styluses) {

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/stylus_config.h"
 
 namespace viscera {
 

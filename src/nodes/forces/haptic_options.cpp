@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "viscera/model/scene/scene.h"
+
 namespace viscera::nodes {
 namespace {
 

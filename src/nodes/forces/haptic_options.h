@@ -6,7 +6,10 @@
 
 #include "haptics/force_loop.h"
 #include "nodes/hands/stylus_mailbox.h"
-#include "viscera/model/scene/scene.h"
+
+namespace viscera {
+struct Scene;
+}
 
 namespace viscera::nodes {
 

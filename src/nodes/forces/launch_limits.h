@@ -6,7 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/overrides.h"
+#include "viscera/model/scene/stylus_config.h"
 
 namespace viscera::nodes {
 

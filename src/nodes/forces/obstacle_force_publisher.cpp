@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "nodes/ros/conversions.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::nodes {
 

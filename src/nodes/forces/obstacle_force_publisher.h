@@ -9,6 +9,10 @@
 
 #include "viscera/session/frame.h"
 
+namespace viscera {
+struct Scene;
+}
+
 namespace viscera::nodes {
 
 /// Topics `obstacles/<name>/force`: what the tissue does to each obstacle, tick by tick.

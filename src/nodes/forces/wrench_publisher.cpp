@@ -11,6 +11,7 @@
 #include "nodes/forces/impedance.h"
 #include "nodes/ros/thread_name.h"
 #include "nodes/ros/thread_schedule.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::nodes {
 namespace {

@@ -15,6 +15,10 @@
 #include "nodes/ros/latency_meter.h"
 #include "nodes/ros/priority_mutex.h"
 
+namespace viscera {
+struct Scene;
+}
+
 namespace viscera::nodes {
 
 /// Forces to the devices, each to its ForceSink, from a thread that never waits: neither for the simulation, whose

@@ -5,6 +5,7 @@
 #include <ros/console.h>
 
 #include "nodes/ros/frame_lookup.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::nodes {
 

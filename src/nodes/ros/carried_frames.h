@@ -11,7 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "viscera/model/scene/scene.h"
+#include "viscera/math/types.h"
+
+namespace viscera {
+struct Scene;
+}
 
 namespace viscera::nodes {
 

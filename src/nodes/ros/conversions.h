@@ -12,7 +12,6 @@
 #include <string>
 
 #include "viscera/math/types.h"
-#include "viscera/model/scene/scene.h"
 #include "viscera/tools/force_limiter.h"
 #include "viscera/tools/stylus.h"
 

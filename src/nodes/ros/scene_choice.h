@@ -5,7 +5,11 @@
 #include <string>
 
 #include "nodes/ros/parameters.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/overrides.h"
+
+namespace viscera {
+struct Scene;
+}
 
 namespace viscera::nodes {
 

@@ -6,6 +6,8 @@
 #include <array>
 #include <cstring>
 
+#include "viscera/model/scene/scene.h"
+
 namespace viscera::nodes {
 namespace {
 

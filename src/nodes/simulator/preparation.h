@@ -4,7 +4,9 @@
 
 #include <string>
 
-#include "viscera/model/scene/scene.h"
+namespace viscera {
+struct Scene;
+}
 
 namespace viscera::nodes {
 

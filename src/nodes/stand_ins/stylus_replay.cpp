@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "nodes/ros/scene_choice.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::nodes {
 namespace {

@@ -13,6 +13,7 @@
 #include "nodes/ros/throttle.h"
 #include "nodes/views/shown_messages.h"
 #include "viscera/Tick.h"
+#include "viscera/model/scene/camera_config.h"
 
 namespace viscera::nodes {
 

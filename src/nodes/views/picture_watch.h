@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "nodes/ros/slowness.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/camera_config.h"
 
 namespace viscera::nodes {
 

@@ -3,6 +3,7 @@
 #include "nodes/views/samples_publisher.h"
 
 #include "nodes/ros/conversions.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::nodes {
 namespace {

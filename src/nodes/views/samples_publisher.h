@@ -8,8 +8,11 @@
 
 #include "nodes/ros/scene_choice.h"
 #include "viscera/Samples.h"
-#include "viscera/model/scene/scene.h"
 #include "viscera/tools/stylus.h"
+
+namespace viscera {
+struct Scene;
+}
 
 namespace viscera::nodes {
 

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "viscera/model/scene/scene.h"
+
 namespace viscera::nodes {
 
 using visualization_msgs::Marker;

@@ -12,6 +12,10 @@
 
 #include "nodes/views/scene_markers.h"
 
+namespace viscera {
+struct Scene;
+}
+
 namespace viscera::nodes {
 
 /// Leaves out meshes that viewers have: a viewer keeps a marker until it is told another one of that name and number.

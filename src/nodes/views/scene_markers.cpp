@@ -10,6 +10,7 @@
 #include "render/shapes/obstacle_shape.h"
 #include "session/thread_looks.h"
 #include "solver/thread/needle_shape.h"
+#include "viscera/model/scene/scene.h"
 #include "viscera/render/camera.h"
 
 namespace viscera::nodes {

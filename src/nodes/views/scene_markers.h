@@ -13,9 +13,12 @@
 #include "render/shapes/tool_shape.h"
 #include "render/thread_painter.h"
 #include "viscera/layout/limits.h"
-#include "viscera/model/scene/scene.h"
 #include "viscera/session/frame.h"
 #include "viscera/tools/stylus.h"
+
+namespace viscera {
+struct Scene;
+}
 
 namespace viscera::nodes {
 

@@ -13,7 +13,7 @@
 #include "viscera/SurfaceTopology.h"
 #include "viscera/SurfaceTopologyChange.h"
 #include "viscera/SurfaceVertices.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/camera_config.h"
 #include "viscera/session/frame.h"
 
 namespace viscera::nodes {

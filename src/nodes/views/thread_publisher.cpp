@@ -3,6 +3,7 @@
 #include "nodes/views/thread_publisher.h"
 
 #include "model/scene/tool_kinds.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::nodes {
 

@@ -9,8 +9,11 @@
 #include <vector>
 
 #include "session/thread_looks.h"
-#include "viscera/model/scene/scene.h"
 #include "viscera/session/frame.h"
+
+namespace viscera {
+struct Scene;
+}
 
 namespace viscera::nodes {
 

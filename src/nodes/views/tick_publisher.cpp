@@ -4,6 +4,8 @@
 
 #include <utility>
 
+#include "viscera/model/scene/scene.h"
+
 namespace viscera::nodes {
 
 TickPublisher::TickPublisher(ros::NodeHandle& node, const Scene& scene, std::function<bool()> viewed)

@@ -7,7 +7,10 @@
 #include <functional>
 
 #include "viscera/Tick.h"
-#include "viscera/model/scene/scene.h"
+
+namespace viscera {
+struct Scene;
+}
 
 namespace viscera::nodes {
 

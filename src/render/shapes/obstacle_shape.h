@@ -3,7 +3,7 @@
 #pragma once
 
 #include "render/shapes/tool_shape.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/environment_config.h"
 
 namespace viscera {
 

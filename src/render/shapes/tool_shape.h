@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "viscera/math/types.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/stylus_config.h"
 
 namespace viscera {
 

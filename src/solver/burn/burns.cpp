@@ -8,6 +8,7 @@
 #include "model/body/body_nodes.h"
 #include "model/scene/tool_kinds.h"
 #include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

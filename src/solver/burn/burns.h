@@ -15,6 +15,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 /// What hot tips do to tissue (docs/lessons/cautery.md): heat where they touch it; coagulated tissue shrinks and
 /// stiffens, by impulses after each substep; what boils dry parts. Only where a stylus has mode cautery.
 class Burns {

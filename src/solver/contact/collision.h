@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "viscera/model/model.h"
+#include "viscera/model/scene/environment_config.h"
 
 namespace viscera {
 

@@ -5,17 +5,15 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "model/scene/integrators.h"
-
 namespace viscera {
+
+struct Scene;
 
 // Contacts between nodes in the solution of an implicit substep (shaders/solver/implicit/implicit_pairs.glsl), any
 // backend.
 
 /// Are contacts between nodes part of the solution of a substep?
-inline bool solvesContacts(const Scene& scene) {
-  return scene.collision.enabled && !traitsOf(scene.solver.integrator).is_explicit;
-}
+bool solvesContacts(const Scene& scene);
 
 /// Of D_ij: how near two nodes are, where the first iterate leads, that may touch in the substep. What lies on
 /// something is found though the iterate does not bring it nearer.

@@ -14,6 +14,7 @@
 #include "model/scene/integrators.h"
 #include "solver/contact/collision.h"
 #include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
 #include "viscera/solver/material.h"
 
 namespace viscera {

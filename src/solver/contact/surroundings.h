@@ -12,6 +12,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 class Archive;
 
 /// Velocity of the air with its gusts [m/s]. @param time_s  since the start

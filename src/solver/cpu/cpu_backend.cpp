@@ -14,6 +14,7 @@
 #include "solver/cpu/store/lattice_arrays.h"
 #include "solver/cpu/text/node_pairs.h"
 #include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
 #include "viscera/solver/material.h"
 
 namespace viscera {

@@ -20,6 +20,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 class CpuNetwork;
 
 struct CpuSolverOptions : SolverOptions {
@@ -37,7 +39,7 @@ class CpuBackend : public SolverBackend {
   CpuBackend(const Model& model, const Scene& scene, const TickPlan& plan, const CpuSolverOptions& options = {});
   ~CpuBackend() override;
 
-  std::string name() const override;  ///< such as "cpu (AVX3, 2 threads)"
+  std::string name() const override;   ///< such as "cpu (AVX3, 2 threads)"
   size_t awakeBricks() const;          ///< in the last substep
   std::vector<uint8_t> awake() const;  ///< [bricks] 1 where awake
   size_t bricks() const { return lattice_.brickCount(); }

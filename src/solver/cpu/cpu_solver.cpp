@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/cpu/cpu_solver.h"
 
+#include "viscera/model/scene/scene.h"
+
 namespace viscera {
 
 CpuSolver::CpuSolver(const Model& model, const Scene& scene, const CpuSolverOptions& options)

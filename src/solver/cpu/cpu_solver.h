@@ -7,6 +7,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 /// The solver whose state lives in host memory: ticks on a CpuBackend.
 class CpuSolver final : public Ticks {
  public:

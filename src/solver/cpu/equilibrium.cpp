@@ -12,6 +12,7 @@
 #include "solver/cpu/steps/network.h"
 #include "solver/ticks/stable_step.h"
 #include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
 #include "viscera/solver/material.h"
 
 namespace viscera {

@@ -10,6 +10,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 /// How an equilibrium was found.
 struct SettleReport {
   bool settled = false;  ///< to kSettled and kLeft

@@ -18,6 +18,7 @@
 #include "solver/cpu/store/sleep.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
 #include "viscera/solver/material.h"
 
 namespace viscera {

@@ -25,6 +25,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 struct GpuSolverOptions : SolverOptions {
   uint32_t group_size = layout::kGroupSize;
 };

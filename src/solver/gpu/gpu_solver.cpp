@@ -3,6 +3,7 @@
 #include "solver/gpu/gpu_solver.h"
 
 #include "gpu/program.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

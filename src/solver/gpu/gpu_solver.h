@@ -7,6 +7,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 /// The solver whose state lives on the GPU: ticks on a GpuBackend.
 class GpuSolver final : public Ticks {
  public:

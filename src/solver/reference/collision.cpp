@@ -6,6 +6,7 @@
 #include <map>
 
 #include "layout/touch_depths.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

@@ -9,6 +9,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 /// Two nodes that touch, or nearly.
 struct ReferencePair {
   CollisionPair slots;  ///< a < b

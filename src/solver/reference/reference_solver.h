@@ -11,6 +11,7 @@
 #include "solver/contact/tool_acts.h"
 #include "solver/reference/reference_lattice.h"
 #include "solver/reference/reference_obstacle.h"
+#include "viscera/model/scene/solver_config.h"
 #include "viscera/solver/solver.h"
 
 namespace viscera {

@@ -11,6 +11,7 @@
 #include "solver/contact/node_pairs.h"
 #include "solver/contact/surroundings.h"
 #include "solver/reference/reference_solver.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

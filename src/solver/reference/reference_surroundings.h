@@ -8,8 +8,11 @@
 #include "solver/reference/reference_lattice.h"
 #include "solver/tissue/fields.h"
 #include "viscera/model/model.h"
+#include "viscera/model/scene/environment_config.h"
 
 namespace viscera {
+
+struct Scene;
 
 /// Wind, forces on bodies and contacts between nodes in float64, written from physics.md 8.
 class ReferenceSurroundings {

@@ -11,6 +11,7 @@
 #include "solver/tissue/substeps.h"
 #include "tools/motion_packing.h"
 #include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

@@ -10,6 +10,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 /// The reference tick by tick, as Ticks goes through a scene, but always in calm substeps and without a
 /// governor. pd is implicit Euler here, solved to the end.
 class ReferenceTicks {

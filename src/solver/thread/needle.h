@@ -8,6 +8,7 @@
 #include "solver/thread/needle_shape.h"
 #include "solver/thread/thread_pull.h"
 #include "solver/thread/tissue_points.h"
+#include "viscera/model/scene/thread_config.h"
 
 namespace viscera {
 

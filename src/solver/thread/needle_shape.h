@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "viscera/layout/obstacle_motion.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/thread_config.h"
 
 namespace viscera {
 

@@ -6,6 +6,7 @@
 
 #include "math/archive.h"
 #include "model/scene/tool_kinds.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

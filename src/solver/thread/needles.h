@@ -14,6 +14,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 /// The needles of a scene, each on the start of a thread, and who leads them: styluses in mode needle.
 class Needles {
  public:

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "viscera/math/types.h"
-#include "viscera/model/scene/scene.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {

@@ -10,6 +10,7 @@
 #include "model/scene/tool_kinds.h"
 #include "viscera/math/error.h"
 #include "viscera/math/state_hash.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

@@ -17,11 +17,12 @@
 #include "solver/thread/tissue_points.h"
 #include "solver/thread/wound_lips.h"
 #include "viscera/model/model.h"
-#include "viscera/model/scene/scene.h"
 #include "viscera/tools/obstacles.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {
+
+struct Scene;
 
 /// How well threads kept their lengths since they were made, beside their state: for measurements.
 struct ThreadLinks {

@@ -7,7 +7,7 @@
 #include "solver/thread/chain/chain.h"
 #include "solver/thread/tissue_points.h"
 #include "viscera/model/model.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/thread_config.h"
 
 namespace viscera {
 

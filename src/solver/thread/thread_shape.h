@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "solver/thread/chain/chain.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/thread_config.h"
 
 namespace viscera {
 

@@ -4,6 +4,7 @@
 
 #include "solver/ticks/solver_backend.h"
 #include "viscera/model/model.h"
+#include "viscera/model/scene/solver_config.h"
 
 namespace viscera {
 

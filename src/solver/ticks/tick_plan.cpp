@@ -9,6 +9,7 @@
 #include "solver/ticks/solver_backend.h"
 #include "solver/ticks/stable_step.h"
 #include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
 #include "viscera/solver/material.h"
 
 namespace viscera {

@@ -13,6 +13,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 struct SolverOptions {
   bool allow_unstable = false;  ///< take a substep that is too long for the integrator: to study the governor
   /// On the CPU: shared with others; null: solver.threads of its own.

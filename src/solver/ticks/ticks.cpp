@@ -18,6 +18,7 @@
 #include "solver/tissue/joined_lattice.h"
 #include "tools/motion_packing.h"
 #include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
 #include "viscera/solver/material.h"
 
 namespace viscera {

@@ -19,6 +19,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 /// What a tick is on any backend: which substeps it has, what tools do in them, what is measured and how the governor
 /// judges it (physics.md 2, 3, 5). The backend holds the state and gives the operations.
 class Ticks : public Solver {

@@ -8,6 +8,7 @@
 #include "model/scene/tool_kinds.h"
 #include "solver/tissue/joined_lattice.h"
 #include "solver/tissue/substeps.h"
+#include "viscera/model/scene/scene.h"
 #include "viscera/solver/material.h"
 
 namespace viscera {

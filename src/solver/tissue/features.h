@@ -12,6 +12,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 /// What a scene has that the kernels of either backend must know of. The rest costs nothing: on the GPU it is compiled
 /// out, and nowhere does it have an array.
 struct FeatureSet {

@@ -9,6 +9,7 @@
 
 #include "model/scene/scene_text.h"
 #include "support/source_folder.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 namespace {

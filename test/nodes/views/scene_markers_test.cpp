@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "nodes/views/scene_marker_publisher.h"
+#include "viscera/model/scene/scene.h"
 
 #include <algorithm>
 #include <chrono>

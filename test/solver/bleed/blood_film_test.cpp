@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Blood that runs down tissue, against the exact film, and where it is.
 #include "solver/bleed/blood_film.h"
+#include "viscera/model/scene/scene.h"
 
 #include <gtest/gtest.h>
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which cuts of a part bleed, and how much.
 #include "solver/bleed/vessels.h"
+#include "viscera/model/scene/scene.h"
 
 #include <gtest/gtest.h>
 

@@ -3,6 +3,7 @@
 // Coagulated springs beside fresh ones, which a target of the test's own steps: how short tissue becomes, and how
 // stiff.
 #include "solver/burn/burnt_springs.h"
+#include "viscera/model/scene/scene.h"
 
 #include <gtest/gtest.h>
 

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 namespace {

@@ -11,6 +11,7 @@
 #include "math/decompositions.h"
 #include "model/fracture/toughness.h"
 #include "solver/cpu/cpu_solver.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 namespace {

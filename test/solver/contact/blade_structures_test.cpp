@@ -15,6 +15,7 @@
 #include "model/fracture/toughness.h"
 #include "solver/cpu/cpu_solver.h"
 #include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 namespace {

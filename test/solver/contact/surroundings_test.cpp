@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/contact/surroundings.h"
+#include "viscera/model/scene/scene.h"
 
 #include <gtest/gtest.h>
 

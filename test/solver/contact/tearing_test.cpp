@@ -12,6 +12,7 @@
 #include "solver/cpu/cpu_solver.h"
 #include "solver/reference/reference_ticks.h"
 #include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 namespace {

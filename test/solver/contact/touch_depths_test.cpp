@@ -10,6 +10,7 @@
 #include "model/shape/organ/tissue.h"
 #include "solver/contact/collision.h"
 #include "viscera/model/model.h"
+#include "viscera/model/scene/scene.h"
 
 using namespace viscera;
 

@@ -7,6 +7,7 @@
 #include "solver/cpu/cpu_solver.h"
 #include "solver/tissue/joined_lattice.h"
 #include "support/lattices.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 namespace {

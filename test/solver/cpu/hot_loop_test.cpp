@@ -8,6 +8,7 @@
 #include "solver/cpu/cpu_solver.h"
 #include "support/counted_memory.h"
 #include "support/lattices.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 namespace {

@@ -11,6 +11,7 @@
 #include "solver/cpu/store/thread_pool.h"
 #include "support/lattices.h"
 #include "viscera/math/state_hash.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 namespace {

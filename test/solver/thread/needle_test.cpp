@@ -13,6 +13,7 @@
 #include "solver/reference/reference_solver.h"
 #include "solver/ticks/tick_plan.h"
 #include "viscera/model/model.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 namespace {

@@ -12,6 +12,7 @@
 #include "math/archive.h"
 #include "solver/cpu/cpu_solver.h"
 #include "solver/thread/thread_bodies.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "solver/thread/thread_bodies.h"
 #include "support/solver_rig.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera::test {
 

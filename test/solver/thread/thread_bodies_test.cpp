@@ -7,6 +7,7 @@
 #include "math/archive.h"
 #include "solver/thread/thread_shape.h"
 #include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 namespace {

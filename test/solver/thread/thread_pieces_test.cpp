@@ -8,6 +8,7 @@
 #include "math/archive.h"
 #include "solver/thread/thread_bodies.h"
 #include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 namespace {

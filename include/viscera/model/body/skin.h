@@ -6,7 +6,6 @@
 
 #include "viscera/layout/skin.h"
 #include "viscera/model/body/lattice.h"
-#include "viscera/model/scene/scene.h"
 #include "viscera/model/shape/triangle_mesh.h"
 
 namespace viscera {

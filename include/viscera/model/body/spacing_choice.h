@@ -12,6 +12,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 class Tissue;
 
 /// The bodies of a scene before they are divided into cells, for those who look for a spacing: meshes are read once.

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/body_config.h"
 
 namespace viscera {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/body_config.h"
 #include "viscera/model/shape/solid.h"
 
 namespace viscera {

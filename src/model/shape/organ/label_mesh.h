@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/body_config.h"
 #include "viscera/model/shape/triangle_mesh.h"
 
 namespace viscera {

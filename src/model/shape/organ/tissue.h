@@ -9,7 +9,7 @@
 #include "model/shape/detail/detail_paint.h"
 #include "model/shape/organ/phantom.h"
 #include "model/shape/solid/tetrahedra_mesh.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/body_config.h"
 #include "viscera/model/shape/solid.h"
 
 namespace viscera {

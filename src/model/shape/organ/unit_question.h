@@ -5,7 +5,7 @@
 #include <string>
 
 #include "viscera/math/types.h"
-#include "viscera/model/scene/scene.h"
+#include "viscera/model/scene/body_config.h"
 
 namespace viscera {
 

@@ -9,6 +9,7 @@
 #include "solver/contact/node_pairs.h"
 #include "solver/cpu/steps/cpu_device.h"
 #include "solver/cpu/text/listed_kernel.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

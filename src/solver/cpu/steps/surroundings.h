@@ -13,6 +13,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 class Archive;
 
 /// Wind, forces on bodies, contacts and obstacles on the CPU: the text of shaders/solver/collision/surroundings.comp

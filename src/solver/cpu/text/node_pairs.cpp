@@ -8,6 +8,7 @@
 #include "solver/contact/collision.h"
 #include "solver/contact/surroundings.h"
 #include "solver/cpu/text/listed_kernel.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

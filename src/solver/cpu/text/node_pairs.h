@@ -10,6 +10,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 class Archive;
 
 /// Contacts between nodes within an implicit substep: who may touch whom, and what they do to each other

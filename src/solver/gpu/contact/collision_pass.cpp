@@ -10,6 +10,7 @@
 #include "layout/bindings.h"
 #include "solver/contact/node_pairs.h"
 #include "solver/contact/surroundings.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

@@ -14,6 +14,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 class Archive;
 
 /// Contacts between nodes: finds pairs and says what they do to either node (collision.h).

@@ -4,6 +4,7 @@
 
 #include "gpu/archive.h"
 #include "layout/bindings.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

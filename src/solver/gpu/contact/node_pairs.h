@@ -7,6 +7,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 /// Contacts between nodes within an implicit substep (shaders/solver/implicit/implicit_pairs.glsl): who may touch whom,
 /// found where the first iterate leads, and their memory. What they do is in ImplicitSubstep.
 class NodePairs {

@@ -4,6 +4,7 @@
 
 #include "layout/bindings.h"
 #include "layout/wind.h"
+#include "viscera/model/scene/scene.h"
 
 namespace viscera {
 

@@ -16,6 +16,8 @@
 
 namespace viscera {
 
+struct Scene;
+
 /// Wind, forces on bodies, contacts and obstacles act on what an integrator has made of a substep (physics.md 8).
 /// Owner of shaders/solver/collision/surroundings.comp.
 class SurroundingsPass {

@@ -1,0 +1,60 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "viscera/math/types.h"
+
+namespace viscera {
+
+enum class CollisionSearch { kGrid, kStaggered };
+enum class ObstacleShape { kPlane, kSphere, kCapsule, kBox };
+
+/// Moving air. Speed at time t: velocity (1 + gust_ratio sin(2 pi t / gust_period)).
+struct WindConfig {
+  Vector3d velocity_m_per_s = Vector3d::Zero();
+  double gust_ratio = 0;
+  double gust_period_s = 1;
+  double air_density_kg_per_m3 = 1.2;
+  double drag_coefficient = 1;
+};
+
+struct EnvironmentConfig {
+  Vector3d gravity_m_per_s2 = Vector3d(0, 0, -9.81);
+  std::string world_frame = "world";
+  std::string tissue_frame = "tissue";
+  Vector3d tissue_position_m = Vector3d::Zero();
+  Vector3d tissue_rotation_deg = Vector3d::Zero();
+  Vector3d scan_origin_m = Vector3d::Zero();  ///< of the tissue frame, in the frame of the scan that bodies are from
+  WindConfig wind;
+};
+
+/// Bodies against themselves and each other.
+struct CollisionConfig {
+  bool enabled = false;
+  CollisionSearch search = CollisionSearch::kGrid;
+  double distance_m = 0;  ///< 0: from the springs
+  double friction = 0.3;
+  double restitution = 0;
+  int partitions = 4;  ///< of the staggered search
+  int window = 8;      ///< of the staggered search: neighbours in sorted order that are looked at on either side
+};
+
+/// A rigid thing that nodes do not enter.
+struct ObstacleConfig {
+  std::string name = "obstacle";
+  ObstacleShape shape = ObstacleShape::kPlane;
+  Vector3d position_m = Vector3d::Zero();
+  Vector3d rotation_deg = Vector3d::Zero();  ///< about fixed x, then y, then z
+  double radius_m = 0.02;
+  double length_m = 0.1;                           ///< capsule: between the centres of its ends, along its z
+  Vector3d size_m = Vector3d::Constant(0.05);      ///< box
+  Vector3d velocity_m_per_s = Vector3d::Zero();    ///< of its position, from the start on
+  Vector3d rotation_deg_per_s = Vector3d::Zero();  ///< rotation vector, tissue frame
+  std::string frame;                               ///< tf frame that carries it; empty: the tissue frame
+  double friction = 0.3;
+  double restitution = 0;
+};
+
+}  // namespace viscera

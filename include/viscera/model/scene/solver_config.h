@@ -1,0 +1,35 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace viscera {
+
+enum class SpringForces { kPoint, kEdge };
+enum class Integrator { kLeapfrog, kVerletPaper, kPd };
+/// What a simulation begins with: everything at rest, or hanging in its weight.
+enum class SolverStart { kRest, kEquilibrium };
+enum class Backend { kAuto, kGpu, kCpu };
+
+struct SolverConfig {
+  double tick_hz = 60;
+  Integrator integrator = Integrator::kLeapfrog;
+  SolverStart start = SolverStart::kRest;
+  double dt_fraction = 0.75;
+  double dt_fraction_strained = 0.5;
+  bool measured_limit = true;
+  int substeps = 0;     ///< 0: from dt_fraction
+  int iterations = 20;  ///< of pd
+  SpringForces spring_forces = SpringForces::kPoint;
+  bool governor = true;
+  double recovery_s = 0.25;
+  double sleep_distance_m = 1;
+  double sleep_speed_m_per_s = 1e-5;  ///< 0: tissue never sleeps
+  bool compensated = false;
+  int max_substeps = 2000;
+  double real_time_factor = 1.2;  ///< of bodies with auto_spacing
+  int device = -1;
+  Backend backend = Backend::kAuto;
+  int threads = 0;  ///< of the CPU backend; 0: usableProcessors()
+};
+
+}  // namespace viscera

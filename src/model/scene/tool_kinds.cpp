@@ -1,0 +1,17 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/scene/tool_kinds.h"
+
+#include "viscera/model/scene/scene.h"
+
+namespace viscera {
+
+bool hasThreadsOrClips(const Scene& scene) {
+  return !scene.threads.empty() || mayClip(scene.styluses);
+}
+
+bool pushesAfterSubsteps(const Scene& scene) {
+  return hasThreadsOrClips(scene) || mayBurn(scene.styluses);
+}
+
+}  // namespace viscera
