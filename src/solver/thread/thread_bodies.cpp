@@ -8,6 +8,7 @@
 #include "math/number_text.h"
 #include "model/fracture/tearing.h"
 #include "model/scene/tool_kinds.h"
+#include "solver/thread/tissue_jump.h"
 #include "viscera/math/error.h"
 #include "viscera/math/state_hash.h"
 #include "viscera/model/scene/scene.h"
@@ -68,6 +69,13 @@ void ThreadBodies::setCuts(const Model& model, const CutSprings& cuts) {
     piece.skin.forget();
   }
   if (needles_) needles_->embedAgain(*tissue_);
+}
+
+void ThreadBodies::carry(const std::vector<layout::vec4>& before_m, const HostState& after) {
+  if (!tissue_) return;
+  const TissueJump jump(*tissue_, before_m, after);
+  if (needles_) needles_->carry(jump);
+  for (size_t t = 0; t < pieces_.size(); ++t) viscera::carry(jump, needle(t), pieces_[t]);
 }
 
 void ThreadBodies::beginTick(const ToolMotions& motions, const ObstacleMotions& obstacles, int substeps) {

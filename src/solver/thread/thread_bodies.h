@@ -45,6 +45,9 @@ class ThreadBodies {
   /// Springs that are cut, only where they feel it.
   void setCuts(const Model& model, const CutSprings& cuts);
 
+  /// Tissue was put elsewhere between two ticks: moves what it carries. @param before_m  [slots] displacements
+  void carry(const std::vector<layout::vec4>& before_m, const HostState& after);
+
   /// @param motions  of the tick, as solvers take them   @param obstacles  of the scene, over the tick
   /// @param substeps  of the tissue
   void beginTick(const ToolMotions& motions, const ObstacleMotions& obstacles, int substeps);

@@ -359,9 +359,11 @@ void Ticks::unfoldTissue() {
   looks_for_folds_ = false;
   if (undone) return;
   HostState state = backend_->readState();
+  const std::vector<layout::vec4> before_m = state.displacement_m;
   const size_t nodes = unfold(model_, state);
   folds_.found(nodes);
   if (nodes == 0) return;
+  if (threads_) threads_->carry(before_m, state);
   writeState(state);
   watch_->noteUnfolded(nodes);
 }

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "math/archive.h"
+#include "math/vec4.h"
 #include "solver/cpu/cpu_solver.h"
 #include "solver/thread/thread_bodies.h"
 #include "viscera/model/scene/scene.h"
@@ -99,6 +100,7 @@ class Sewing {
   }
   const Needle& needle() const { return *solver_->threads()->needle(0); }
   CpuSolver& solver() { return *solver_; }
+  const Model& model() const { return model_; }
   double force_n() const {
     return Vector3d(stats.impulse[0].x, stats.impulse[0].y, stats.impulse[0].z).norm() / kSewnTick_s;
   }
@@ -217,6 +219,36 @@ TEST(Needles, StatesAreTheSameInEveryRunAndWithAnyNumberOfThreads) {
   for (Sewing* sewing : {&one, &again, &four}) sewing->turn(0, kSewnPi, 0.2);
   EXPECT_EQ(one.hash(), again.hash());
   EXPECT_EQ(one.hash(), four.hash());
+}
+
+TEST(Needles, GoWithTissueThatIsPutElsewhereAndTheirThreadsWithThem) {
+  constexpr double kTurn_rad = 0.3, kOffTurn_rad = 0.02, kOff_m = 3e-4, kOnTail_m = 1e-5;
+  const Eigen::Affine3d jump =
+      Eigen::Translation3d(0.004, 0.003, 0.002) * Eigen::AngleAxisd(kTurn_rad, Vector3d(1, 2, 2).normalized());
+  Sewing sewing;
+  sewing.turn(0, 0.75 * kSewnPi, 0.2);
+  sewing.tick(Sewing::handAt(0.75 * kSewnPi), ToolMode::kNone);
+  ASSERT_GE(sewing.needle().crossings(), 5u);
+  const Pose before = sewing.needle().pose();
+  HostState state = sewing.solver().readState();
+  const std::vector<layout::vec4> before_m = state.displacement_m;
+  const Body& body = sewing.model().bodies[0];
+  for (const uint32_t slot : body.lattice.active_slots) {
+    const Vector3d rest_m = restPosition(body, slot);
+    state.displacement_m[slot] = viscera::rounded(jump * (rest_m + viscera::xyz(before_m[slot])) - rest_m);
+    state.velocity_m_per_s[slot] = {};
+  }
+  sewing.solver().threads()->carry(before_m, state);
+  const Needle& needle = sewing.needle();
+  const Quaterniond turned(Eigen::Matrix3d(jump.linear() * before.orientation.toRotationMatrix()));
+  EXPECT_LT(needle.pose().orientation.angularDistance(turned), kOffTurn_rad);
+  EXPECT_LT((needle.pose().position_m - jump * before.position_m).norm(), kOff_m);
+  const Chain& chain = sewing.solver().threads()->chain(0);
+  EXPECT_LT((chain.places_m()[0] - needle.tail_m()).norm(), kOnTail_m);
+  for (size_t i = 0; i + 1 < chain.nodes(); ++i) {
+    EXPECT_NEAR((chain.places_m()[i + 1] - chain.places_m()[i]).norm(), chain.link_m(), 1e-3 * chain.link_m()) << i;
+    EXPECT_EQ(chain.tension_n(i), 0) << i;
+  }
 }
 
 TEST(Needles, GoOnFromASavedStateToTheBit) {

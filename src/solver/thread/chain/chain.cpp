@@ -16,6 +16,7 @@ constexpr int kMostIterations = 80;      // 2 ms for 300 nodes; only where a thr
 constexpr int kFrozenAfter = 8;          // iterations; from then on touches only close
 constexpr int kStillAfter = 24;          // and from then on no channel runs: stops may send each other to and fro
 constexpr int kMostWaits = 4;            // substeps in which it stays where it was; then it takes what it has
+constexpr double kPut_s = 5e-4;          // a usual substep
 constexpr double kMidpoint = 0.25;       // bending halfway in the substep: takes no energy
 
 }  // namespace
@@ -39,6 +40,16 @@ Chain::Chain(const ChainMaterial& material, std::vector<Vector3d> places_m)
 void Chain::stop() {
   std::fill(v_.begin(), v_.end(), Vector3d::Zero());
   std::fill(mu_.begin(), mu_.end(), 0.0);
+}
+
+/// A substep from rest: what the nodes move by is the least, by their masses.
+void Chain::put(std::vector<Vector3d> places_m, std::vector<Vector3d> v_m_per_s, ChainAround& around) {
+  x_ = std::move(places_m);
+  stop();
+  step(dt_s_ > 0 ? dt_s_ : kPut_s, around);
+  stop();
+  waits_ = 0;
+  v_ = std::move(v_m_per_s);
 }
 
 Vector3d Chain::point(uint32_t node, double share) const {

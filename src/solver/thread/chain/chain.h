@@ -92,6 +92,9 @@ class Chain {
   const std::vector<Vector3d>& places_m() const { return x_; }
   const std::vector<Vector3d>& velocities_m_per_s() const { return v_; }
   void setVelocities(std::vector<Vector3d> v_m_per_s) { v_ = std::move(v_m_per_s); }
+  /// Puts nodes elsewhere at once: as near to these places as their links, holds and knots let them, without tensions.
+  /// @param places_m, v_m_per_s  [nodes]
+  void put(std::vector<Vector3d> places_m, std::vector<Vector3d> v_m_per_s, ChainAround& around);
   /// All of it stands still; links feel nothing.
   void stop();
   double mass_kg(size_t node) const { return node == 0 || node + 1 == x_.size() ? mass_kg_ / 2 : mass_kg_; }
