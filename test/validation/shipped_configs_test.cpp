@@ -85,14 +85,49 @@ TEST_P(ShippedScene, RunsSomeTicksAsItsNameSaysWithoutATrip) {
 }
 INSTANTIATE_TEST_SUITE_P(Config, ShippedScene, ::testing::ValuesIn(filesIn("scenes")), nameOf);
 
+bool resists(const BodyConfig& body) {
+  return body.material.cut.toughness_j_per_m2 > 0 || body.material.cut.of_tissue;
+}
+
+bool cuts(const StylusConfig& stylus) {
+  return stylus.idle == ToolMode::kCut || stylus.button1 == ToolMode::kCut || stylus.button2 == ToolMode::kCut;
+}
+
+TEST_P(ShippedScene, BladesInTissueThatResistsThemHaveAPoint) {
+  const Scene scene = loadScene(GetParam().string());
+  if (std::none_of(scene.bodies.begin(), scene.bodies.end(), resists)) return;
+  for (const StylusConfig& stylus : scene.styluses)
+    EXPECT_TRUE(!cuts(stylus) || stylus.cut.point_width_m > 0) << stylus.name << " stabs and feels nothing";
+}
+
+/// Straight in along the blade, 6 mm deep, at 5 cm/s. @returns the largest force against it [N]
+double stab(const std::string& name) {
+  const Scene scene = loadScene((kConfig / "scenes" / (name + ".yaml")).string(), {"solver.backend=cpu", "cameras=[]"});
+  Session session(scene);
+  const double top_m = 0.5 * scene.bodies[0].box_size_m.z();
+  double most_n = 0;
+  for (double z_m = top_m + 0.004; z_m > top_m - 0.006; z_m -= 0.05 * session.tick_s()) {
+    StylusSamples samples;
+    samples[1].valid = samples[1].button2 = true;
+    samples[1].pose.position_m = {0.0003, 0.0005, z_m};
+    most_n = std::max(most_n, session.step(samples, {}).reactions[1].force_n.z());
+  }
+  return most_n;
+}
+
+TEST(PracticeScenes, AStabIsFelt) {
+  constexpr double kWork_n = 50 * 0.004;  // J times the point's width
+  for (const char* scene : {"practice_skin", "skin_under_tension"}) {
+    EXPECT_GT(stab(scene), 0.5 * kWork_n) << scene;
+    EXPECT_LT(stab(scene), 2 * kWork_n) << scene;
+  }
+}
+
 /// The scene that a strokes file was made for, if it is for no task.
-const std::map<std::string, std::string> kSceneOf = {{"demo", "heart"},
-                                                     {"cut_cloth", "cloth_on_points"},
-                                                     {"incision", "skin_under_tension"},
-                                                     {"cautery", "cautery_pad"},
-                                                     {"bleeding", "bleeding_vessel"},
-                                                     {"suture", "suture_pad"},
-                                                     {"running_suture", "running_suture"}};
+const std::map<std::string, std::string> kSceneOf = {
+    {"demo", "heart"},         {"cut_cloth", "cloth_on_points"},    {"incision", "skin_under_tension"},
+    {"stab", "practice_skin"}, {"cautery", "cautery_pad"},          {"bleeding", "bleeding_vessel"},
+    {"suture", "suture_pad"},  {"running_suture", "running_suture"}};
 
 /// Of strokes TASK_good and TASK_clumsy. Not there: they are for no task.
 std::optional<TaskConfig> taskOf(const fs::path& strokes) {
