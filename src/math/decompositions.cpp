@@ -48,6 +48,12 @@ Eigen::Matrix4d rigidMotion(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd
   return motion;
 }
 
+Matrix3d nearestRotation(const Matrix3d& matrix) {
+  const Eigen::JacobiSVD<Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const bool mirrored = svd.matrixU().determinant() * svd.matrixV().determinant() < 0;
+  return svd.matrixU() * Vector3d(1, 1, mirrored ? -1 : 1).asDiagonal() * svd.matrixV().transpose();
+}
+
 PrincipalAxes principalAxes(const Matrix3d& symmetric) {
   const AxesSolver solver(symmetric);
   return {solver.eigenvalues(), solver.eigenvectors()};

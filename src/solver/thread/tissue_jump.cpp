@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/thread/tissue_jump.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <limits>
 
+#include "math/decompositions.h"
 #include "math/vec4.h"
 #include "solver/thread/needle.h"
 #include "solver/thread/needles.h"
@@ -152,10 +152,7 @@ void Needle::carry(const TissueJump& jump) {
     spread_m2 += (step.from_m - from_m).squaredNorm();
   }
   both += kPrefersNoTurn * spread_m2 * Eigen::Matrix3d::Identity();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(both, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double sign = svd.matrixU().determinant() * svd.matrixV().determinant() < 0 ? -1 : 1;
-  const Quaterniond turn(
-      Eigen::Matrix3d(svd.matrixU() * Vector3d(1, 1, sign).asDiagonal() * svd.matrixV().transpose()));
+  const Quaterniond turn(nearestRotation(both));
   end_.position_m = to_m + turn * (end_.position_m - from_m);
   end_.orientation = (turn * end_.orientation).normalized();
   from_ = end_;
