@@ -25,6 +25,10 @@ std::string complete(SentTopology& topology, const std::vector<uint32_t>& body_t
   if (body_triangles.size() != bodies || wound_triangles.size() != bodies)
     return "bodies, body_triangles and wound_triangles have " + text(bodies) + ", " + text(body_triangles.size()) +
            " and " + text(wound_triangles.size()) + " entries, not as many";
+  for (const std::vector<uint32_t>* colors : {&topology.body_colors, &topology.wound_colors})
+    if (!colors->empty() && colors->size() != bodies)
+      return "body_colors and wound_colors have " + text(topology.body_colors.size()) + " and " +
+             text(topology.wound_colors.size()) + " entries for " + text(bodies) + " bodies";
   if (topology.triangles.size() % 3 != 0)
     return text(topology.triangles.size()) + " entries of triangles, not 3 for each";
   size_t first = 0;
@@ -34,8 +38,11 @@ std::string complete(SentTopology& topology, const std::vector<uint32_t>& body_t
       return "wound_triangles[" + text(b) + "] = " + text(wound_triangles[b]) + " are more than body_triangles[" +
              text(b) + "] = " + text(body_triangles[b]);
     const size_t skin = body_triangles[b] - wound_triangles[b];
-    topology.parts.push_back({b, false, first, skin});
-    topology.parts.push_back({b, true, first + skin, wound_triangles[b]});
+    const auto color = [b](const std::vector<uint32_t>& of) {
+      return of.empty() ? std::nullopt : std::optional(of[b]);
+    };
+    topology.parts.push_back({b, false, first, skin, color(topology.body_colors)});
+    topology.parts.push_back({b, true, first + skin, wound_triangles[b], color(topology.wound_colors)});
     first += body_triangles[b];
   }
   if (first != topology.triangles.size() / 3)
@@ -89,13 +96,16 @@ std::string SentSurface::take(const SurfaceTopology& message) {
   topology->vertices = message.vertices;
   topology->stamp = message.header.stamp;
   topology->bodies = message.bodies;
+  topology->body_colors = message.body_colors;
+  topology->wound_colors = message.wound_colors;
   topology->triangles = message.triangles;
   if (std::string wrong = complete(*topology, message.body_triangles, message.wound_triangles); !wrong.empty())
     return "topology: " + wrong;
   if (!known_.empty()) {
     const SentTopology& last = *known_.back();
     const bool same = last.version == topology->version && last.vertices == topology->vertices &&
-                      last.bodies == topology->bodies && last.triangles == topology->triangles;
+                      last.bodies == topology->bodies && last.body_colors == topology->body_colors &&
+                      last.wound_colors == topology->wound_colors && last.triangles == topology->triangles;
     if (same) return {};
     if (topology->version <= last.version) known_.clear();
   }
@@ -111,6 +121,8 @@ std::string SentSurface::take(const SurfaceTopologyChange& message) {
   topology->vertices = message.vertices;
   topology->stamp = message.header.stamp;
   topology->bodies = last.bodies;
+  topology->body_colors = last.body_colors;
+  topology->wound_colors = last.wound_colors;
   std::string wrong = edit(last.triangles, message, topology->triangles);
   if (wrong.empty()) wrong = complete(*topology, message.body_triangles, message.wound_triangles);
   if (!wrong.empty()) return "change of the topology: " + wrong;

@@ -21,6 +21,8 @@ struct SentPart {
   size_t body = 0;              ///< of SentTopology::bodies
   bool walls = false;           ///< of wounds
   size_t first = 0, count = 0;  ///< triangles
+  /// sRGB, red in the low byte; nothing: the sender has not told it
+  std::optional<uint32_t> color = {};
 };
 
 /// A topology whose every number was checked.
@@ -28,8 +30,9 @@ struct SentTopology {
   uint32_t version = 0, vertices = 0;
   ros::Time stamp;
   std::vector<std::string> bodies;
-  std::vector<SentPart> parts;      ///< skin and walls of each body
-  std::vector<uint32_t> triangles;  ///< 3 vertices each, all below `vertices`
+  std::vector<uint32_t> body_colors, wound_colors;  ///< of each; both may be empty
+  std::vector<SentPart> parts;                      ///< skin and walls of each body
+  std::vector<uint32_t> triangles;                  ///< 3 vertices each, all below `vertices`
 };
 
 /// The newest surface of a simulator, joined from its topics in whatever order their messages come. Messages that are

@@ -24,6 +24,7 @@
 #include <utility>
 
 #include "rviz/surface_mesh.h"
+#include "rviz/view_fit.h"
 
 namespace viscera::rviz_plugin {
 namespace {
@@ -31,6 +32,13 @@ namespace {
 enum ColorBy { kByBody, kBySent, kByStrain };
 constexpr std::chrono::seconds kTellEvery{1};
 constexpr double kGoldenTurn = 0.618034;  // of the circle of hues: bodies side by side in the list differ most
+
+/// @param color  sRGB, red in the low byte
+Ogre::ColourValue sentColor(uint32_t color, float alpha) {
+  constexpr float kMost = 255;
+  const auto share = [color](unsigned shift) { return static_cast<float>(color >> shift & 0xffU) / kMost; };
+  return Ogre::ColourValue(share(0), share(8), share(16), alpha);
+}
 
 Ogre::ColourValue ofBody(const QColor& color, size_t body, float alpha) {
   QColor turned = color;
@@ -47,18 +55,27 @@ SurfaceDisplay::SurfaceDisplay() {
                                       "Vertices; triangles come from the topics that have _topology and "
                                       "_topology_change behind this name.",
                                       this);
-  color_ = new rviz::ColorProperty("Color", QColor(184, 64, 56), "Of the skin of the first body.", this);
+  color_ = new rviz::ColorProperty("Color", QColor(184, 64, 56),
+                                   "Of the skin of the first body, where the simulator sends none or Color by is body.",
+                                   this);
   wall_color_ = new rviz::ColorProperty("Wound color", QColor(120, 20, 24), "Of walls of its wounds.", this);
   by_body_ = new rviz::BoolProperty("Hues of bodies", true, "Other bodies have other hues.", this);
-  color_by_ = new rviz::EnumProperty("Color by", "sent",
-                                     "body: the colors here; sent: those of vertices, as of burns, where the simulator "
-                                     "sends some; strain: from dark, none, to yellow, as overlay `strain`.",
-                                     this);
+  color_by_ =
+      new rviz::EnumProperty("Color by", "sent",
+                             "sent: the colors of the scene and, where the simulator sends some, of vertices, as "
+                             "of burns; body: the colors here; strain: from blue, none, to yellow, as overlay "
+                             "`strain`.",
+                             this);
   for (const auto& [name, value] : {std::pair{"body", kByBody}, {"sent", kBySent}, {"strain", kByStrain}})
     color_by_->addOption(name, value);
   alpha_ = new rviz::FloatProperty("Alpha", 1, "0 is transparent, 1 opaque.", this);
   alpha_->setMin(0);
   alpha_->setMax(1);
+  fits_view_ = new rviz::BoolProperty("Fit first view", false,
+                                      "The view is moved so that the first surface fits into it, and the first one of "
+                                      "another scene unless the view was moved meanwhile. Not saved in layouts.",
+                                      this);
+  fits_view_->setShouldBeSaved(false);  // a layout that a person saves keeps its view
   for (rviz::Property* property : {static_cast<rviz::Property*>(topic_), static_cast<rviz::Property*>(color_by_)})
     connect(property, &rviz::Property::changed, this, [this] { reset(); });
   for (rviz::Property* property : {static_cast<rviz::Property*>(color_), static_cast<rviz::Property*>(wall_color_),
@@ -83,6 +100,7 @@ void SurfaceDisplay::warnOfSamples() const {
 void SurfaceDisplay::onInitialize() {
   warnOfSamples();
   mesh_ = std::make_unique<SurfaceMesh>(scene_manager_, scene_node_);
+  view_ = std::make_unique<ViewFit>(context_);
 }
 
 void SurfaceDisplay::onEnable() {
@@ -101,11 +119,11 @@ void SurfaceDisplay::setTopic(const QString& topic, const QString&) {
 void SurfaceDisplay::reset() {
   rviz::Display::reset();
   feed_.clear();
+  placed_ = true;
+  told_ = {};
   drawn_topology_.reset();
   drawn_vertices_.reset();
   drawn_ = 0;
-  placed_ = true;
-  told_ = {};
   if (mesh_) mesh_->clear();
   if (isEnabled() && initialized()) subscribe();
 }
@@ -135,7 +153,11 @@ void SurfaceDisplay::update(float, float) {
     if (topology_is_new || anew) paint();
     context_->queueRender();
   }
-  if (drawn_vertices_) scene_node_->setVisible(place());
+  if (drawn_vertices_) {
+    const bool placed = place();
+    scene_node_->setVisible(placed);
+    if (placed && fits_view_->getBool()) fitView();
+  }
   if (std::chrono::steady_clock::now() >= told_ + kTellEvery) tell();
 }
 
@@ -156,12 +178,22 @@ bool SurfaceDisplay::place() {
   return true;
 }
 
+/// Once for each scene.
+void SurfaceDisplay::fitView() {
+  if (drawn_topology_->triangles.empty() || fitted_ == drawn_topology_->bodies) return;
+  fitted_ = drawn_topology_->bodies;
+  if (view_->fit(*scene_node_, mesh_->bounds())) context_->queueRender();
+}
+
 void SurfaceDisplay::paint() {
   if (!drawn_topology_) return;
   std::vector<Ogre::ColourValue> colors;
-  for (const SentPart& part : drawn_topology_->parts)
-    colors.push_back(ofBody((part.walls ? wall_color_ : color_)->getColor(), by_body_->getBool() ? part.body : 0,
-                            alpha_->getFloat()));
+  for (const SentPart& part : drawn_topology_->parts) {
+    const bool sent = part.color && color_by_->getOptionInt() != kByBody;
+    colors.push_back(sent ? sentColor(*part.color, alpha_->getFloat())
+                          : ofBody((part.walls ? wall_color_ : color_)->getColor(), by_body_->getBool() ? part.body : 0,
+                                   alpha_->getFloat()));
+  }
   mesh_->paint(colors);
   context_->queueRender();
 }

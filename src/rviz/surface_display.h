@@ -7,6 +7,7 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "rviz/surface_feed.h"
 
@@ -21,6 +22,7 @@ class RosTopicProperty;
 namespace viscera::rviz_plugin {
 
 class SurfaceMesh;
+class ViewFit;
 
 /// `viscera/Surface`: the skin of a simulator by `surface` or `surface_strain`, `surface_topology` and
 /// `surface_topology_change`. All of it is done by rviz's own thread.
@@ -42,16 +44,19 @@ class SurfaceDisplay : public rviz::Display {
   void warnOfSamples() const;
   void subscribe();
   bool place();
+  void fitView();
   void paint();
   void tell();
 
   rviz::RosTopicProperty* topic_;
   rviz::ColorProperty *color_, *wall_color_;
   rviz::EnumProperty* color_by_;
-  rviz::BoolProperty* by_body_;
+  rviz::BoolProperty *by_body_, *fits_view_;
   rviz::FloatProperty* alpha_;
   SurfaceFeed feed_;
   std::unique_ptr<SurfaceMesh> mesh_;
+  std::unique_ptr<ViewFit> view_;
+  std::vector<std::string> fitted_;  ///< bodies that the view was fitted to
   std::shared_ptr<const SentTopology> drawn_topology_;
   SurfaceVerticesConstPtr drawn_vertices_;
   size_t drawn_ = 0;    ///< surfaces since told_

@@ -20,9 +20,18 @@ namespace {
 
 constexpr const char* kGroup = "General";  // of resources: Ogre's own, which is always there
 constexpr size_t kVectorBytes = 3 * sizeof(float);
-constexpr float kAmbient = 0.6F;    // of the colour, in rviz's light from all sides
+// Of the colour, seen whatever the direction, and as much again by rviz's light, which comes from the eye: the top of a
+// flat pad that is seen from low down is brighter than half of what faces the eye.
+constexpr float kOfEach = 0.5F;
 constexpr float kSpecular = 0.15F;  // wet, not plastic
 constexpr float kShininess = 30;
+
+/// Two passes: what is seen whatever the direction, and the light on it. In one, GL takes vertices' colours for one of
+/// the two.
+void makeColored(Ogre::Technique& technique) {
+  technique.getPass(0)->setLightingEnabled(false);
+  technique.createPass()->setVertexColourTracking(Ogre::TVC_DIFFUSE);
+}
 
 size_t withRoom(size_t count) {
   return std::max<size_t>(count + count / 4, 64);
@@ -70,8 +79,8 @@ void SurfaceMesh::make(size_t parts, bool colored) {
         Ogre::MaterialManager::getSingleton().create(name_ + " part " + std::to_string(part), kGroup);
     material->setReceiveShadows(false);
     material->setLightingEnabled(true);
+    if (colored) makeColored(*material->getTechnique(0));
     material->setCullingMode(Ogre::CULL_NONE);  // into what is cut open one looks from behind
-    if (colored) material->getTechnique(0)->getPass(0)->setVertexColourTracking(Ogre::TVC_AMBIENT | Ogre::TVC_DIFFUSE);
     materials_.push_back(material);
     Ogre::SubMesh* shown = mesh_->createSubMesh();
     shown->useSharedVertices = true;
@@ -152,7 +161,7 @@ void SurfaceMesh::writeColors(const std::vector<uint32_t>& colors, float alpha) 
   const uint32_t top = static_cast<uint32_t>(std::lround(255 * alpha)) << 24U;
   seen_colors_.resize(colors.size());
   std::transform(colors.begin(), colors.end(), seen_colors_.begin(),
-                 [top](uint32_t color) { return (color & 0xffffffU) | top; });
+                 [top](uint32_t color) { return (color >> 1U & 0x7f7f7fU) | top; });  // kOfEach
   colors_->writeData(0, colors.size() * sizeof(uint32_t), seen_colors_.data(), true);
 }
 
@@ -161,12 +170,14 @@ void SurfaceMesh::paint(const std::vector<Ogre::ColourValue>& colors) {
     Ogre::Material& material = *materials_[part];
     const Ogre::ColourValue& color = colors[part];
     const bool blends = color.a < 1;
-    material.setAmbient(color * kAmbient);
-    material.setDiffuse(color);
+    material.setAmbient(Ogre::ColourValue::Black);
+    material.setSelfIllumination(colored_ ? Ogre::ColourValue::Black : color * kOfEach);
+    material.setDiffuse(color.r * kOfEach, color.g * kOfEach, color.b * kOfEach, color.a);
     material.setSpecular(Ogre::ColourValue(kSpecular, kSpecular, kSpecular, color.a));
     material.setShininess(kShininess);
     material.setSceneBlending(blends ? Ogre::SBT_TRANSPARENT_ALPHA : Ogre::SBT_REPLACE);
     material.setDepthWriteEnabled(!blends);
+    if (colored_) material.getTechnique(0)->getPass(1)->setSceneBlending(Ogre::SBF_SOURCE_ALPHA, Ogre::SBF_ONE);
   }
 }
 

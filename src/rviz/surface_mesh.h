@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <OgreAxisAlignedBox.h>
 #include <OgreColourValue.h>
 #include <OgreHardwareIndexBuffer.h>
 #include <OgreHardwareVertexBuffer.h>
@@ -36,6 +37,8 @@ class SurfaceMesh {
   /// have those of paint()   @returns whether materials are new: what paint() said is gone
   bool show(const SentTopology& topology, const SurfaceVertices& vertices, bool topology_is_new,
             const std::optional<float>& alpha);
+  /// Box around what is shown.
+  const Ogre::AxisAlignedBox& bounds() const { return mesh_->getBounds(); }
   /// @param colors  of each part that was shown; alpha below 1 blends, of vertices' colours too
   void paint(const std::vector<Ogre::ColourValue>& colors);
 

@@ -45,6 +45,30 @@ SurfaceTopologyChange change(uint32_t version) {
   return message;
 }
 
+TEST(SentSurface, PartsHaveTheColorsOfTheSceneOverChangesToo) {
+  SentSurface surface;
+  SurfaceTopology colored = whole(1);
+  colored.body_colors = {0xff102030, 0xff405060};
+  colored.wound_colors = {0xff010203, 0xff040506};
+  EXPECT_EQ(surface.take(colored), "");
+  EXPECT_EQ(surface.take(vertices(1)), "");
+  ASSERT_EQ(surface.topology()->parts.size(), 4U);
+  EXPECT_EQ(surface.topology()->parts[0].color, 0xff102030U);
+  EXPECT_EQ(surface.topology()->parts[1].color, 0xff010203U);
+  EXPECT_EQ(surface.topology()->parts[2].color, 0xff405060U);
+  EXPECT_EQ(surface.take(change(2)), "");
+  EXPECT_EQ(surface.take(vertices(2)), "");
+  EXPECT_EQ(surface.topology()->version, 2U);
+  EXPECT_EQ(surface.topology()->parts[2].color, 0xff405060U);
+
+  colored = whole(3);
+  colored.body_colors = {0xff102030};
+  EXPECT_NE(surface.take(colored), "");
+  EXPECT_EQ(surface.take(whole(3)), "");  // senders need not know any
+  EXPECT_EQ(surface.take(vertices(3)), "");
+  EXPECT_FALSE(surface.topology()->parts[0].color);
+}
+
 TEST(SentSurface, PartsAreSkinAndWallsOfEachBody) {
   SentSurface surface;
   EXPECT_EQ(surface.take(whole(1)), "");

@@ -32,12 +32,14 @@ size_t pixelsThatDiffer(const ImageFrame& a, const ImageFrame& b) {
   return count;
 }
 
-/// Brightness of green over the tissue alone: the scale of strains goes from dark to bright.
-int brightest(const ImageFrame& image) {
-  int most = 0;
+/// How much more green than blue there is over the tissue: the scale of strains goes from blue to yellow.
+int yellowest(const ImageFrame& image) {
+  int most = -255;
   for (int row = 0; row < image.height; ++row) {
-    for (int column = 0; column < image.width * 3 / 4; ++column)
-      most = std::max<int>(most, image.rgb[3 * static_cast<size_t>(row * image.width + column) + 1]);
+    for (int column = 0; column < image.width * 3 / 4; ++column) {
+      const uint8_t* const pixel = &image.rgb[3 * static_cast<size_t>(row * image.width + column)];
+      most = std::max(most, pixel[1] - pixel[2]);
+    }
   }
   return most;
 }
@@ -57,16 +59,16 @@ TEST_P(OverlayPictures, EachIsSeenAndGoesAgain) {
   }
 }
 
-TEST_P(OverlayPictures, StrainIsDarkAtRestAndBrightWhereTheProbePresses) {
+TEST_P(OverlayPictures, StrainIsBlueAtRestAndYellowWhereTheProbePresses) {
   Scene strained = scene();
   strained.cameras[0].overlays = overlaysOf({"strain"});
   strained.cameras[0].strain_range = 0.02;
   Session session(strained, context_);
-  const int at_rest = brightest(picture(session));
+  const int at_rest = yellowest(picture(session));
   for (int t = 1; t <= kPressTicks; ++t) session.step(press(t), {});
   session.step({}, {});    // no tool in the picture
-  EXPECT_LT(at_rest, 40);  // the dark end has no green
-  EXPECT_GT(brightest(picture(session)), 100);
+  EXPECT_LT(at_rest, 10);  // the background, which is grey
+  EXPECT_GT(yellowest(picture(session)), 60);
 }
 
 TEST_P(OverlayPictures, TissueStepsAsWithoutThem) {

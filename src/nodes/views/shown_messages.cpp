@@ -5,6 +5,7 @@
 #include <sensor_msgs/distortion_models.h>
 #include <sensor_msgs/image_encodings.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -33,6 +34,15 @@ std_msgs::ColorRGBA toColor(const Vector3d& color) {
   out.g = static_cast<float>(color.y());
   out.b = static_cast<float>(color.z());
   out.a = 1;
+  return out;
+}
+
+/// @param color  sRGB, 0..1   @returns as SurfaceVertices.colors has it
+uint32_t packed(const Vector3d& color) {
+  constexpr double kMost = 255;
+  uint32_t out = 0xff;  // alpha, shifted to the top
+  for (const int axis : {2, 1, 0})
+    out = out << 8U | static_cast<uint32_t>(std::lround(kMost * std::clamp(color[axis], 0.0, 1.0)));
   return out;
 }
 
@@ -70,7 +80,11 @@ SurfaceTopology toTopology(const ShownTopology& skin, const SentVertices& sent, 
   out.vertices = static_cast<uint32_t>(sent.vertices().size());
   out.triangles.reserve(skin.triangles.size());
   for (const uint32_t vertex : skin.triangles) out.triangles.push_back(sent.numberOf(vertex));
-  for (const ShownBody& body : skin.bodies) out.bodies.push_back(body.name);
+  for (const ShownBody& body : skin.bodies) {
+    out.bodies.push_back(body.name);
+    out.body_colors.push_back(packed(body.color));
+    out.wound_colors.push_back(packed(woundColor(body.color)));
+  }
   out.body_triangles.assign(skin.bodies.size(), 0);
   out.wound_triangles.assign(skin.bodies.size(), 0);
   for (const ShownPatch& patch : skin.patches) {

@@ -115,6 +115,16 @@ TEST(Conversions, TopologyTellsWhatIsShownAndCountsPerBody) {
   EXPECT_EQ(torn.body_triangles, (std::vector<uint32_t>{1, 1}));
 }
 
+TEST(Conversions, TopologyTellsTheColorsOfTheScene) {
+  ShownTopology skin = twoBodies();
+  skin.bodies[0].color = {1, 0.5, 0};
+  skin.bodies[1].color = {0, 0, 2};
+  const auto topology = toTopology(skin, followed(skin), 1, "tissue", ros::Time(1));
+  EXPECT_EQ(topology.body_colors, (std::vector<uint32_t>{0xff0080ff, 0xffff0000}));
+  ASSERT_EQ(topology.wound_colors.size(), 2U);
+  EXPECT_EQ(topology.wound_colors[0], 0xff0040ccU);
+}
+
 TEST(Conversions, PatchesOfABodyAreToldTogether) {
   ShownTopology skin = twoBodies();
   skin.triangles.insert(skin.triangles.end(), {7, 8, 9});

@@ -11,7 +11,7 @@ import unittest
 import rospy
 import rostest
 from rviz_screen import MOUSE_SIGN, VIEW, Screen, alone, rviz
-from sent_ball import Sender
+from sent_ball import Sender, packed
 from simulator_watch import wait_until
 
 from viscera.msg import SurfaceTopologyChange, SurfaceVertices
@@ -19,6 +19,9 @@ from viscera.msg import SurfaceTopologyChange, SurfaceVertices
 CONFIG = os.path.join(subprocess.check_output(["rospack", "find", "viscera"], text=True).strip(),
                       "config", "viscera_plugin.rviz")
 LIMIT_S = 60      # software rendering on a busy machine
+SCENE_COLOR = 0xffc08040
+MIDDLE = slice(335, 355), slice(225, 245)  # rows and columns of VIEW, in the midst of the disc
+LEAST_LIGHT, MOST_LIGHT = 0.6, 1.1
 FEW, MANY = 300, 10000  # pixels: frames' axes are red too; a ball of 5 cm is 200 pixels wide
 
 
@@ -86,6 +89,18 @@ class RvizSurfaceTest(unittest.TestCase):
         self.screen.keep("colors.ppm")
         sender.vertices(3)
         self.expect(lambda skin, walls: skin > MANY and blue(self.screen.picture()[VIEW]) < FEW, "ball with the color of its body")
+
+        # In the colours of the scene, and flat: its top is seen from the side.
+        sender.topology(4, body_colors=[SCENE_COLOR], wound_colors=[SCENE_COLOR])
+        flat = [0 if i % 3 == 2 else x for i, x in enumerate(sender.positions_m)]
+        sender.vertices(4, positions_m=flat, normals=[packed((0, 0, 1))] * len(sender.points))
+        scene_color = [SCENE_COLOR >> shift & 0xff for shift in (0, 8, 16)]
+
+        def is_seen():
+            shares = self.screen.picture()[VIEW][MIDDLE].mean(axis=(0, 1)) / scene_color
+            return min(shares) > LEAST_LIGHT and max(shares) < MOST_LIGHT
+        wait_until(is_seen, LIMIT_S, "flat disc in the color of the scene")
+        self.screen.keep("flat.ppm")
 
         sender.topology(1)  # as of a simulator that was started again
         sender.vertices(1)

@@ -82,10 +82,10 @@ class Screen:
         if "VISCERA_PICTURES" in os.environ:
             self.save(os.path.join(os.environ["VISCERA_PICTURES"], name))
 
-    def find(self, color):
-        """Middle (x, y) of the pixels of just this colour; nothing where there are less than a sign on a button has."""
+    def find(self, color, least=SIGN_PIXELS):
+        """Middle (x, y) of the pixels of just this colour; nothing where there are fewer than a sign on a button has."""
         rows, columns = numpy.nonzero((self.picture() == color).all(axis=2))
-        return (int(numpy.median(columns)), int(numpy.median(rows))) if len(rows) >= SIGN_PIXELS else None
+        return (int(numpy.median(columns)), int(numpy.median(rows))) if len(rows) >= least else None
 
     def ball(self):
         """Middle (x, y) of what is red in the scene, as the ball of stand_in_simulator.py; nothing where that is not there."""

@@ -52,13 +52,13 @@ class Sender:
         self.positions_m = [RADIUS_M * x for point in self.points for x in point]
         self.normals = [packed(point) for point in self.points]
 
-    def topology(self, version, triangles=None, bodies=1):
+    def topology(self, version, triangles=None, bodies=1, **other):
         triangles = self.triangles if triangles is None else triangles
         of_each = len(triangles) // 3 // bodies
         of_bodies = [of_each] * (bodies - 1) + [len(triangles) // 3 - of_each * (bodies - 1)]
         message = SurfaceTopology(version=version, vertices=len(self.points),
                                   bodies=["ball %d" % b for b in range(bodies)], body_triangles=of_bodies,
-                                  wound_triangles=[count // 2 for count in of_bodies], triangles=triangles)
+                                  wound_triangles=[count // 2 for count in of_bodies], triangles=triangles, **other)
         message.header.frame_id, message.header.stamp = "tissue", rospy.Time.now()
         self.whole.publish(message)
 
