@@ -97,7 +97,15 @@ void SurfaceDisplay::warnOfSamples() const {
            renderer.c_str(), window->getFSAA());
 }
 
+/// Makes Mesa ask for the size of rviz's window again before the first picture. On a software renderer rviz may make
+/// its context before the X server has the window; Mesa then keeps an accidental size, of height 0 too, up to the first
+/// swap, and writes beyond buffers of that size: rviz ended by SIGSEGV or SIGABRT, seldom, oftener on a busy machine.
+void SurfaceDisplay::renewWindowSize() const {
+  context_->getViewManager()->getRenderPanel()->getRenderWindow()->swapBuffers();
+}
+
 void SurfaceDisplay::onInitialize() {
+  renewWindowSize();
   warnOfSamples();
   mesh_ = std::make_unique<SurfaceMesh>(scene_manager_, scene_node_);
   view_ = std::make_unique<ViewFit>(context_);

@@ -41,6 +41,7 @@ class SurfaceDisplay : public rviz::Display {
   void onDisable() override;
 
  private:
+  void renewWindowSize() const;
   void warnOfSamples() const;
   void subscribe();
   bool place();

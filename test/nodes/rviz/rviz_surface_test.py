@@ -10,7 +10,7 @@ import unittest
 
 import rospy
 import rostest
-from rviz_screen import MOUSE_SIGN, VIEW, Screen, alone, rviz
+from rviz_screen import MOUSE_SIGN, VIEW, Screen, alone, drawn_hz, rviz
 from sent_ball import Sender, packed
 from simulator_watch import wait_until
 
@@ -125,6 +125,25 @@ class RvizStrainTest(unittest.TestCase):
                 return blue(screen.picture()) > MANY
             wait_until(seen, LIMIT_S, "ball with colors of strain in: " + program.output)
             self.assertNotIn("with --disable-anti-aliasing", program.output)
+        finally:
+            program.end()
+            screen.end()
+
+
+class RvizWindowTest(unittest.TestCase):
+    def test_a_window_that_the_x_server_gets_late(self):
+        screen, sender = Screen(320, 240), Sender()
+        os.environ["LD_PRELOAD"] = os.environ["VISCERA_LATE_WINDOW"]
+        program = alone(screen, 30, "--disable-anti-aliasing")
+        del os.environ["LD_PRELOAD"]
+        try:
+            def drawn():
+                self.assertIsNone(program.process.poll(), "rviz has ended: " + program.output)
+                sender.topology(1)
+                sender.vertices(1)
+                return drawn_hz(program.output)
+            wait_until(drawn, LIMIT_S, "ball that is drawn in: " + program.output)
+            program.said("a window came late")
         finally:
             program.end()
             screen.end()
