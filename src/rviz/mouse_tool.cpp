@@ -120,6 +120,7 @@ void MouseTool::update(float, float) {
   if (topics_.empty()) return tell("no namespace: " + space_->getString());
   if (!ros::names::validate(stylus, wrong) || stylus.empty() || stylus[0] == '/')
     return tell("no name of a stylus: " + stylus_->getString());
+  if (feed_.renew()) aim_.clear();
   const std::optional<Pose> tip = aim();
   if (!tip) return sender_->rest();
   WantedStylus wanted;
@@ -141,6 +142,11 @@ void MouseTool::update(float, float) {
 /// Where the tip is to be, in the surface's frame; nothing while that is not known.
 std::optional<Pose> MouseTool::aim() {
   const SurfaceVerticesConstPtr& vertices = feed_.surface().vertices();
+  const SenderWatch::Senders senders = feed_.senders();
+  if (senders.known && senders.alive.empty()) {
+    tell(QString("no simulator sends ") + QString::fromStdString(topics_ + "surface"));
+    return std::nullopt;
+  }
   if (!vertices) {
     tell(QString("waiting for ") + QString::fromStdString(topics_ + "surface"));
     return std::nullopt;

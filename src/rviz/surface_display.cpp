@@ -129,11 +129,16 @@ void SurfaceDisplay::reset() {
   feed_.clear();
   placed_ = true;
   told_ = {};
+  senders_.clear();
+  forget();
+  if (isEnabled() && initialized()) subscribe();
+}
+
+void SurfaceDisplay::forget() {
   drawn_topology_.reset();
   drawn_vertices_.reset();
   drawn_ = 0;
   if (mesh_) mesh_->clear();
-  if (isEnabled() && initialized()) subscribe();
 }
 
 void SurfaceDisplay::subscribe() {
@@ -149,6 +154,10 @@ void SurfaceDisplay::subscribe() {
 }
 
 void SurfaceDisplay::update(float, float) {
+  if (feed_.vertices() && feed_.renew()) {
+    forget();
+    context_->queueRender();
+  }
   const SentSurface& sent = feed_.surface();
   if (sent.vertices() && sent.vertices() != drawn_vertices_) {
     const bool topology_is_new = sent.topology() != drawn_topology_;
@@ -166,7 +175,24 @@ void SurfaceDisplay::update(float, float) {
     scene_node_->setVisible(placed);
     if (placed && fits_view_->getBool()) fitView();
   }
+  tellSenders();
   if (std::chrono::steady_clock::now() >= told_ + kTellEvery) tell();
+}
+
+/// The status line of the simulator, as soon as something changes.
+void SurfaceDisplay::tellSenders() {
+  using rviz::StatusProperty;
+  const ros::Subscriber& vertices = feed_.vertices();
+  const SenderWatch::Senders senders = feed_.senders();
+  if (!vertices || !senders.known) return;
+  const std::string topic = vertices.getTopic();
+  std::string text = "no simulator sends " + topic;
+  if (senders.alive.size() == 1) text = "sends " + topic;
+  if (senders.alive.size() > 1) text = std::to_string(senders.alive.size()) + " nodes send " + topic;
+  if (senders.alive.empty() && !senders.uris.empty())
+    text = "the simulator that sent " + topic + " has died" + (drawn_vertices_ ? "; its last surface is shown" : "");
+  if (std::exchange(senders_, text) == text) return;
+  setStatusStd(senders.alive.size() == 1 ? StatusProperty::Ok : StatusProperty::Warn, "Simulator", text);
 }
 
 /// @returns whether it is known where the surface's frame is
@@ -215,13 +241,7 @@ void SurfaceDisplay::tell() {
   told_ = now;
   const ros::Subscriber& vertices = feed_.vertices();
   if (!vertices) return;
-  const uint32_t senders = vertices.getNumPublishers();
   const QString topic = QString::fromStdString(vertices.getTopic());
-  if (senders == 1)
-    setStatus(StatusProperty::Ok, "Simulator", "sends " + topic);
-  else
-    setStatus(StatusProperty::Warn, "Simulator",
-              senders == 0 ? "no simulator sends " + topic : QString("%1 nodes send ").arg(senders) + topic);
   if (!feed_.surface().hasTopology())
     setStatus(StatusProperty::Warn, "Topology", "waiting for " + topic + "_topology");
   else if (!drawn_topology_)

@@ -48,6 +48,8 @@ class SurfaceDisplay : public rviz::Display {
   void fitView();
   void paint();
   void tell();
+  void tellSenders();
+  void forget();
 
   rviz::RosTopicProperty* topic_;
   rviz::ColorProperty *color_, *wall_color_;
@@ -60,8 +62,9 @@ class SurfaceDisplay : public rviz::Display {
   std::vector<std::string> fitted_;  ///< bodies that the view was fitted to
   std::shared_ptr<const SentTopology> drawn_topology_;
   SurfaceVerticesConstPtr drawn_vertices_;
-  size_t drawn_ = 0;    ///< surfaces since told_
-  bool placed_ = true;  ///< no error about the transform is shown
+  size_t drawn_ = 0;     ///< surfaces since told_
+  std::string senders_;  ///< status that is shown of them
+  bool placed_ = true;   ///< no error about the transform is shown
   std::chrono::steady_clock::time_point told_{};
 };
 

@@ -5,9 +5,11 @@
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 
+#include "rviz/sender_watch.h"
 #include "rviz/sent_surface.h"
 
 namespace viscera::rviz_plugin {
@@ -28,9 +30,13 @@ class SurfaceFeed {
   void unsubscribe();
   /// Forgets what was sent.
   void clear();
+  /// Forgets what was sent and subscribes again if a simulator that sent it has gone and another is there.
+  /// @returns whether that was so   @throws ros::Exception
+  bool renew();
 
   const SentSurface& surface() const { return surface_; }
   const ros::Subscriber& vertices() const { return vertices_; }
+  SenderWatch::Senders senders() const { return watch_.senders(); }
   /// What was wrong with the last message that was left out; empty: nothing since it was taken.
   const std::string& wrong() const { return wrong_; }
   void forgive() { wrong_.clear(); }
@@ -42,7 +48,21 @@ class SurfaceFeed {
     if (!wrong.empty()) wrong_ = std::move(wrong);
   }
 
+  void connect();
+
+  struct Stamps {
+    ros::Time whole = ros::TIME_MAX, vertices = ros::TIME_MAX;  ///< of messages; TIME_MAX: of none
+  };
+
+  ros::NodeHandle node_;
+  std::string topic_;
+  bool strain_ = false;
   ros::Subscriber whole_, changes_, vertices_;
+  SenderWatch watch_;
+  std::set<std::string> senders_;  ///< that were alive when all of them were seen last
+  Stamps last_;                    ///< of what came last
+  std::optional<Stamps> gone_;     ///< last_ as one of senders_ was missed first
+  Stamps dead_;                    ///< of the last of one that has gone: what was latched roscpp hands out again
   SentSurface surface_;
   std::string wrong_;
 };

@@ -5,6 +5,7 @@
 import os
 import subprocess
 import sys
+import time
 import unittest
 
 import rospy
@@ -14,10 +15,14 @@ from program import Program
 from rviz_screen import MOUSE_SIGN, Screen, rviz
 from simulator_watch import wait_until
 
+from viscera.msg import SurfaceVertices
+
 CONFIG = os.path.join(subprocess.check_output(["rospack", "find", "viscera"], text=True).strip(),
                       "config", "viscera_plugin.rviz")
 PAUSE = (0, 114, 178)  # sign on the button, grey without a simulator
 WARNING = (192, 64, 0)  # of text in the panel
+DISPLAY_WARNING = (192, 128, 0)  # of the name of a display, as rviz paints it
+WARNED_S = 2           # after it died
 LIMIT_S = 60           # software rendering on a busy machine
 
 
@@ -54,7 +59,16 @@ class RvizSimulatorsTest(unittest.TestCase):
         first.end()
         self.expect(True, False, "panel of the one that is left")
         second.process.kill()
+        wait_until(lambda: self.screen.find(DISPLAY_WARNING, 1), WARNED_S, "warning of the display")
+        self.screen.keep("display_of_a_dead_simulator.ppm")
+        self.assertTrue(self.screen.ball(), "its last surface is shown")
         self.expect(False, False, "panel after the last one was killed")
+        # One that is there and has no surface yet: that of the dead one goes.
+        silent = rospy.Publisher("surface", SurfaceVertices, queue_size=1)
+        wait_until(lambda: not self.screen.ball(), LIMIT_S, "view without the ball of the one that died")
+        time.sleep(1)
+        self.assertIsNone(self.screen.ball(), "the surface of the one that died has come again")
+        silent.unregister()
         self.start()
         self.expect(True, False, "panel of one that was started again")
         wait_until(self.screen.ball, LIMIT_S, "ball again")
