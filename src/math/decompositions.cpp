@@ -33,25 +33,22 @@ Quaterniond rotationBetween(const Vector3d& from, const Vector3d& to) {
   return out;
 }
 
+Matrix3d nearestRotation(const Matrix3d& matrix) {
+  const Eigen::JacobiSVD<Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const bool mirrored = svd.matrixU().determinant() * svd.matrixV().determinant() < 0;
+  return svd.matrixU() * Vector3d(1, 1, mirrored ? -1 : 1).asDiagonal() * svd.matrixV().transpose();
+}
+
 Eigen::Matrix4d rigidMotion(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
   const Vector3d from_mean = from.rowwise().mean(), to_mean = to.rowwise().mean();
   Matrix3d spread = Matrix3d::Zero();
   for (Eigen::Index i = 0; i < from.cols(); ++i)
     spread += (to.col(i) - to_mean) * (from.col(i) - from_mean).transpose();
-  const Eigen::JacobiSVD<Matrix3d> svd(spread, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const bool mirrored = svd.matrixU().determinant() * svd.matrixV().determinant() < 0;
-  const Vector3d signs(1, 1, mirrored ? -1 : 1);
-  const Matrix3d turn = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  const Matrix3d turn = nearestRotation(spread);
   Eigen::Matrix4d motion = Eigen::Matrix4d::Identity();
   motion.topLeftCorner<3, 3>() = turn;
   motion.topRightCorner<3, 1>() = to_mean - turn * from_mean;
   return motion;
-}
-
-Matrix3d nearestRotation(const Matrix3d& matrix) {
-  const Eigen::JacobiSVD<Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const bool mirrored = svd.matrixU().determinant() * svd.matrixV().determinant() < 0;
-  return svd.matrixU() * Vector3d(1, 1, mirrored ? -1 : 1).asDiagonal() * svd.matrixV().transpose();
 }
 
 PrincipalAxes principalAxes(const Matrix3d& symmetric) {

@@ -17,7 +17,8 @@ Quaterniond rotationBetween(const Vector3d& from, const Vector3d& to);
 /// n], moved, to those of `to` [3 x n] (Umeyama, PAMI 1991, without scale).
 Eigen::Matrix4d rigidMotion(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to);
 
-/// Returns the rotation R with the largest trace of R^T `matrix`: the one nearest to it (Kabsch, Acta Cryst. A32, 1976).
+/// Returns the rotation R with the largest trace of R^T `matrix`: the one nearest to it (Kabsch, Acta Cryst. A32,
+/// 1976).
 Matrix3d nearestRotation(const Matrix3d& matrix);
 
 /// Eigenvalues of a symmetric matrix in ascending order, and its unit eigenvectors as columns.
