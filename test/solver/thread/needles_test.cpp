@@ -10,7 +10,6 @@
 #include <memory>
 
 #include "math/archive.h"
-#include "math/vec4.h"
 #include "solver/cpu/cpu_solver.h"
 #include "solver/thread/thread_bodies.h"
 #include "viscera/model/scene/scene.h"
@@ -235,7 +234,9 @@ TEST(Needles, GoWithTissueThatIsPutElsewhereAndTheirThreadsWithThem) {
   const Body& body = sewing.model().bodies[0];
   for (const uint32_t slot : body.lattice.active_slots) {
     const Vector3d rest_m = restPosition(body, slot);
-    state.displacement_m[slot] = viscera::rounded(jump * (rest_m + viscera::xyz(before_m[slot])) - rest_m);
+    const layout::vec4& u = before_m[slot];
+    const Vector3f there = (jump * (rest_m + Vector3f(u.x, u.y, u.z).cast<double>()) - rest_m).cast<float>();
+    state.displacement_m[slot] = {there.x(), there.y(), there.z(), 0};
     state.velocity_m_per_s[slot] = {};
   }
   sewing.solver().threads()->carry(before_m, state);

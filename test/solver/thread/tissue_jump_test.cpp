@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "math/vec4.h"
 #include "solver/cpu/cpu_solver.h"
 #include "solver/thread/stitch.h"
 
@@ -28,10 +27,14 @@ class Jumping {
     rest_ = folded_ = solver_->readState();
     const Body& body = model_.bodies[0];
     for (const uint32_t slot : body.lattice.active_slots)
-      folded_.displacement_m[slot] = viscera::rounded(xyzOf(rest_, slot) + wayAt(restPosition(body, slot)));
+      add(folded_.displacement_m[slot], wayAt(restPosition(body, slot)));
     threads().carry(rest_.displacement_m, folded_);
   }
-  static Vector3d xyzOf(const HostState& state, uint32_t slot) { return viscera::xyz(state.displacement_m[slot]); }
+  static void add(layout::vec4& to, const Vector3d& way_m) {
+    to.x += static_cast<float>(way_m.x());
+    to.y += static_cast<float>(way_m.y());
+    to.z += static_cast<float>(way_m.z());
+  }
   static constexpr int kRestTicks = 30;
   /// No way at both ends, which are fixed.
   static Vector3d wayAt(const Vector3d& rest_m) {
