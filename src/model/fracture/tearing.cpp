@@ -72,7 +72,7 @@ void requireTearingFits(const Scene& scene) {
       throw SceneError(std::string(kKey) + "needs structure lattice, which body '" + body.name + "' has not");
   }
   if (scene.solver.integrator != Integrator::kLeapfrog)
-    throw SceneError(std::string(kKey) + "needs solver.integrator leapfrog or auto, not " +
+    throw SceneError(std::string(kKey) + "needs solver.integrator leapfrog, not " +
                      traitsOf(scene.solver.integrator).name);
   if (scene.solver.backend == Backend::kGpu)
     throw SceneError(std::string(kKey) + "needs solver.backend cpu or auto, not gpu");

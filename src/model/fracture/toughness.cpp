@@ -131,7 +131,7 @@ void requireBladesFit(const Scene& scene) {
   if (!resistsBlades(scene)) return;
   const std::string key = "bodies[].material.cut.toughness_j_per_m2 above 0 ";
   if (scene.solver.integrator != Integrator::kLeapfrog)
-    throw SceneError(key + "needs solver.integrator leapfrog or auto, not " + traitsOf(scene.solver.integrator).name);
+    throw SceneError(key + "needs solver.integrator leapfrog, not " + traitsOf(scene.solver.integrator).name);
 }
 
 }  // namespace viscera

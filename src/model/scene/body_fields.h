@@ -38,7 +38,7 @@ void visitFields(V& v, FractureConfig& c) {
       "toughness_j_per_m2", c.toughness_j_per_m2, c.of_tissue, kToughness, "J/m2",
       "work that a blade does per area that it parts, felt by the hand (docs/cutting.md); 0: it parts what it "
       "crosses and is not felt; auto: that of the tissue (docs/tissues.md#toughness). Above 0: solver.integrator "
-      "leapfrog or auto");
+      "leapfrog");
 }
 
 template <class V>
@@ -57,7 +57,7 @@ void visitFields(V& v, TearConfig& c) {
   v.number(
       "toughness_j_per_m2", c.toughness_j_per_m2, {0, 1e6}, "J/m2",
       "work per area that it takes to pull the tissue apart (docs/cutting.md 8); 0: it stretches without end. Above "
-      "0: structure lattice, solver.integrator leapfrog or auto, solver.backend cpu or auto");
+      "0: structure lattice, solver.integrator leapfrog, solver.backend cpu or auto");
 }
 
 template <class V>

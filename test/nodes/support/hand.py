@@ -2,7 +2,7 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
 """hand.py [WRENCHES [KIND]]: a hand with a device, as a process of its own. Told a line on its standard input it presses the
-probe of `left` into the heart, holds it there, and notes every wrench that it is told. Prints `touching` once it feels a force
+probe of `left` into the heart, goes in again where no force came, holds it there, and notes every wrench that it is told. Prints `touching` once it feels a force
 that lasts, `let go` at the first zero after that, and, when its input ends, a JSON list of [time.monotonic(), force in N, torque
 in N m, the message's stamp in s]. KIND is a class of drivers.py, whose topics are its driver's; by default it speaks CRTK and
 listens to WRENCHES."""
@@ -22,6 +22,7 @@ APPROACH_S = 0.3
 LASTS_S = 0.3       # without a break, as there may be some while the simulator makes its first pictures
 RATE_HZ = 200
 FELT_N = 0.02
+AGAIN_S = 3         # without a touch: poses paused while the probe went in, and one that appears inside pushes nothing
 
 
 class Hand:
@@ -69,6 +70,8 @@ class Hand:
             time.sleep(0.02)
         begun = time.monotonic()
         while not stop.is_set():
+            if not self.told and time.monotonic() > begun + AGAIN_S:
+                begun = time.monotonic()  # out, and in again
             since_s = time.monotonic() - begun
             way = min(1.0, since_s / APPROACH_S)
             self.move((0, OUTSIDE_Y_M + way * (DEEP_Y_M - OUTSIDE_Y_M), -0.02))
