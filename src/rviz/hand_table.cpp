@@ -13,7 +13,7 @@ namespace viscera::rviz_plugin {
 namespace {
 
 constexpr std::array<const char*, 3> kSwitches = {"idle", "button1", "button2"};
-constexpr int kLeastModePx = 40;  // a dock may be narrow; the list shows whole names
+constexpr int kModeLetters = 4;  // a dock may be narrow; the list shows whole names
 constexpr int kFeltLines = 2;
 
 QString feltText(const ToldStylus& told) {
@@ -55,9 +55,8 @@ void HandTable::makeRows(const std::vector<ToldStylus>& styluses) {
     Row row{stylus.name, {}, steadyLabel(kFeltLines)};
     for (size_t which = 0; which < kSwitches.size(); ++which) {
       QComboBox* box = row.modes[which] = new ChoiceBox;
-      // Boxes share the width that is there: a scroll bar that came and went would move the buttons below.
-      box->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-      box->setMinimumWidth(kLeastModePx);
+      box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+      box->setMinimumContentsLength(kModeLetters);
       for (const ToolKind& kind : kToolKinds) box->addItem(kind.name);
       connect(box, QOverload<int>::of(&QComboBox::activated), this, [this, box, name = stylus.name, which] {
         chosen_(name, kSwitches[which], box->currentText().toStdString());
