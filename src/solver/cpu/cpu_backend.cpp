@@ -23,6 +23,8 @@ namespace {
 
 constexpr Portions kMeasuredBricks{2, 16};
 
+}  // namespace
+
 simd::Kernels kernelsOrThrow(const std::string& target) {
   const std::optional<simd::Kernels> kernels = simd::kernelsFor(target);
   if (kernels) return *kernels;
@@ -32,8 +34,6 @@ simd::Kernels kernelsOrThrow(const std::string& target) {
   for (const std::string& name : simd::targets()) known += (known.empty() ? "" : ", ") + name;
   throw SceneError("no instruction set '" + target + "' on this processor: " + known);
 }
-
-}  // namespace
 
 struct CpuBackend::Work {
   std::vector<simd::BrickStats> stats;  ///< [bricks]

@@ -31,6 +31,10 @@ struct CpuSolverOptions : SolverOptions {
 /// Instruction sets that the kernels were compiled for and this processor has, best first, such as AVX3, AVX2, SSE4.
 std::vector<std::string> simdTargets();
 
+/// The kernels of an instruction set; empty: of the best there is.
+/// @throws SceneError  this processor or this build has none of that name
+simd::Kernels kernelsOrThrow(const std::string& target);
+
 /// The tissue in host memory, stepped by SIMD threads. Bricks at rest sleep.
 class CpuBackend : public SolverBackend {
  public:

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/number_text.h"
 #include "solver/contact/surroundings.h"
 #include "solver/cpu/cpu_backend.h"
 #include "solver/cpu/steps/network.h"
@@ -112,7 +113,7 @@ class Relaxation {
         reference_u_(3 * lattice_.slotCount()),
         reference_a_(3 * lattice_.slotCount()),
         parts_(lattice_.brickCount()) {
-    const simd::Kernels kernels = *simd::kernelsFor({});
+    const simd::Kernels kernels = kernelsOrThrow({});
     if (features_.network) network_ = std::make_unique<CpuNetwork>(lattice_, pool, features_, kernels);
     stepper_ = makeCpuStepper(Integrator::kLeapfrog, 0, lattice_, {pool, sleep_, network_.get(), features_, kernels});
     for (const layout::vec4& a : influences_) pushed_ = pushed_ || a.x != 0 || a.y != 0 || a.z != 0;
@@ -282,7 +283,7 @@ HostState equilibriumOf(const Model& model, const Scene& scene, SettleReport& re
     return relaxation.state();
   }
   throw Error("no equilibrium was found after " + std::to_string(report.substeps) +
-              " substeps: what is not balanced is " + std::to_string(report.residual) + " of the load");
+              " substeps: what is not balanced is " + numberText(report.residual, 3) + " of the load");
 }
 
 }  // namespace viscera
