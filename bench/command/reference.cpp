@@ -97,6 +97,7 @@ int referenceRun(const ReferenceRunOptions& options) {
   metrics.dt_safe_s = metrics.dt_limit_s = reference.dtSafe_s();
   metrics.simulated_s = static_cast<double>(plan.ticks) / tick_hz;
   metrics.state_hash = stateHash(model, reference.solver().state());
+  for (const auto& process : reference.processes()) metrics.facts.push_back(process->facts());
   metrics.backend = "reference";
   metrics.stepped_by = "reference (float64), as `viscera bench reference` asks";
   metrics.renderer = "none";

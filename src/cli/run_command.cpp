@@ -24,6 +24,7 @@
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 #include "viscera/session/session.h"
+#include "viscera/session/tissue_processes.h"
 #include "viscera/tools/strokes.h"
 
 namespace viscera::cli {
@@ -50,15 +51,7 @@ Json metricsOf(const Session& session, const layout::TickStats& stats, const std
   metrics.state_hash = session.stateHash();
   metrics.extremes = session.extremes();
   metrics.unfolded = session.solver().health().unfolded;
-  const bool resists = resistsBlades(session.scene());
-  for (uint32_t s = 0; resists && s < session.styluses().size(); ++s)
-    metrics.blades.push_back(session.solver().bladeWork(s));
-  for (const SeenThread& seen : session.seenThreads())
-    metrics.threads.push_back({session.scene().threads[seen.thread].name, seen});
-  if (mayClip(session.scene().styluses)) metrics.clips = session.seenClips();
-  if (mayBurn(session.scene().styluses)) metrics.burns = session.seenBurns();
-  if (session.solver().bleeding()) metrics.blood = session.seenBlood();
-  metrics.thread_refusal = session.threadRefusal();
+  metrics.facts = session.facts();
   metrics.images = counters.renders;
   metrics.images_skipped = counters.skipped;
   metrics.backend = session.solver().backend();
@@ -171,6 +164,21 @@ void finish(SessionRecorder& recorder) {
   if (!recorder.fault().empty()) throw Error(recorder.fault());
 }
 
+/// What is to be known of a session before its first step.
+void printNotes(const Session& session, const std::vector<std::string>& stroke_notes) {
+  for (const Body& body : session.model().bodies) {
+    for (const std::string& note : body.notes) std::cout << body.name << ": " << oneLine(note) << '\n';
+  }
+  for (const std::string& note : stroke_notes) std::cout << "strokes: " << oneLine(note) << '\n';
+  std::cout << "stepped by: " << session.backendNote() << '\n';
+}
+
+void printRecording(const Strokes& strokes) {
+  if (strokes.recorded.scene.empty()) return;
+  std::cout << "strokes: recorded of scene " << strokes.recorded.scene
+            << ", overrides: " << (strokes.recorded.overrides.empty() ? "none" : strokes.recorded.overrides) << '\n';
+}
+
 }  // namespace
 
 int run(const RunOptions& options) {
@@ -190,16 +198,10 @@ int run(const RunOptions& options) {
   requireSomethingToWrite(options, session, ticks);
   const std::vector<std::string> stroke_notes = resolveAnchors(strokes, session.model(), scene.fit);
   sayFarHands(strokes, scene);
-  for (const Body& body : session.model().bodies) {
-    for (const std::string& note : body.notes) std::cout << body.name << ": " << oneLine(note) << '\n';
-  }
-  for (const std::string& note : stroke_notes) std::cout << "strokes: " << oneLine(note) << '\n';
-  std::cout << "stepped by: " << session.backendNote() << '\n';
+  printNotes(session, stroke_notes);
   const RunFolder folder(options.out);
   Album album(options.out, session.scene(), strokes, ticks, picturesOf(options), {options.depth, options.labels});
-  if (!strokes.recorded.scene.empty())
-    std::cout << "strokes: recorded of scene " << strokes.recorded.scene
-              << ", overrides: " << (strokes.recorded.overrides.empty() ? "none" : strokes.recorded.overrides) << '\n';
+  printRecording(strokes);
   if (!options.resume.empty()) resume(session, options.resume, ticks);
   std::optional<HandLog> hands;
   if (!options.strokes.empty()) hands.emplace(session);

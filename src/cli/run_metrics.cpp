@@ -2,9 +2,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/run_metrics.h"
 
+#include <type_traits>
+#include <variant>
+
 #include "viscera/math/state_hash.h"
 
 namespace viscera::cli {
+
+namespace {
+
+nlohmann::ordered_json toJson(const Fact::Facts& facts) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::object();
+  for (const Fact& fact : facts) {
+    nlohmann::ordered_json& json = out[fact.name];
+    if (const auto* const entries = std::get_if<std::vector<Fact::Facts>>(&fact.value)) {
+      json = nlohmann::ordered_json::array();
+      for (const Fact::Facts& entry : *entries) json.push_back(toJson(entry));
+    } else {
+      std::visit(
+          [&](const auto& value) {
+            if constexpr (!std::is_same_v<std::decay_t<decltype(value)>, std::vector<Fact::Facts>>) json = value;
+          },
+          fact.value);
+    }
+  }
+  return out;
+}
+
+}  // namespace
 
 nlohmann::ordered_json toJson(const RunMetrics& metrics) {
   const size_t nodes = metrics.model.activeNodes();
@@ -31,56 +56,7 @@ nlohmann::ordered_json toJson(const RunMetrics& metrics) {
   out["nodes_unfolded"] = metrics.unfolded;
   out["ticks_held_back"] = metrics.extremes.held_back;
   out["peak_force_n"] = metrics.extremes.peak_force_n;
-  for (const BladeWork& blade : metrics.blades) {
-    out["cut_area_m2"].push_back(blade.area_m2);
-    out["cut_work_j"].push_back(blade.work_j);
-  }
-  for (const ThreadMetrics& thread : metrics.threads) {
-    nlohmann::ordered_json told = {{"name", thread.name},
-                                   {"length_m", thread.seen.length_m},
-                                   {"largest_n", thread.seen.largest_n},
-                                   {"knots", nlohmann::ordered_json::array()}};
-    for (const SeenKnot& knot : thread.seen.knots)
-      told["knots"].push_back({{"knot", nameOf(knot.kind)},
-                               {"turns", knot.turns},
-                               {"tied", knot.tied},
-                               {"holds_n", knot.holds_n},
-                               {"loop_m", knot.loop_m},
-                               {"loop_n", knot.loop_n}});
-    out["threads"].push_back(told);
-  }
-  if (metrics.clips) {
-    nlohmann::ordered_json clips = {{"empty", metrics.clips->empty},
-                                    {"taken_off", metrics.clips->taken_off},
-                                    {"on", nlohmann::ordered_json::array()}};
-    for (const SeenClip& clip : metrics.clips->on) {
-      clips["on"].push_back({{"stylus", clip.stylus},
-                             {"rest_m", {clip.rest_m.x(), clip.rest_m.y(), clip.rest_m.z()}},
-                             {"opening_m", clip.opening_m},
-                             {"force_n", clip.force_n}});
-    }
-    out["clips"] = clips;
-  }
-  if (metrics.burns) {
-    const SeenBurns& burns = *metrics.burns;
-    out["burns"] = {{"given_j", burns.given_j},
-                    {"stored_j", burns.stored_j},
-                    {"steam_j", burns.steam_j},
-                    {"perfused_j", burns.perfused_j},
-                    {"surface_j", burns.surface_j},
-                    {"hottest_c", burns.hottest_c},
-                    {"coagulated_m3", burns.coagulated_m3},
-                    {"parted", burns.parted}};
-  }
-  if (metrics.blood) {
-    const SeenBlood& blood = *metrics.blood;
-    out["bleeding"] = {{"bled_ml", blood.bled_ml},
-                       {"on_tissue_ml", blood.on_tissue_ml},
-                       {"dripped_ml", blood.dripped_ml},
-                       {"flow_ml_per_min", blood.flow_ml_per_min},
-                       {"stumps", blood.stumps}};
-  }
-  if (!metrics.thread_refusal.empty()) out["thread_refusal"] = metrics.thread_refusal;
+  for (const FactGroup& group : metrics.facts) out[group.name] = toJson(group.facts);
   out["images"] = metrics.images;
   out["images_skipped"] = metrics.images_skipped;
   out["backend"] = metrics.backend;

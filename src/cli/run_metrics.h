@@ -3,18 +3,12 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "viscera/session/session.h"
 
 namespace viscera::cli {
-
-struct ThreadMetrics {
-  std::string name;
-  SeenThread seen;
-};
 
 /// What `viscera run` says at its end, whatever did the work.
 struct RunMetrics {
@@ -24,12 +18,7 @@ struct RunMetrics {
   uint64_t unfolded = 0;                    ///< nodes of tissue that was left turned inside out, put back
   uint64_t images = 0, images_skipped = 0;  ///< drawn; overtaken before they were
   double dt_s = 0, dt_safe_s = 0, dt_limit_s = 0, simulated_s = 0, wall_s = 0;
-  std::vector<BladeWork> blades = {};  ///< by stylus, of tissue that resists them; else empty
-  std::vector<ThreadMetrics> threads = {};
-  std::optional<SeenClips> clips = {};  ///< where the scene has tools that set some
-  std::optional<SeenBurns> burns = {};  ///< where it has tools that burn
-  std::optional<SeenBlood> blood = {};  ///< where it has tissue that bleeds
-  std::string thread_refusal = {};      ///< why the last tie of the scene was not tied
+  FactGroups facts = {};  ///< of what lives in the tissue
   Extremes extremes = {};
   std::string backend = {}, renderer = {};
   std::string stepped_by = {};  ///< Session::backendNote()

@@ -12,6 +12,7 @@
 #include "model/fracture/prestress.h"
 #include "viscera/layout/skin.h"
 #include "viscera/math/error.h"
+#include "viscera/session/tissue_processes.h"
 
 namespace viscera {
 
@@ -265,15 +266,15 @@ FieldMesh threadFields(const Session& session) {
     mesh.of_cells[1].values.push_back(static_cast<float>(tension_n));
     mesh.of_cells[2].values.push_back(needle ? 1 : 0);
   };
-  for (size_t p = 0; p < session.threadPieces(); ++p) {
+  for (size_t p = 0; p < threadPieces(session); ++p) {
     const size_t first = mesh.pointCount();
-    for (const Vector3d& place : session.threadPlaces(p)) add(mesh.points, place);
-    const std::vector<double> tensions_n = session.threadTensions_n(p);
-    for (size_t i = 0; i < tensions_n.size(); ++i) link(session.threadOf(p), first + i, tensions_n[i], false);
+    for (const Vector3d& place : threadPlaces(session, p)) add(mesh.points, place);
+    const std::vector<double> tensions_n = threadTensions_n(session, p);
+    for (size_t i = 0; i < tensions_n.size(); ++i) link(threadOf(session, p), first + i, tensions_n[i], false);
   }
   for (size_t t = 0; t < session.scene().threads.size(); ++t) {
     const size_t tip = mesh.pointCount();
-    for (const Vector3d& place : session.needlePlaces(t)) add(mesh.points, place);
+    for (const Vector3d& place : needlePlaces(session, t)) add(mesh.points, place);
     for (size_t i = tip; i + 1 < mesh.pointCount(); ++i) link(t, i, 0, true);
   }
   if (mesh.cells.empty()) throw Error("--export threads: the scene has none: give it threads[]");

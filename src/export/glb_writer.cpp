@@ -50,16 +50,21 @@ Json materialOf(const Vector3d& color) {
           {"doubleSided", true}};
 }
 
+std::vector<float> unitNormals(const ShownMesh& skin) {
+  std::vector<float> out;
+  for (size_t v = 0; v < skin.vertices(); ++v) {
+    const Vector3f n = skin.normal(v);
+    const Vector3f unit = n.norm() > 0 ? n.normalized() : Vector3f(0, 0, 1);
+    out.insert(out.end(), {unit.x(), unit.y(), unit.z()});
+  }
+  return out;
+}
+
 }  // namespace
 
 void writeGlb(const ShownMesh& skin, const std::string& path) {
   Buffers buffers;
-  std::vector<float> normals;
-  for (size_t v = 0; v < skin.vertices(); ++v) {
-    const Vector3f n = skin.normal(v);
-    const Vector3f unit = n.norm() > 0 ? n.normalized() : Vector3f(0, 0, 1);
-    normals.insert(normals.end(), {unit.x(), unit.y(), unit.z()});
-  }
+  const std::vector<float> normals = unitNormals(skin);
   const int positions = buffers.add(skin.positions_m, kFloat, kVertices, 3);
   Vector3f low = Vector3f::Constant(HUGE_VALF), high = -low;
   for (size_t v = 0; v < skin.vertices(); ++v) {

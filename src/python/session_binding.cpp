@@ -8,6 +8,7 @@
 
 #include "export/field_mesh.h"
 #include "python/arrays.h"
+#include "python/fact_dicts.h"
 #include "python/node_arrays.h"
 #include "python/stepped.h"
 #include "python/stylus_binding.h"
@@ -103,6 +104,7 @@ struct Facts {
   double dt_s = 0, dt_safe_s = 0, dt_limit_s = 0;
   size_t nodes = 0, springs = 0;
   std::string backend, stepped_by;
+  FactGroups processes;
 };
 
 Facts factsOf(Stepped::Core& core) {
@@ -119,6 +121,7 @@ Facts factsOf(Stepped::Core& core) {
   out.springs = session.model().springs();
   out.backend = session.solver().backend();
   out.stepped_by = session.backendNote();
+  out.processes = session.facts();
   return out;
 }
 
@@ -153,6 +156,7 @@ py::dict diagnostics(const Facts& facts) {
   out["cells_inverted"] = facts.stats.inverted;
   out["stretch_now"] = ofBits(facts.stats.max_stretch_bits);
   out["speed_now_m_per_s"] = ofBits(facts.stats.max_speed_bits);
+  addFacts(facts.processes, out);
   return out;
 }
 
@@ -302,8 +306,7 @@ void bindMeasures(Class& session) {
         return given(s.with([](Stepped::Core& c) { return wrenchesOf(c.last, stylusCount(c)); }), 6);
       },
       "(styluses, 6) float64: force [N] and torque about the tip [N m] on each, tissue frame, within the scene's "
-      "limits; "
-      "zero before the first step, and after reset() and restore(). A copy.");
+      "limits; zero before the first step, and after reset() and restore(). A copy.");
   session.def_property_readonly(
       "contacts",
       [](const Stepped& s) {
@@ -319,13 +322,11 @@ void bindMeasures(Class& session) {
       "touched and held.");
   session.def_property_readonly(
       "diagnostics", [](const Stepped& s) { return diagnostics(s.with(factsOf)); },
-      "Dict, as metrics.json of `viscera run`: nodes, springs, springs_cut, steps, dt_s, dt_safe_s, dt_limit_s, "
-      "max_stretch, "
-      "max_speed_m_per_s, nonfinite, nodes_crowded, governor_trips, nodes_unfolded, ticks_held_back, peak_force_n, "
-      "backend, "
-      "stepped_by; as /diagnostics: ticks, recovering, strained, kinetic_energy_j, elastic_energy_j, "
-      "springs_collapsed, "
-      "cells_inverted; of the last tick: stretch_now, speed_now_m_per_s.");
+      "Dict with the names of metrics.json of `viscera run` (nodes, springs_cut, dt_s, max_stretch ...), a dict for "
+      "each "
+      "of threads, clips, burns, bleeding and blades that the scene has, and what /diagnostics has beside: ticks, "
+      "recovering, strained, kinetic_energy_j, elastic_energy_j, springs_collapsed, cells_inverted; of the last tick: "
+      "stretch_now, speed_now_m_per_s.");
 }
 
 void bindArrays(Class& session) {
@@ -362,7 +363,7 @@ void bindArrays(Class& session) {
         const auto state = s.nodes();
         return vec4s(state->velocity_m_per_s, state);
       },
-      "(slots, 3) float32 [m/s], of this tick; made once a tick from the solver's bricks, then shared, read-only.");
+      "(slots, 3) float32 [m/s], as displacement_m.");
   session.def(
       "skin", [](const Stepped& s) { return std::const_pointer_cast<SurfaceFrame>(s.skin()); },
       "The deformed skin of now.");

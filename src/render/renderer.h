@@ -17,7 +17,7 @@
 #include "surface/surface.h"
 #include "viscera/model/scene/environment_config.h"
 #include "viscera/render/camera.h"
-#include "viscera/render/shown_thread.h"
+#include "viscera/solver/shown_thread.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {

@@ -12,7 +12,7 @@
 #include "render/shapes/tool_shape.h"
 #include "render/vertex_array.h"
 #include "viscera/math/types.h"
-#include "viscera/render/shown_thread.h"
+#include "viscera/solver/shown_thread.h"
 
 namespace viscera {
 

@@ -3,8 +3,6 @@
 #include "session/inline_view.h"
 
 #include <algorithm>
-#include <cstring>
-#include <limits>
 #include <utility>
 
 #include "gpu/gl.h"
@@ -21,7 +19,6 @@ namespace {
 
 constexpr int kImagesInFlight = 3;
 constexpr int kSurfacesInFlight = 3;
-constexpr uint32_t kOpaque = 0xff000000U;
 
 size_t surfaceBytes(const Surface& surface) {
   constexpr size_t kNormalAndColors = 3;  // of the tissue, of its strain
@@ -37,11 +34,6 @@ std::unique_ptr<gpu::ReadbackRing> makeRing(const Surface& surface) {
 gpu::ReadbackRing::Pixel pixelOf(PictureKind kind) {
   if (kind == PictureKind::kDepth) return gpu::ReadbackRing::Pixel::kFloat;
   return kind == PictureKind::kLabels ? gpu::ReadbackRing::Pixel::kUint8 : gpu::ReadbackRing::Pixel::kRgb8;
-}
-
-size_t imageBytes(const CameraConfig& camera, PictureKind kind) {
-  const size_t of_pixel = kind == PictureKind::kDepth ? sizeof(float) : kind == PictureKind::kLabels ? 1 : 3;
-  return of_pixel * static_cast<size_t>(camera.width_px) * static_cast<size_t>(camera.height_px);
 }
 
 /// Cameras, then the right eyes of those that have one: a camera in its place, which is moved before it draws.
@@ -87,7 +79,7 @@ InlineView::InlineView(const Model& model, const Scene& scene)
 }
 
 void InlineView::addEye(size_t camera, const CameraConfig& config, PictureKind kind) {
-  auto ring = std::make_unique<gpu::ReadbackRing>(imageBytes(config, kind), kImagesInFlight, "an image");
+  auto ring = std::make_unique<gpu::ReadbackRing>(pictureBytes(config, kind), kImagesInFlight, "an image");
   eyes_.push_back({camera,
                    config,
                    SeenSkin(config, surface_.boxes()),
@@ -131,7 +123,7 @@ void InlineView::capture(const StateView& state, const Look& look, Pictures& out
     any = true;
     all = all || (eye.draws && overlaysOf(eye.camera, look).any()) || !eye.skin.asks(displacements.has_value());
   }
-  surface_.paint(look.burns, look.blood);
+  surface_.paint(look.processes.paints);
   if (any) follow(state, all, displacements);
   if (surface) captureSurface(state, look);
   const auto last =
@@ -173,8 +165,8 @@ bool InlineView::claim(Channel& channel, Eye& eye, const Look& look, Pictures& o
   if (!channel.wanted) return false;
   if (channel.drawn) readDrawn(channel, eye);
   if (!channel.ring) {
-    channel.ring =
-        std::make_unique<gpu::ReadbackRing>(imageBytes(eye.config, channel.kind), kImagesInFlight, "depths or labels");
+    channel.ring = std::make_unique<gpu::ReadbackRing>(pictureBytes(eye.config, channel.kind), kImagesInFlight,
+                                                       "depths or labels");
   }
   const bool full = channel.ring->inFlight() == kImagesInFlight;
   if (!full || (look.wants.every_image && takeImage(channel, eye, out, true))) return true;
@@ -194,8 +186,8 @@ bool InlineView::isRepeat(const Eye& eye, const std::optional<Drawn>& drawn, con
          looksTheSame(look.motions, drawn->motions) && isSame(eye.pose, drawn->pose) &&
          std::equal(look.obstacles.begin(), look.obstacles.end(), drawn->obstacles.begin(), drawn->obstacles.end(),
                     isSame) &&
-         look.threads == drawn->threads && look.burns == drawn->burns && look.blood == drawn->blood &&
-         overlays == drawn->overlays && (!overlays.any() || look.arrows == drawn->arrows);
+         look.processes == drawn->processes && overlays == drawn->overlays &&
+         (!overlays.any() || look.arrows == drawn->arrows);
 }
 
 /// Brings the surface to a state, as far as the images that are to be drawn show it. @param all  the whole of it
@@ -254,24 +246,17 @@ void InlineView::captureImage(size_t e, const StateView& state, const Look& look
   }
 }
 
-/// A software rasteriser draws on threads of its own, but who reads pixels waits for them.
-void InlineView::readDrawn(Channel& channel, const Eye& eye) {
-  renderer_.bindLast(static_cast<size_t>(&eye - eyes_.data()));
-  channel.drawn.reset();
-  request(channel, eye, channel.drawn_tick);
-}
-
 void InlineView::captureGeometry(size_t e, const StateView& state, const Look& look) {
   Eye& eye = eyes_[e];
   if (eye.measures) {
     renderer_.placeObstacles(look.obstacles);
-    renderer_.placeThreads(look.threads);
+    renderer_.placeThreads(look.processes.threads);
     renderer_.drawGeometry(e, surface_, look.motions, eye.skin.drawn());
     eye.measured.reset();
     if (state.moved_revision) {
       eye.measured =
           Drawn{state.moved_revision, state.cut_revision, look.motions, look.obstacles, eye.pose, Overlays{}, {},
-                look.threads,         look.burns,         look.blood};
+                look.processes};
     }
   } else {
     ++counters_.repeats;
@@ -298,7 +283,7 @@ void InlineView::draw(size_t e, const StateView& state, const Look& look) {
   Eye& eye = eyes_[e];
   const Overlays overlays = overlaysOf(eye.camera, look);
   renderer_.placeObstacles(look.obstacles);
-  renderer_.placeThreads(look.threads);
+  renderer_.placeThreads(look.processes.threads);
   if (overlays.any()) {
     const OverlayLook over = {overlays,     eye.config.strain_range, state,    &surface_,
                               &look.arrows, eye.skin.drawn(),        captures_};
@@ -309,18 +294,7 @@ void InlineView::draw(size_t e, const StateView& state, const Look& look) {
   eye.drawn.reset();
   if (state.moved_revision) {
     eye.drawn = Drawn{state.moved_revision, state.cut_revision, look.motions, look.obstacles, eye.pose, overlays,
-                      look.arrows,          look.threads,       look.burns,   look.blood};
-  }
-}
-
-void InlineView::collect(Pictures& out, bool wait) {
-  while (takeSurface(out, wait)) {
-  }
-  for (Eye& eye : eyes_) {
-    for (Channel* channel : {&eye.color, &eye.depth, &eye.labels}) {
-      while (takeImage(*channel, eye, out, wait)) {
-      }
-    }
+                      look.arrows,          look.processes};
   }
 }
 
@@ -329,72 +303,11 @@ void InlineView::showSurface(const StateView& state, const Look& look, Pictures&
     ++counters_.skipped;
     return;
   }
-  surface_.paint(look.burns, look.blood);
+  surface_.paint(look.processes.paints);
   surface_.split(state);
   surface_.follow(state, nullptr);
   captureSurface(state, look);
   takeSurface(out, false);
-}
-
-bool InlineView::anyUnderWay() const {
-  if (surface_ring_->inFlight() > 0) return true;
-  return std::any_of(eyes_.begin(), eyes_.end(), [](const Eye& eye) {
-    const auto under_way = [](const Channel& channel) {
-      return channel.drawn || (channel.ring && channel.ring->inFlight() > 0);
-    };
-    return under_way(eye.color) || under_way(eye.depth) || under_way(eye.labels);
-  });
-}
-
-bool InlineView::takeSurface(Pictures& out, bool wait) {
-  uint64_t tick = 0;
-  const char* at = static_cast<const char*>(surface_ring_->collect(&tick, wait));
-  if (!at) return false;
-  const auto take = [&at](auto& values, size_t count) {
-    values.resize(count);
-    std::memcpy(values.data(), at, count * sizeof(values[0]));
-    at += count * sizeof(values[0]);
-  };
-  out.surface = std::make_unique<SurfaceFrame>();  // an older one of the same call is overtaken
-  out.surface->tick = tick;
-  const Sent sent = std::move(in_flight_.front());
-  in_flight_.pop_front();
-  const size_t vertices = sent.wounds ? sent.wounds->vertices : surface_.vertices();
-  take(out.surface->positions_m, 3 * vertices);
-  take(out.surface->normals, vertices);
-  take(alive_, surface_.triangles());
-  if (sent.colors) take(out.surface->colors, vertices);
-  if (sent.strain) take(out.surface->strain_colors, vertices);
-  for (uint32_t& color : out.surface->colors) color |= kOpaque;  // where pictures are told the body
-  out.surface->topology = surface_.skin().shown(alive_.data(), sent.wounds.get());
-  surface_ring_->release();
-  return true;
-}
-
-bool InlineView::takeImage(Channel& channel, const Eye& eye, Pictures& out, bool wait) {
-  if (channel.drawn && (wait || channel.drawn->hasPassed())) readDrawn(channel, eye);
-  if (!channel.ring) return false;
-  uint64_t tick = 0;
-  const void* const pixels = channel.ring->collect(&tick, wait);
-  if (!pixels) return false;
-  ImageFrame image;
-  image.tick = tick;
-  image.camera = eye.camera;
-  image.kind = channel.kind;
-  image.width = eye.config.width_px;
-  image.height = eye.config.height_px;
-  const size_t bytes = imageBytes(eye.config, channel.kind);
-  if (channel.kind == PictureKind::kDepth) {
-    const auto* const depths_m = static_cast<const float*>(pixels);
-    image.depths_m.assign(depths_m, depths_m + bytes / sizeof(float));
-    std::replace(image.depths_m.begin(), image.depths_m.end(), 0.0F, std::numeric_limits<float>::infinity());
-  } else {
-    const auto* const values = static_cast<const uint8_t*>(pixels);
-    (channel.kind == PictureKind::kLabels ? image.labels : image.rgb).assign(values, values + bytes);
-  }
-  out.images.push_back(std::move(image));
-  channel.ring->release();
-  return true;
 }
 
 void InlineView::reset() {

@@ -21,6 +21,12 @@ namespace viscera {
 
 struct Scene;
 
+/// @returns  the size of a picture that a camera sends [bytes]
+inline size_t pictureBytes(const CameraConfig& camera, PictureKind kind) {
+  const size_t of_pixel = kind == PictureKind::kDepth ? sizeof(float) : kind == PictureKind::kLabels ? 1 : 3;
+  return of_pixel * static_cast<size_t>(camera.width_px) * static_cast<size_t>(camera.height_px);
+}
+
 /// A view that lives on the thread that made it: queues its work on the GPU and never waits for it unless asked to.
 class InlineView : public View {
  public:
@@ -55,9 +61,7 @@ class InlineView : public View {
     Pose pose;  ///< of the optical frame
     Overlays overlays;
     std::vector<Arrow> arrows;
-    ShownThreads threads;
-    std::shared_ptr<const BurnPaint> burns;
-    std::shared_ptr<const BloodPaint> blood;
+    ProcessLook processes;
   };
   struct Channel {  ///< one kind of picture of an eye, on its way
     PictureKind kind = PictureKind::kColor;

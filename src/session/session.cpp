@@ -12,16 +12,15 @@
 #include "model/scene/tool_kinds.h"
 #include "session/arrows.h"
 #include "session/view.h"
-#include "solver/bleed/bleeding.h"
-#include "solver/burn/burns.h"
 #include "solver/contact/surroundings.h"
 #include "solver/make_solver.h"
-#include "solver/thread/thread_bodies.h"
+#include "solver/processes/process.h"
 #include "viscera/calibration/auto_spacing.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 #include "viscera/render/camera.h"
 #include "viscera/session/session_log.h"
+#include "viscera/session/tissue_processes.h"
 
 namespace viscera {
 
@@ -100,7 +99,7 @@ Frame Session::step(const StylusSamples& samples, const Wants& wants) {
     return between(s, motion, mouth_rad);
   });                                                                 // VR05 2.7: probe, grab, cut
   solver_->step(tools_.ofHeld(look_.motions), obstacles_.motions());  // VR05 2.4: n substeps
-  lookAtThreads();
+  lookAtProcesses();
   look_.tick = ++tick_;
   look_.wants = wants;
   lookAtArrows();
@@ -146,7 +145,7 @@ Pictures Session::show(const Wants& wants) {
   requireContext();
   look_.tick = tick_;
   look_.wants = wants;
-  lookAtThreads();  // a saved state may have come in between
+  lookAtProcesses();  // a saved state may have come in between
   lookAtArrows();
   Pictures out;
   view_->capture(*solver_, look_, out);
@@ -218,19 +217,11 @@ void Session::lookAtObstacles() {
   }
 }
 
-void Session::lookAtThreads() {
-  if (solver_->burns()) look_.burns = solver_->burns()->paint();
-  if (solver_->bleeding()) look_.blood = solver_->bleeding()->paint();
-  const ThreadBodies* const threads = solver_->threads();
-  if (!threads) return;
-  look_.threads.clear();
-  for (size_t i = 0; i < threads->count(); ++i)
-    look_.threads.push_back({threadOf(i), ThreadPart::kThread, threadPlaces(i)});
-  for (size_t i = 0; i < scene_.threads.size(); ++i) {
-    if (threads->needle(i)) look_.threads.push_back({i, ThreadPart::kNeedle, needlePlaces(i)});
-  }
-  for (size_t i = 0; threads->clips() && i < threads->clips()->count(); ++i)
-    look_.threads.push_back({0, ThreadPart::kClip, threads->clips()->places_m(i)});
+void Session::lookAtProcesses() {
+  look_.processes = {};
+  for (const auto& process : solver_->processes()) process->draw(look_.processes);
+  auto& paints = look_.processes.paints;
+  std::stable_sort(paints.begin(), paints.end(), [](const auto& a, const auto& b) { return a->kind < b->kind; });
 }
 
 /// Forces of the last tick whose measurements are there, and the wind of this moment.
@@ -282,9 +273,10 @@ void Session::collect(Frame& frame, bool wait) {
   frame.obstacles = look_.obstacles;
   frame.cameras = look_.cameras;
   frame.threads.clear();
-  std::copy_if(look_.threads.begin(), look_.threads.end(), std::back_inserter(frame.threads),
-               [](const ShownThread& shown) { return shown.part != ThreadPart::kNeedle; });
-  frame.needles = seenNeedles();
+  const ShownThreads& shown = look_.processes.threads;
+  std::copy_if(shown.begin(), shown.end(), std::back_inserter(frame.threads),
+               [](const ShownThread& one) { return one.part != ThreadPart::kNeedle; });
+  frame.needles = seenNeedles(*this);
   collectStats(frame, wait);
   view_->collect(frame, wait);
   if (frame.surface) frame.surface->pose_received = posesOf(frame.surface->tick).newest();
@@ -336,7 +328,7 @@ void Session::reset() {
   obstacles_.reset();
   look_.motions = {};
   lookAtObstacles();
-  lookAtThreads();
+  lookAtProcesses();
   for (ForceLimiter& limiter : limiters_) limiter.reset();
   reactions_ = {};
   contacts_ = {};
@@ -359,10 +351,11 @@ Frame Session::drain() {
 
 uint64_t Session::stateHash() const {
   requireContext();
-  uint64_t tissue = viscera::stateHash(*model_, solver_->readState());
-  if (solver_->burns()) tissue = solver_->burns()->hashWith(tissue);
-  if (solver_->bleeding()) tissue = solver_->bleeding()->hashWith(tissue);
-  return solver_->threads() ? solver_->threads()->hashWith(tissue) : tissue;
+  uint64_t hash = viscera::stateHash(*model_, solver_->readState());
+  const TissueProcesses& processes = solver_->processes();
+  // From the last one on: so fingerprints are those of recordings that are older than this list.
+  for (auto process = processes.rbegin(); process != processes.rend(); ++process) hash = hashWith(hash, **process);
+  return hash;
 }
 
 std::shared_ptr<const ShownTopology> Session::wholeSkin() const {

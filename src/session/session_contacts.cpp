@@ -4,8 +4,9 @@
 #include <algorithm>
 
 #include "model/scene/tool_kinds.h"
-#include "solver/thread/thread_bodies.h"
-#include "solver/thread/thread_pull.h"
+#include "solver/processes/blade/blades.h"
+#include "solver/processes/stylus_pull.h"
+#include "solver/processes/suture/thread_bodies.h"
 #include "viscera/session/session.h"
 
 namespace viscera {
@@ -13,7 +14,7 @@ namespace viscera {
 namespace {
 
 /// Of what a thread or a needle does to its stylus.
-void addThread(const ThreadPull& pull, TickContact& contact) {
+void addThread(const StylusPull& pull, TickContact& contact) {
   const NeedleHold& needle = pull.needle;
   contact.kind = needle.stiffness_n_per_m > 0 ? TickContact::Kind::kPierces : TickContact::Kind::kPulls;
   if (contact.kind == TickContact::Kind::kPulls) return;
@@ -36,14 +37,14 @@ TickContact Session::contactOf(size_t stylus, const Reaction& raw) const {
   const bool acts = motion.present && !(motion.feels_m > 0) && raw.force_n.allFinite() && raw.torque_nm.allFinite();
   if (!acts || stats_.touched[stylus] + stats_.grabbed[stylus] == 0) return out;
   out.reaction = raw;
-  const ThreadPull& pull = solver_->pull(static_cast<uint32_t>(stylus));
+  const StylusPull& pull = solver_->pull(static_cast<uint32_t>(stylus));
   if (pull.nodes > 0 && pull.nodes == stats_.grabbed[stylus]) {
     addThread(pull, out);
     return out;
   }
   out.kind = kindOf(motion.mode).does(kHolds) ? TickContact::Kind::kHolds : TickContact::Kind::kPushes;
   const double limit_n =
-      kindOf(motion.mode).does(kCuts) ? solver_->bladeWork(static_cast<uint32_t>(stylus)).limit_n : 0;
+      kindOf(motion.mode).does(kCuts) ? bladeWork(*solver_, static_cast<uint32_t>(stylus)).limit_n : 0;
   if (limit_n > 0) out.limit_n = std::max(limit_n, raw.force_n.norm());
   return out;
 }

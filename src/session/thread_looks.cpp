@@ -3,8 +3,8 @@
 #include "session/thread_looks.h"
 
 #include "model/scene/tool_kinds.h"
-#include "solver/thread/needle_shape.h"
-#include "solver/thread/thread_shape.h"
+#include "solver/processes/suture/needle_shape.h"
+#include "solver/processes/suture/thread_shape.h"
 #include "viscera/model/scene/scene.h"
 
 namespace viscera {

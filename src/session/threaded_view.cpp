@@ -120,9 +120,7 @@ void ThreadedView::capture(Solver& solver, const Look& look, Pictures&) {
   look_.motions = look.motions;
   look_.obstacles = look.obstacles;
   look_.cameras = look.cameras;
-  look_.threads = look.threads;
-  look_.burns = look.burns;
-  look_.blood = look.blood;
+  look_.processes = look.processes;
   look_.overlays = look.overlays;
   look_.arrows = look.arrows;
   {

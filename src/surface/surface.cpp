@@ -351,31 +351,33 @@ void Surface::wound(const CutSprings& cuts, uint64_t revision) {
 
 /// Those of the skins and walls.
 void Surface::writeColors() {
-  if (burns_ || blood_) return writePaintedColors();
+  if (isPainted()) return writePaintedColors();
   colors_.write(wounds_->colors());
   rests_.write(wounds_->addedRests(), whole_vertices_);
 }
 
-/// Where walls are burnt or bloody they have no layers, as they look deep.
+/// Where walls are painted they have no layers, as they look deep.
 void Surface::writePaintedColors() {
   std::vector<uint32_t> colors = wounds_ ? wounds_->colors() : whole_colors_;
   const std::vector<layout::SkinBinding>& bindings = wounds_ ? wounds_->bindings() : whole_bindings_;
   std::vector<layout::vec4> added = wounds_ ? wounds_->addedRests() : std::vector<layout::vec4>();
   for (size_t v = 0; v < colors.size(); ++v) {
-    const float burnt = burns_ ? shareAt(burns_->shares, bindings[v]) : 0;
-    const float bloody = blood_ ? shareAt(blood_->shares, bindings[v]) : 0;
-    colors[v] = bloodyColor(burntColor(colors[v], burnt), bloody);
+    float most = 0;
+    for (const std::shared_ptr<const NodePaint>& paint : paints_) {
+      const float share = shareAt(paint->shares, bindings[v]);
+      colors[v] = paintedColor(paint->kind, colors[v], share);
+      most = std::max(most, share);
+    }
     if (v < whole_vertices_ || added[v - whole_vertices_].w <= 0) continue;
-    added[v - whole_vertices_].w += kBelowLayers_m * std::clamp(std::max(burnt, bloody), 0.0F, 1.0F);
+    added[v - whole_vertices_].w += kBelowLayers_m * std::clamp(most, 0.0F, 1.0F);
   }
   colors_.write(colors);
   if (!added.empty()) rests_.write(added, whole_vertices_);
 }
 
-void Surface::paint(const std::shared_ptr<const BurnPaint>& burns, const std::shared_ptr<const BloodPaint>& blood) {
-  if (burns == burns_ && blood == blood_) return;
-  burns_ = burns;
-  blood_ = blood;
+void Surface::paint(const std::vector<std::shared_ptr<const NodePaint>>& paints) {
+  if (paints == paints_) return;
+  paints_ = paints;
   writePaintedColors();
   publish();
 }

@@ -14,8 +14,7 @@
 #include "surface/wounds/wounds.h"
 #include "viscera/layout/skin.h"
 #include "viscera/model/model.h"
-#include "viscera/solver/seen_blood.h"
-#include "viscera/solver/seen_burns.h"
+#include "viscera/solver/process_look.h"
 #include "viscera/solver/state.h"
 
 namespace viscera {
@@ -44,10 +43,9 @@ class Surface {
   /// Makes buffers only where wounds outgrow those that are there.
   /// @param revision  of the cuts; the last one again costs nothing
   void wound(const CutSprings& cuts, uint64_t revision);
-  /// Shows how far tissue is burnt and covered by blood, from now on. The last ones again cost nothing.
-  /// @param burns, blood  null: by nothing
-  void paint(const std::shared_ptr<const BurnPaint>& burns, const std::shared_ptr<const BloodPaint>& blood);
-  bool isPainted() const { return burns_ || blood_; }  ///< colors() are other ones than before the first tick
+  /// Paints the tissue from now on, as ProcessLook::paints. The last ones again cost nothing.
+  void paint(const std::vector<std::shared_ptr<const NodePaint>>& paints);
+  bool isPainted() const { return !paints_.empty(); }  ///< colors() are other ones than before the first tick
   /// Every triangle whole again.
   void reset();
 
@@ -104,9 +102,8 @@ class Surface {
   std::unique_ptr<NetworkSurface> networks_;     ///< null where none is
   std::unique_ptr<Wounds> wounds_;               ///< null where no body with an inside can be cut
   ShownTriangles shown_;
-  std::shared_ptr<const BurnPaint> burns_;   ///< null: nothing was burnt
-  std::shared_ptr<const BloodPaint> blood_;  ///< null: nothing has bled
-  std::vector<uint32_t> whole_colors_;       ///< [vertices] where there are no wounds, as are
+  std::vector<std::shared_ptr<const NodePaint>> paints_;
+  std::vector<uint32_t> whole_colors_;  ///< [vertices] where there are no wounds, as are
   std::vector<layout::SkinBinding> whole_bindings_;
   std::vector<uint32_t> wound_indices_, charts_, wound_charts_;
   size_t whole_vertices_ = 0;

@@ -7,6 +7,7 @@
 
 #include "math/float_bits.h"
 #include "tasks/task_kinds.h"
+#include "viscera/session/tissue_processes.h"
 
 namespace viscera {
 
@@ -37,7 +38,7 @@ void TaskWatch::begin(std::unique_ptr<TaskJudge> judge) {
     cut_watch_->fresh(cuts_);  // what was cut before is not this hand's
   }
   base_tick_ = session_.tick();
-  base_blood_ml_ = session_.seenBlood().bled_ml;
+  base_blood_ml_ = seenBlood(session_).bled_ml;
   stepped_.clear();
   measured_.clear();
   hands_.emplace(session_);
@@ -73,11 +74,11 @@ void TaskWatch::stepped(Session& session, const StylusSamples& samples) {
     tick.apart = cut_watch_->springs() > before && judge_->isApart(cuts_);
   }
   if (judge_->heedsThreads()) {
-    tick.threads = session.seenThreads();
+    tick.threads = seenThreads(session);
     if (judge_->asksForGap(tick.threads)) tick.gap_m = judge_->gapOf(session.solver().readState());
   }
-  if (judge_->heedsClips()) tick.clips = session.seenClips();
-  tick.blood_ml = session.seenBlood().bled_ml;
+  if (judge_->heedsClips()) tick.clips = seenClips(session);
+  tick.blood_ml = seenBlood(session).bled_ml;
   stepped_.push_back(std::move(tick));
   judgeNoted();
 }

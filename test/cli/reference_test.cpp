@@ -143,6 +143,12 @@ TEST_F(BenchReference, RefusesWhatRunRefuses) {
   EXPECT_TRUE(says(refusal({"--set", "bodies[0].spacing=1"}), {"override", "'bodies[0].spacing'"}));
 }
 
+/// Whether something lives in a scene's tissue that the reference does not know.
+bool usesProcesses(const std::filesystem::path& file) {
+  const Scene scene = loadScene(file.string());
+  return hasThreadsOrClips(scene) || mayBurn(scene.styluses);
+}
+
 bool resistsBlades(const std::filesystem::path& scene) {
   const std::vector<BodyConfig> bodies = loadScene(scene.string()).bodies;
   return std::any_of(bodies.begin(), bodies.end(),
@@ -164,8 +170,7 @@ TEST_F(BenchReference, RefusesNoSceneThatComesWithIt) {
       const bool counted = name == "pig_heart_size";
       options.insert(options.end(), {"--set", counted ? "bodies[0].target_nodes=2000" : "bodies[0].spacing_m=0.01"});
     }
-    if (pushesAfterSubsteps(loadScene(file.path().string())))
-      options.insert(options.end(), {"--set", "threads=[]", "--set", "styluses=[]"});
+    if (usesProcesses(file.path())) options.insert(options.end(), {"--set", "threads=[]", "--set", "styluses=[]"});
     if (resistsBlades(file.path())) options.insert(options.end(), {"--set", "bodies[0].material.cut={}"});
     const Json metrics = lastLine(viscera(options, {kNoDevice}));
     EXPECT_GT(metrics["nodes"], 0);

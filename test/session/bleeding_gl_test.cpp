@@ -11,7 +11,9 @@
 
 #include "math/archive.h"
 #include "session/on_backends.h"
+#include "solver/processes/bleed/bleeding.h"
 #include "viscera/math/error.h"
+#include "viscera/session/tissue_processes.h"
 
 namespace viscera {
 namespace {
@@ -80,19 +82,19 @@ TEST_P(Bleeding, OutOfAStumpIsWhatTheKeySaysAndAllOfItIsSomewhere) {
     SCOPED_TRACE(static_cast<int>(structure));
     Session session(vessel(structure), context_);
     rest(session, 3);
-    EXPECT_EQ(session.seenBlood().bled_ml, 0) << "nothing is cut";
+    EXPECT_EQ(seenBlood(session).bled_ml, 0) << "nothing is cut";
     cutAt(session, 0.0051);
-    const SeenBlood first = session.seenBlood();
+    const SeenBlood first = seenBlood(session);
     EXPECT_NEAR(first.flow_ml_per_min, kFlow, kFull * kFlow);
     EXPECT_EQ(first.stumps, 1U) << "the other one is not held: nothing feeds it";
     constexpr int kTicks = 120;
     rest(session, kTicks);
-    const SeenBlood seen = session.seenBlood();
+    const SeenBlood seen = seenBlood(session);
     EXPECT_NEAR(seen.bled_ml - first.bled_ml, kFlow / 60 * kTicks * session.tick_s(), kBalance * seen.bled_ml);
     EXPECT_NEAR(seen.on_tissue_ml + seen.dripped_ml, seen.bled_ml, kBalance * seen.bled_ml);
     EXPECT_GT(seen.dripped_ml, 0);
     session.reset();
-    EXPECT_EQ(session.seenBlood().bled_ml, 0);
+    EXPECT_EQ(seenBlood(session).bled_ml, 0);
   }
 }
 
@@ -121,7 +123,7 @@ TEST_P(Bleeding, SurfacesHaveTheColourOfBlood) {
 TEST_P(Bleeding, OutOfANickIsItsShareOfTheCrossSectionOnEitherSide) {
   Session session(vessel(), context_);
   cutAt(session, 0.0051, 0.0031);  // an eighth of it: of five layers of nodes, half a spacing of the uppermost
-  EXPECT_NEAR(session.seenBlood().flow_ml_per_min, 2 * kFlow / 8, kNick * kFlow);
+  EXPECT_NEAR(seenBlood(session).flow_ml_per_min, 2 * kFlow / 8, kNick * kFlow);
 }
 
 TEST_P(Bleeding, StopsByAClipBetweenTheHeldEndAndTheCutAndGoesOnWithoutIt) {
@@ -130,22 +132,22 @@ TEST_P(Bleeding, StopsByAClipBetweenTheHeldEndAndTheCutAndGoesOnWithoutIt) {
     Session session(vessel(structure), context_);
     clipAt(session, 0.012);
     cutAt(session, 0.0051);
-    EXPECT_NEAR(session.seenBlood().flow_ml_per_min, kFlow, kFull * kFlow) << "a clip beyond the cut";
+    EXPECT_NEAR(seenBlood(session).flow_ml_per_min, kFlow, kFull * kFlow) << "a clip beyond the cut";
     clipAt(session, -0.006);
-    ASSERT_EQ(session.seenClips().on.size(), 2U);
-    const SeenBlood stopped = session.seenBlood();
+    ASSERT_EQ(seenClips(session).on.size(), 2U);
+    const SeenBlood stopped = seenBlood(session);
     EXPECT_EQ(stopped.flow_ml_per_min, 0);
     EXPECT_EQ(stopped.stumps, 0U);
     rest(session, 60);
-    EXPECT_EQ(session.seenBlood().bled_ml, stopped.bled_ml);
+    EXPECT_EQ(seenBlood(session).bled_ml, stopped.bled_ml);
     // Along the vessel, across the clip's legs, and back on its other side: cut, it swings by a clip's half width.
     for (const double aside_m : {0.001, -0.001}) {
       for (int t = 0; t <= kDraws; ++t)
         session.step(at({-0.012 * (aside_m > 0 ? t : kDraws - t) / kDraws, aside_m, -0.006}, false, true), {});
     }
     rest(session, kOpen);
-    ASSERT_EQ(session.seenClips().taken_off, 1U);
-    EXPECT_NEAR(session.seenBlood().flow_ml_per_min, kFlow, kFull * kFlow);
+    ASSERT_EQ(seenClips(session).taken_off, 1U);
+    EXPECT_NEAR(seenBlood(session).flow_ml_per_min, kFlow, kFull * kFlow);
   }
 }
 
@@ -156,16 +158,16 @@ TEST_P(Bleeding, StopsWhereTheStumpIsBurnt) {
   scene.bodies[0].box_size_m = {0.04, 0.004, 0.004};
   Session session(scene, context_);
   cutAt(session, 0.0051);
-  ASSERT_GT(session.seenBlood().flow_ml_per_min, 0);
+  ASSERT_GT(seenBlood(session).flow_ml_per_min, 0);
   StylusSamples hot{};
   hot[1] = {true, {{0.0072, 0, 0}, Quaterniond::Identity()}, true, false};
   constexpr int kMostTicks = 900;
   int ticks = 0;
-  for (; ticks < kMostTicks && session.seenBlood().flow_ml_per_min > 0; ++ticks) session.step(hot, {});
+  for (; ticks < kMostTicks && seenBlood(session).flow_ml_per_min > 0; ++ticks) session.step(hot, {});
   EXPECT_GT(ticks, 20) << "16 mm2 are not coagulated in a third of a second by 8 W";
 
-  EXPECT_EQ(session.seenBlood().flow_ml_per_min, 0);
-  EXPECT_GT(session.seenBurns().coagulated_m3, 0);
+  EXPECT_EQ(seenBlood(session).flow_ml_per_min, 0);
+  EXPECT_GT(seenBurns(session).coagulated_m3, 0);
 }
 
 TEST_P(Bleeding, PushesNothingAndIsSeen) {
@@ -177,11 +179,11 @@ TEST_P(Bleeding, PushesNothingAndIsSeen) {
     Scene scene = vessel();
     if (&of == looks) scene.bodies[0].material.bleeding = {};
     Session session(scene, context_);
-    EXPECT_EQ(session.solver().bleeding() == nullptr, &of == looks);
+    EXPECT_EQ(findProcess<viscera::Bleeding>(session.solver()) == nullptr, &of == looks);
     of.whole = picture(session).rgb;
     cutAt(session, 0.0051);
     rest(session, 30);
-    EXPECT_EQ(session.seenBlood().bled_ml == 0, &of == looks);
+    EXPECT_EQ(seenBlood(session).bled_ml == 0, &of == looks);
     of.cut = picture(session).rgb;
     of.tissue = stateHash(session.model(), session.solver().readState());
     session.reset();
@@ -198,7 +200,7 @@ TEST_P(Bleeding, GoesOnFromASavedStateToTheBit) {
     rest(it, 60);
     clipAt(it, -0.006);
     it.drain();
-    return std::make_pair(it.stateHash(), it.seenBlood().bled_ml);
+    return std::make_pair(it.stateHash(), seenBlood(it).bled_ml);
   };
   Archive saved;
   std::pair<uint64_t, double> expected;
@@ -211,13 +213,13 @@ TEST_P(Bleeding, GoesOnFromASavedStateToTheBit) {
     EXPECT_GT(expected.second, 0);
     session.reset();
     EXPECT_EQ(session.stateHash(), whole);
-    EXPECT_EQ(session.seenBlood().bled_ml, 0);
+    EXPECT_EQ(seenBlood(session).bled_ml, 0);
   }
   Session again(vessel(), context_);
   Archive read(saved.sections());
   again.restore(read, "a test");
   EXPECT_EQ(onwards(again), expected);
-  EXPECT_EQ(again.seenBlood().flow_ml_per_min, 0);
+  EXPECT_EQ(seenBlood(again).flow_ml_per_min, 0);
 }
 
 VISCERA_ON_EVERY_BACKEND(Bleeding);

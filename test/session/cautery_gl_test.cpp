@@ -9,6 +9,7 @@
 #include "math/archive.h"
 #include "session/on_backends.h"
 #include "viscera/math/error.h"
+#include "viscera/session/tissue_processes.h"
 
 namespace viscera {
 namespace {
@@ -88,18 +89,18 @@ TEST_P(Cautery, HeatIsPowerTimesTimeInTouchAndAllOfItIsAccountedFor) {
     Session session(burning(4, structure), context_);
     const double top_m = structure == Structure::kSurface ? 0 : 0.006;
     for (int t = 0; t < 10; ++t) session.step(leftAt({0, 0, 0.03}, true), {});
-    EXPECT_EQ(session.seenBurns().given_j, 0) << "nothing is touched";
+    EXPECT_EQ(seenBurns(session).given_j, 0) << "nothing is touched";
     burn(session, 60, top_m);
-    const SeenBurns seen = session.seenBurns();
+    const SeenBurns seen = seenBurns(session);
     EXPECT_NEAR(seen.given_j, 60 * 4 * session.tick_s(), kTime * seen.given_j);
     EXPECT_NEAR(seen.stored_j + seen.steam_j + seen.perfused_j + seen.surface_j, seen.given_j,
                 kCauteryBalance * seen.given_j);
     EXPECT_GT(seen.hottest_c, 45);
     for (int t = 0; t < 30; ++t) session.step(on(false, false, top_m), {});
-    EXPECT_EQ(session.seenBurns().given_j, seen.given_j) << "not pressed";
-    EXPECT_LT(session.seenBurns().hottest_c, seen.hottest_c);
+    EXPECT_EQ(seenBurns(session).given_j, seen.given_j) << "not pressed";
+    EXPECT_LT(seenBurns(session).hottest_c, seen.hottest_c);
     session.step(on(true, false, top_m), {});
-    EXPECT_NEAR(session.seenBurns().given_j, 61 * 4 * session.tick_s(), kTime * seen.given_j)
+    EXPECT_NEAR(seenBurns(session).given_j, 61 * 4 * session.tick_s(), kTime * seen.given_j)
         << "also where it was in tissue before, and pushes nothing";
     EXPECT_EQ(session.drain().stats.nonfinite, 0U);
     EXPECT_EQ(session.drain().health.trips, 0U);
@@ -110,8 +111,8 @@ TEST_P(Cautery, CoagulatedTissueIsStifferToAProbeAndDrawnIn) {
   Session session(burning(3), context_);
   const double fresh_n = pressed_n(session, top_m(session));
   burn(session, 360);
-  EXPECT_GT(session.seenBurns().coagulated_m3, 5e-8) << "50 mm3";
-  EXPECT_EQ(session.seenBurns().parted, 0U);
+  EXPECT_GT(seenBurns(session).coagulated_m3, 5e-8) << "50 mm3";
+  EXPECT_EQ(seenBurns(session).parted, 0U);
   for (int t = 0; t < 60; ++t) session.step({}, {});
   const double dent_m = top_m(session);
   EXPECT_LT(dent_m, 0.006 - kShrunk_m);
@@ -126,7 +127,7 @@ TEST_P(Cautery, WhatBoilsDryPartsAndLooksBurnt) {
   const ImageFrame during = picture(session);
   EXPECT_NE(before.rgb, during.rgb);
   burn(session, 240);
-  const SeenBurns seen = session.seenBurns();
+  const SeenBurns seen = seenBurns(session);
   EXPECT_GT(seen.parted, 0U);
   EXPECT_GT(seen.steam_j, 0);
   EXPECT_GT(session.drain().stats.springs_cut, 0U);
@@ -174,9 +175,9 @@ TEST_P(Cautery, SavedStatesAndResetsHaveBurns) {
     session.save(saved);
     for (int t = 0; t < 60; ++t) session.step(on(true), {});
     hash = session.stateHash();
-    seen = session.seenBurns();
+    seen = seenBurns(session);
     session.reset();
-    EXPECT_EQ(session.seenBurns().given_j, 0);
+    EXPECT_EQ(seenBurns(session).given_j, 0);
     EXPECT_EQ(session.stateHash(), whole);
   }
   Session other(scene, context_);
@@ -184,8 +185,8 @@ TEST_P(Cautery, SavedStatesAndResetsHaveBurns) {
   other.restore(kept, "a test");
   for (int t = 0; t < 60; ++t) other.step(on(true), {});
   EXPECT_EQ(other.stateHash(), hash);
-  EXPECT_EQ(other.seenBurns().given_j, seen.given_j);
-  EXPECT_EQ(other.seenBurns().parted, seen.parted);
+  EXPECT_EQ(seenBurns(other).given_j, seen.given_j);
+  EXPECT_EQ(seenBurns(other).parted, seen.parted);
 }
 
 VISCERA_ON_EVERY_BACKEND(Cautery);
@@ -205,7 +206,7 @@ TEST_F(GpuTest, CauteryIsTheSameOnBothBackends) {
       force_n[i] = frame.reactions[0].force_n.z();
     }
     session.drain();
-    seen[i] = session.seenBurns();
+    seen[i] = seenBurns(session);
   }
   EXPECT_GT(seen[0].given_j, 1);
   EXPECT_NEAR(seen[1].given_j, seen[0].given_j, kAlike * seen[0].given_j);
@@ -217,7 +218,7 @@ TEST_F(GpuTest, CauteryIsTheSameOnBothBackends) {
 TEST_F(GpuTest, ScenesWithoutCauteryRefuseItAndIntegratorsThatCannotAreNamed) {
   Session session(blockScene(), context_);
   EXPECT_THROW(session.setToolMode(0, ToolSwitch::kButton1, ToolMode::kCautery), SceneError);
-  EXPECT_EQ(session.seenBurns().given_j, 0);
+  EXPECT_EQ(seenBurns(session).given_j, 0);
   try {
     parseScene("bodies: [{source: box}]\nstyluses: [{button1: cautery}]\nsolver: {integrator: pd}", "pd.yaml");
     FAIL() << "pd is taken";

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "session/block_session.h"
+#include "solver/processes/blade/blades.h"
 
 namespace viscera {
 namespace {
@@ -63,7 +64,7 @@ TEST(Contacts, OfBladesThatTissueResistsHaveTheForceAtWhichItParts) {
   EXPECT_EQ(frame.contacts[0].kind, TickContact::Kind::kPushes);
   EXPECT_NEAR(frame.contacts[0].limit_n, force_n, kShare * force_n);
   EXPECT_GT(frame.stats.springs_cut, 0u);
-  EXPECT_GT(session.solver().bladeWork(0).area_m2, 1e-4);
+  EXPECT_GT(bladeWork(session.solver(), 0).area_m2, 1e-4);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "math/archive.h"
 #include "session/on_backends.h"
 #include "viscera/layout/picture_labels.h"
+#include "viscera/session/tissue_processes.h"
 
 namespace viscera {
 namespace {
@@ -68,7 +69,7 @@ TEST_P(ClipSession, HoldsTwoSidesOfEveryKindOfTissueTogether) {
     SCOPED_TRACE(static_cast<int>(structure));
     Session session(barScene(structure), context_);
     clip(session, 0.006);
-    const SeenClips clips = session.seenClips();
+    const SeenClips clips = seenClips(session);
     ASSERT_EQ(clips.on.size(), 1U);
     EXPECT_NEAR(clips.on[0].rest_m.x(), 0.006, 0.0011) << "the layer of nodes that is next";
     EXPECT_GT(clips.on[0].opening_m, kMostSqueezed * 0.75 * kJawsSide_m);
@@ -84,14 +85,14 @@ TEST_P(ClipSession, ThatClosesOnNothingIsSpentAndAMagazineEnds) {
   scene.styluses[0].clip.magazine = 2;
   Session session(scene, context_);
   clip(session, 0.006, 0.03);
-  EXPECT_EQ(session.seenClips().empty, 1U);
+  EXPECT_EQ(seenClips(session).empty, 1U);
   clip(session, 0.006);
   clip(session, -0.006);
-  EXPECT_EQ(session.seenClips().on.size(), 1U);
+  EXPECT_EQ(seenClips(session).on.size(), 1U);
   session.reset();
-  EXPECT_EQ(session.seenClips().on.size() + session.seenClips().empty, 0U);
+  EXPECT_EQ(seenClips(session).on.size() + seenClips(session).empty, 0U);
   clip(session, -0.006);
-  EXPECT_EQ(session.seenClips().on.size(), 1U);
+  EXPECT_EQ(seenClips(session).on.size(), 1U);
 }
 
 TEST_P(ClipSession, IsTakenOffByABladeThatMeetsItAndNotByOneBesideIt) {
@@ -102,7 +103,7 @@ TEST_P(ClipSession, IsTakenOffByABladeThatMeetsItAndNotByOneBesideIt) {
   const auto draw = [&](double x_m) {
     for (int t = 0; t <= kJawsClosing; ++t) session.step(at(x_m, false, true, 0.015 - 0.03 * t / kJawsClosing), {});
     for (int t = 0; t < kJawsOpen; ++t) session.step(at(x_m, false, false, -0.015), {});
-    return session.seenClips();
+    return seenClips(session);
   };
   EXPECT_EQ(draw(0.012).on.size(), 1U);
   for (int t = 0; t < kRests; ++t) session.step({}, {});
@@ -111,7 +112,7 @@ TEST_P(ClipSession, IsTakenOffByABladeThatMeetsItAndNotByOneBesideIt) {
     along[0].pose.position_m = {0.012 - 0.012 * t / kJawsClosing, 0.001, -0.006};
     session.step(along, {});
   }
-  const SeenClips after = session.seenClips();
+  const SeenClips after = seenClips(session);
   EXPECT_EQ(after.on.size(), 0U);
   EXPECT_EQ(after.taken_off, 1U);
 }
@@ -131,7 +132,7 @@ TEST_P(ClipSession, GoesOnFromASavedStateToTheBit) {
   Session again(barScene(), context_);
   Archive read(saved.sections());
   again.restore(read, "a test");
-  EXPECT_EQ(again.seenClips().on.size(), 1U);
+  EXPECT_EQ(seenClips(again).on.size(), 1U);
   EXPECT_EQ(onwards(again), expected);
 }
 
@@ -145,7 +146,7 @@ TEST_P(ClipSession, OfTwoBodiesJoinsThem) {
   scene.bodies[1].fixed.clear();
   Session session(scene, context_);
   clip(session, 0.006);
-  const SeenClips clips = session.seenClips();
+  const SeenClips clips = seenClips(session);
   ASSERT_EQ(clips.on.size(), 1U);
   EXPECT_LT(clips.on[0].opening_m, kMostSqueezed * 2 * kJawsSide_m);
 }

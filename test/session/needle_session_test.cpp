@@ -9,6 +9,7 @@
 
 #include "viscera/math/error.h"
 #include "viscera/session/session.h"
+#include "viscera/session/tissue_processes.h"
 #include "viscera/tools/strokes.h"
 
 namespace viscera {
@@ -64,7 +65,7 @@ Sewn sew(const Overrides& overrides) {
   Vector3d left = Vector3d::Zero();
   for (double time_s = 0; time_s < 1.8; time_s += session.tick_s()) {
     const Frame frame = session.step(strokes.at(time_s, scene.styluses), {});
-    const std::vector<Vector3d> needle = session.needlePlaces(0);
+    const std::vector<Vector3d> needle = needlePlaces(session, 0);
     out.most_n = std::max(out.most_n, frame.reactions[0].force_n.norm());
     const layout::vec4& given = frame.stats.impulse[0];
     const bool pressed = Vector3d(given.x, given.y, given.z).norm() > kFelt_n * session.tick_s();
@@ -77,7 +78,7 @@ Sewn sew(const Overrides& overrides) {
       most_n = std::max(most_n, contact.limit_n + contact.back_n);
       most_n_per_m = std::max(most_n_per_m, contact.stiffness_n_per_m);
     }
-    out.off_m = std::max(out.off_m, (session.threadPlaces(0)[0] - needle.back()).norm());
+    out.off_m = std::max(out.off_m, (threadPlaces(session, 0)[0] - needle.back()).norm());
     if (frame.needles.size() == 1) {
       const SeenNeedle& seen = frame.needles[0];
       const Vector3d tip = seen.pose * Vector3d(seen.radius_m, 0, 0);

@@ -7,6 +7,7 @@
 #include "viscera/gpu/context.h"
 #include "viscera/layout/picture_labels.h"
 #include "viscera/render/camera.h"
+#include "viscera/session/tissue_processes.h"
 
 namespace viscera {
 namespace {
@@ -73,12 +74,12 @@ TEST(ThreadsInPictures, AreWhereTheThreadsAreOnEitherBackend) {
     gpu::Context context;
     const Scene scene = blueThreadScene(backend);
     Session session(scene, context);
-    const std::vector<Vector3d> before = session.threadPlaces(0);
+    const std::vector<Vector3d> before = threadPlaces(session, 0);
     for (int ticks : {1, 8}) {
       Frame frame;
       for (int t = 0; t < ticks; ++t) frame = session.step({}, {});
-      EXPECT_EQ(frame.threads.at(0).places_m, session.threadPlaces(0));
-      const auto [labelled, blue] = shares(look(session), scene.cameras[0], session.threadPlaces(0));
+      EXPECT_EQ(frame.threads.at(0).places_m, threadPlaces(session, 0));
+      const auto [labelled, blue] = shares(look(session), scene.cameras[0], threadPlaces(session, 0));
       EXPECT_GT(labelled, kMost) << ticks;
       EXPECT_GT(blue, kMost) << ticks;
     }

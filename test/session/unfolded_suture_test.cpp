@@ -8,7 +8,7 @@
 
 #include "math/vec4.h"
 #include "session/block_session.h"
-#include "solver/thread/thread_bodies.h"
+#include "solver/processes/suture/thread_bodies.h"
 
 namespace viscera {
 namespace {
@@ -47,7 +47,7 @@ struct Unfolded {
 };
 
 void note(const Session& session, Unfolded& out) {
-  const ThreadBodies& threads = *session.solver().threads();
+  const ThreadBodies& threads = *findProcess<ThreadBodies>(session.solver());
   const Chain& chain = threads.chain(0);
   out.channels = threads.slides(0).size();
   if (session.solver().health().unfolded == 0) {

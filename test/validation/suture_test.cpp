@@ -9,10 +9,11 @@
 #include <cmath>
 #include <optional>
 
-#include "solver/thread/thread_bodies.h"
+#include "solver/processes/suture/thread_bodies.h"
 #include "support/source_folder.h"
 #include "viscera/gpu/context.h"
 #include "viscera/session/session.h"
+#include "viscera/session/tissue_processes.h"
 #include "viscera/tools/strokes.h"
 
 namespace viscera {
@@ -84,7 +85,7 @@ Sutured sutured(double young_pa, Backend backend) {
   out.open = until(2.9);
   out.tied = until(7.4);
   out.cut = until(strokes.duration_s());
-  out.threads = session.seenThreads();
+  out.threads = seenThreads(session);
   session.drain();
   out.hash = session.stateHash();
   out.trips = session.extremes().governor_trips;
@@ -126,7 +127,7 @@ struct Sewn {
 /// By where they are: they were made in the order of the needle's way.
 void countChannels(const Session& session, std::array<size_t, 8>& channels) {
   constexpr double kStitches_m[] = {0.01125, 0.00375, -0.00375, kLastStitch_m};
-  for (const ChainSlide& slide : session.solver().threads()->slides(0)) {
+  for (const ChainSlide& slide : findProcess<ThreadBodies>(session.solver())->slides(0)) {
     for (size_t k = 0; k < 4; ++k) {
       if (std::abs(slide.to_m.y() - kStitches_m[k]) < kBesideStitch_m) ++channels[2 * k + (slide.to_m.x() > 0 ? 1 : 0)];
     }
@@ -146,9 +147,9 @@ Sewn sewn() {
   const auto until = [&](double time_s) {
     while (static_cast<double>(session.tick()) * session.tick_s() < time_s) {
       session.step(strokes.at(static_cast<double>(session.tick() + 1) * session.tick_s(), scene.styluses), {});
-      const ThreadBodies& threads = *session.solver().threads();
+      const ThreadBodies& threads = *findProcess<ThreadBodies>(session.solver());
       out.worst_link = std::max(out.worst_link, threads.chain(0).worstLink());
-      out.tail_off_m = std::max(out.tail_off_m, (session.threadPlaces(0)[0] - threads.needle(0)->tail_m()).norm());
+      out.tail_off_m = std::max(out.tail_off_m, (threadPlaces(session, 0)[0] - threads.needle(0)->tail_m()).norm());
     }
     return gapOf(session);
   };
@@ -156,7 +157,7 @@ Sewn sewn() {
   out.drawn = until(mark_s("drawn"));
   out.tied = until(strokes.duration_s());
   countChannels(session, out.channels);
-  out.thread = session.seenThreads()[0];
+  out.thread = seenThreads(session)[0];
   session.drain();
   out.trips = session.extremes().governor_trips;
   out.nonfinite = session.extremes().nonfinite;

@@ -10,6 +10,7 @@
 #include "model/fracture/toughness.h"
 #include "model/scene/tissue_presets.h"
 #include "solver/cpu/cpu_solver.h"
+#include "solver/processes/blade/blades.h"
 #include "viscera/model/model.h"
 #include "viscera/model/scene/scene.h"
 
@@ -82,7 +83,7 @@ class Hand {
   const std::vector<Moment>& moments() const { return moments_; }
   const Model& model() const { return model_; }
   double trips() const { return static_cast<double>(solver_.health().trips); }
-  BladeWork work() const { return solver_.bladeWork(0); }
+  BladeWork work() const { return bladeWork(solver_, 0); }
 
  private:
   Model model_;

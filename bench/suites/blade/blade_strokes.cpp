@@ -7,6 +7,7 @@
 
 #include "math/decompositions.h"
 #include "solver/cpu/cpu_solver.h"
+#include "solver/processes/blade/blades.h"
 #include "viscera/model/model.h"
 #include "viscera/model/scene/scene.h"
 
@@ -49,12 +50,12 @@ class Strokes {
   void make(int strokes) {
     for (int k = 0; k < strokes; ++k) {
       if (k % kTissueLasts == 0) solver_.reset();
-      const double before_j = solver_.bladeWork(0).work_j;
+      const double before_j = bladeWork(solver_, 0).work_j;
       least_j_ = before_j;
       stroke();
       solver_.step(ToolMotions{});
-      work_j += solver_.bladeWork(0).work_j - before_j;
-      back_j = std::max(back_j, before_j - solver_.bladeWork(0).work_j);
+      work_j += bladeWork(solver_, 0).work_j - before_j;
+      back_j = std::max(back_j, before_j - bladeWork(solver_, 0).work_j);
       back_at_once_j = std::max(back_at_once_j, before_j - least_j_);
     }
     trips = static_cast<double>(solver_.health().trips);
@@ -87,7 +88,7 @@ class Strokes {
       solver_.step(motions);
       layout::TickStats stats;
       while (solver_.pollStats(stats, true)) nonfinite += stats.nonfinite;
-      least_j_ = std::min(least_j_, solver_.bladeWork(0).work_j);
+      least_j_ = std::min(least_j_, bladeWork(solver_, 0).work_j);
     }
   }
 

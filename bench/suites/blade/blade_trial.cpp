@@ -15,6 +15,7 @@
 #include "bench/harness/specimens/backends.h"
 #include "math/float_bits.h"
 #include "model/fracture/toughness.h"
+#include "solver/processes/blade/blades.h"
 #include "solver/reference/reference_lattice.h"
 #include "viscera/model/model.h"
 #include "viscera/model/scene/scene.h"
@@ -154,7 +155,7 @@ class Stroke {
     const Vector3d force_n = xyz(last_.impulse[0]) / tick_s;
     out_.stretch = std::max(out_.stretch, static_cast<double>(floatFromBits(last_.max_stretch_bits)));
     if (lattice_) damped_j_ += tick_s * damping_w();
-    if (out_.onset_m == 0 && solver_->bladeWork(0).area_m2 > trial_.spacing_m * trial_.thickness_m)
+    if (out_.onset_m == 0 && bladeWork(*solver_, 0).area_m2 > trial_.spacing_m * trial_.thickness_m)
       out_.onset_m = gone_m_ - kBladeTrialClear_m;
     if (gone_m_ < kSteadyFrom * trial_.stroke_m) return;
     if (steady_.size() % 8 == 0) out_.worst_det = std::min(out_.worst_det, leastVolume(model_, solver_->readState()));
@@ -186,7 +187,7 @@ class Stroke {
     const Toughness toughness = toughnessOf(model_.bodies[0]);
     out_.length_m = toughness.spacing_m;
     out_.asked = out_.force * toughness.carried_j_per_m2() / trial_.toughness_j_per_m2;
-    const BladeWork work = solver_->bladeWork(0);
+    const BladeWork work = bladeWork(*solver_, 0);
     out_.area_m2 = work.area_m2;
     out_.work_j = work.work_j;
     out_.cut_share = work.parting_j / work.work_j;

@@ -7,9 +7,10 @@
 
 #include "bench/harness/specimens/block_on_bone.h"
 #include "bench/suites/thread/threads.h"
-#include "solver/thread/thread_bodies.h"
+#include "solver/processes/suture/thread_bodies.h"
 #include "viscera/math/state_hash.h"
 #include "viscera/session/session.h"
+#include "viscera/session/tissue_processes.h"
 
 namespace viscera::bench {
 
@@ -91,7 +92,7 @@ class RoughHand {
 
 TearingTrial tornOut(double seconds, double young_modulus_pa, int threads) {
   Session session(padScene(young_modulus_pa, threads));
-  const ThreadBodies& bodies = *session.solver().threads();
+  const ThreadBodies& bodies = *findProcess<ThreadBodies>(session.solver());
   const size_t channels = bodies.slides(0).size();
   RoughHand hand;
   TearingTrial out;
@@ -118,7 +119,7 @@ TearingTrial tornOut(double seconds, double young_modulus_pa, int threads) {
       ++out.blocks;
     }
     session.step(hand.next(session.tick_s()), {});
-    for (const Vector3d& place : session.threadPlaces(0)) out.nonfinite += !place.allFinite();
+    for (const Vector3d& place : threadPlaces(session, 0)) out.nonfinite += !place.allFinite();
     const std::vector<ChainSlide>& slides = bodies.slides(0);
     for (size_t k = 0; k + 1 < slides.size(); ++k)
       out.nearest_links = std::min(out.nearest_links, slides[k].between_rest_m / bodies.chain(0).link_m());

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "bench/suites/thread/threads.h"
-#include "solver/thread/thread_touches.h"
+#include "solver/processes/suture/thread_touches.h"
 
 namespace viscera::bench {
 

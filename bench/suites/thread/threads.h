@@ -6,7 +6,7 @@
 #include <ctime>
 #include <vector>
 
-#include "solver/thread/chain/chain.h"
+#include "solver/processes/suture/chain/chain.h"
 
 namespace viscera::bench {
 

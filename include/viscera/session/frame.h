@@ -12,11 +12,10 @@
 #include "viscera/math/types.h"
 #include "viscera/model/scene/overlays.h"
 #include "viscera/render/arrow.h"
-#include "viscera/render/shown_thread.h"
 #include "viscera/solver/governor.h"
-#include "viscera/solver/seen_blood.h"
-#include "viscera/solver/seen_burns.h"
+#include "viscera/solver/process_look.h"
 #include "viscera/solver/seen_needle.h"
+#include "viscera/solver/shown_thread.h"
 #include "viscera/surface/shown_mesh.h"
 #include "viscera/tools/force_limiter.h"
 #include "viscera/tools/stylus.h"
@@ -108,12 +107,10 @@ struct Look {
   ToolMotions motions;
   std::vector<Pose> obstacles;  ///< [obstacles] at the end of the tick, tissue frame
   std::vector<Pose> cameras;    ///< [cameras] optical frames, tissue frame
-  ShownThreads threads;         ///< at the end of the tick, needles behind threads
+  ProcessLook processes;        ///< at the end of the tick
   Wants wants;
-  std::vector<Overlays> overlays;           ///< [cameras]
-  std::vector<Arrow> arrows;                ///< forces and wind, where some camera shows them
-  std::shared_ptr<const BurnPaint> burns;   ///< null: nothing was burnt
-  std::shared_ptr<const BloodPaint> blood;  ///< null: nothing has bled
+  std::vector<Overlays> overlays;  ///< [cameras]
+  std::vector<Arrow> arrows;       ///< forces and wind, where some camera shows them
 };
 
 /// Work done for the eye since the start: with no subscriber all stay zero.

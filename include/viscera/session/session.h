@@ -13,11 +13,7 @@
 #include "viscera/model/model.h"
 #include "viscera/model/scene/scene.h"
 #include "viscera/session/frame.h"
-#include "viscera/solver/seen_blood.h"
-#include "viscera/solver/seen_burns.h"
-#include "viscera/solver/seen_clip.h"
-#include "viscera/solver/seen_needle.h"
-#include "viscera/solver/seen_thread.h"
+#include "viscera/solver/facts.h"
 #include "viscera/solver/solver.h"
 #include "viscera/solver/threads.h"
 #include "viscera/tools/force_limiter.h"
@@ -128,22 +124,9 @@ class Session {
   /// Triangles of the skin as long as nothing is cut; of a SurfaceFrame, those that are shown in its tick.
   std::shared_ptr<const ShownTopology> wholeSkin() const;
   const Solver& solver() const { return *solver_; }
-  /// @name Threads after the last step
-  /// Pieces: threads of the scene, and behind them what was parted from them, threadPieces() in all.
-  /// @{
-  size_t threadPieces() const;
-  size_t threadOf(size_t piece) const;                            ///< of the scene
-  const std::vector<Vector3d>& threadPlaces(size_t piece) const;  ///< of its nodes, tissue frame [m]
-  std::vector<Vector3d> needlePlaces(size_t thread) const;        ///< of its needle, from the tip on; or none
-  std::vector<double> threadTensions_n(size_t piece) const;       ///< of its links, pulling above 0
-  std::vector<SeenThread> seenThreads() const;                    ///< [pieces]
-  std::vector<SeenNeedle> seenNeedles() const;                    ///< of the threads that have one
-  SeenClips seenClips() const;
-  std::string threadRefusal() const;  ///< why the last of ThreadConfig::ties was not tied
-  /// @}
-  SeenBurns seenBurns() const;  ///< after the last step
-  SeenBlood seenBlood() const;  ///< the same
-  /// Brings the tails of a piece together, draws its loop and ties it, in the steps to come. @throws Error  why not
+  /// Reports all that lives in the tissue, after the last step: one group per process of the scene. Typed access to
+  /// single processes is in tissue_processes.h.
+  FactGroups facts() const;
   void tieThread(size_t piece, const ThreadTie& tie);
   const std::string& backendNote() const { return backend_note_; }  ///< what steps the tissue, and why
   Counters counters() const;
@@ -167,7 +150,7 @@ class Session {
   void requireContext() const;
   void moveObstacles();
   void lookAtObstacles();
-  void lookAtThreads();
+  void lookAtProcesses();
   void lookAtArrows();
   static bool feels(const ToolMotions& motions);
   void heedFeeling(Frame& frame);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 namespace viscera {
 
@@ -15,12 +14,6 @@ struct SeenBlood {
   double dripped_ml = 0;
   double flow_ml_per_min = 0;  ///< now, of all vessels together
   uint64_t stumps = 0;         ///< pieces of vessels that bleed now
-};
-
-/// How much of what is seen of nodes is blood.
-struct BloodPaint {
-  uint64_t revision = 0;      ///< grows when a share changes
-  std::vector<float> shares;  ///< [slots] 0 clean, 1 blood alone
 };
 
 }  // namespace viscera

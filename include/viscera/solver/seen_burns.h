@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 namespace viscera {
 
@@ -18,12 +17,6 @@ struct SeenBurns {
   double hottest_c = 37;     ///< of any node now
   double coagulated_m3 = 0;  ///< tissue of which more than 63 % is coagulated
   uint64_t parted = 0;       ///< nodes that lost their springs as their water boiled
-};
-
-/// How burnt nodes look.
-struct BurnPaint {
-  uint64_t revision = 0;      ///< grows when a share changes
-  std::vector<float> shares;  ///< [slots] 0 fresh, 1 coagulated, 2 charred
 };
 
 }  // namespace viscera

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "viscera/layout/tick_stats.h"
 #include "viscera/model/model.h"
@@ -18,18 +19,8 @@
 namespace viscera {
 
 class Archive;
-class Bleeding;
-class Burns;
-class ThreadBodies;
-struct ThreadPull;
-
-/// What a stylus's blade did to tissue that resists it (material.cut, docs/cutting.md).
-struct BladeWork {
-  double area_m2 = 0;    ///< parted since the last reset, at rest
-  double work_j = 0;     ///< by the hand since then, what the tissue gave back taken off
-  double parting_j = 0;  ///< of that what went into the area: toughness, as far as the lattice carries it, times area
-  double limit_n = 0;    ///< force at which the edge goes on, as it lay in the last tick; 0: it lies in no tissue
-};
+class TissueProcess;
+struct StylusPull;
 
 /// The seam between the session and a backend: upload, step, state.
 class Solver {
@@ -65,10 +56,11 @@ class Solver {
   virtual double dtLimit_s() const { return dtSafe_s(); }
   virtual int substeps() const = 0;           ///< per tick, in calm states
   virtual uint64_t substepsDone() const = 0;  ///< since the solver was made
+  /// What lives in the tissue beside its forces: blades that it resists, sutures, clips, burns, blood.
+  virtual const std::vector<std::unique_ptr<TissueProcess>>& processes() const;
+  /// What a stylus gave processes, such as threads and needles, in the tick that pollStats() was last told of.
   /// @param stylus  < kMaxStyluses
-  virtual BladeWork bladeWork(uint32_t /*stylus*/) const { return {}; }
-  /// What a stylus gave threads and needles in the tick that pollStats() was last told of.
-  virtual const ThreadPull& pull(uint32_t stylus) const;
+  virtual const StylusPull& pull(uint32_t stylus) const;
   virtual std::string backend() const = 0;
   /// All that the ticks to come depend on, between two ticks, into an archive or out of it: the solver that reads it
   /// was made for the same model and scene, and goes on to the bit like the one that wrote it. Waits.
@@ -76,10 +68,6 @@ class Solver {
   virtual void persist(Archive& archive);
   /// Goes on from a state of the same model. @throws Error  this solver takes none
   virtual void goOnFrom(const HostState& state);
-  virtual ThreadBodies* threads() { return nullptr; }           ///< null: the scene has none
-  virtual const Burns* burns() const { return nullptr; }        ///< null: no stylus burns
-  virtual const Bleeding* bleeding() const { return nullptr; }  ///< null: nothing can bleed
-  const ThreadBodies* threads() const { return const_cast<Solver*>(this)->threads(); }
 };
 
 /// 64-bit fingerprint of displacement, velocity and springs of the active nodes, in active-list order.

@@ -10,8 +10,4 @@ bool hasThreadsOrClips(const Scene& scene) {
   return !scene.threads.empty() || mayClip(scene.styluses);
 }
 
-bool pushesAfterSubsteps(const Scene& scene) {
-  return hasThreadsOrClips(scene) || mayBurn(scene.styluses);
-}
-
 }  // namespace viscera

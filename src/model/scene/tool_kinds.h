@@ -181,9 +181,6 @@ inline bool mayPush(const StylusConfig& stylus) {
 
 bool hasThreadsOrClips(const Scene& scene);
 
-/// Are there threads, clips or burns, which push nodes after each substep?
-bool pushesAfterSubsteps(const Scene& scene);
-
 /// Does some stylus? What a model and a solver keep of cuts is there only then.
 inline bool maySever(const std::vector<StylusConfig>& styluses) {
   for (const StylusConfig& stylus : styluses) {

@@ -163,11 +163,7 @@ void SimulationLoop::deliver(const Session& session, Frame&& frame, const Stylus
     status_.health = frame.health;
     status_.held_back = frame.held_back;
     status_.inside = frame.inside;
-    status_.threads = session.seenThreads();
-    status_.clips = session.seenClips();
-    status_.burns = session.seenBurns();
-    status_.blood = session.seenBlood();
-    status_.thread_refusal = session.threadRefusal();
+    status_.facts = session.facts();
     status_.modes.clear();
     for (const StylusConfig& stylus : session.styluses())
       status_.modes.push_back({stylus.idle, stylus.button1, stylus.button2});

@@ -39,12 +39,8 @@ struct LoopStatus {
   std::array<Reaction, layout::kMaxStyluses> reactions;
   /// What each stylus does with no button pressed, and while the first or the second is.
   std::vector<std::array<ToolMode, 3>> modes;
-  std::vector<SeenThread> threads;
-  SeenClips clips;
-  SeenBurns burns;
-  SeenBlood blood;
-  std::string thread_refusal;  ///< why the last tie of the scene was not tied
-  PaceMeter::Reading pace;     ///< since the last LoopStatus was taken
+  FactGroups facts;         ///< of what lives in the tissue
+  PaceMeter::Reading pace;  ///< since the last LoopStatus was taken
 };
 
 /// What the loop asks of its surroundings, on its own thread. None of them may block.

@@ -6,12 +6,9 @@
 
 #include <algorithm>
 #include <cstring>
-#include <iomanip>
 #include <numeric>
 #include <utility>
 
-#include "math/number_text.h"
-#include "model/scene/structure_rules.h"
 #include "model/scene/tool_kinds.h"
 
 namespace viscera::nodes {
@@ -59,7 +56,6 @@ SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, const Scene& sc
       dropped_before_(inputs.size(), 0),
       updater_(node) {
   for (const CameraConfig& camera : scene.cameras) cameras_.push_back(camera.name);
-  for (const ThreadConfig& thread : scene.threads) thread_names_.push_back(thread.name);
   takeLatencies();
   updater_.setHardwareID("none");
   updater_.add("simulation", this, &SimulatorDiagnostics::simulation);
@@ -69,10 +65,6 @@ SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, const Scene& sc
     updater_.add(inputs_[i]->mailbox().config().name, [this, i](Status& status) { stylus(i, status); });
   if (!obstacles_.empty()) updater_.add("obstacles", this, &SimulatorDiagnostics::obstacles);
   if (!camera_frames_.empty()) updater_.add("cameras", this, &SimulatorDiagnostics::cameras);
-  if (!thread_names_.empty()) updater_.add("threads", this, &SimulatorDiagnostics::threads);
-  if (mayClip(scene.styluses)) updater_.add("clips", this, &SimulatorDiagnostics::clips);
-  if (mayBurn(scene.styluses)) updater_.add("burns", this, &SimulatorDiagnostics::burns);
-  if (mayBleed(scene.bodies)) updater_.add("bleeding", this, &SimulatorDiagnostics::bleeding);
   // Forced from the steady clock, since the updater's own period follows ROS time, which may stand still.
   timer_ = node.createSteadyTimer(ros::WallDuration(kPeriod_s), [this](const ros::SteadyTimerEvent&) { update(); });
 }
@@ -81,8 +73,18 @@ void SimulatorDiagnostics::update() {
   now_ = loop_.takeStatus();
   takeLatencies();
   if (now_) updater_.setHardwareID(now_->pictures ? now_->gpu : "none");
+  addProcesses();
   watchPictures();
   updater_.force_update();
+}
+
+/// Adds a status for each process of the scene once its session is there.
+void SimulatorDiagnostics::addProcesses() {
+  if (!now_) return;
+  for (const FactGroup& group : now_->facts) {
+    if (!processes_.insert(group.name).second) continue;
+    updater_.add(group.name, [this, name = group.name](Status& status) { process(name, status); });
+  }
 }
 
 /// Of a simulation that is slower than real time they come the more seldom; in a pause they come if something changes.
@@ -201,67 +203,14 @@ void SimulatorDiagnostics::cameras(Status& status) {
   status.add("frames_missed", missed);
 }
 
-/// Of each piece: its length and greatest tension, turns of its tails, knots.
-void SimulatorDiagnostics::threads(Status& status) {
-  if (!now_) return status.summary(Level::OK, "preparing");
-  const bool refused = !now_->thread_refusal.empty();
-  status.summary(refused ? Level::WARN : Level::OK,
-                 refused ? now_->thread_refusal : std::to_string(now_->threads.size()) + " pieces");
-  std::vector<int> pieces(thread_names_.size());
-  for (const SeenThread& thread : now_->threads) {
-    TextOut text;
-    text << std::setprecision(3) << 1e3 * thread.length_m << " mm, pulls " << thread.largest_n << " N, tails "
-         << thread.turns << " turns";
-    for (const SeenKnot& knot : thread.knots) {
-      text << "; " << nameOf(knot.kind) << (knot.tied ? " tied" : " not tied") << ", holds " << knot.holds_n
-           << " N, loop " << 1e3 * knot.loop_m << " mm, " << knot.loop_n << " N";
-      for (const int turns : knot.turns) text << ", throw " << turns;
-    }
-    status.add(thread_names_[thread.thread] + "[" + std::to_string(pieces[thread.thread]++) + "]", text.str());
+/// Every fact of a process, as metrics.json has them.
+void SimulatorDiagnostics::process(const std::string& name, Status& status) {
+  status.summary(Level::OK, "preparing");
+  for (const FactGroup& group : now_ ? now_->facts : FactGroups{}) {
+    if (group.name != name) continue;
+    status.summary(group.warns ? Level::WARN : Level::OK, group.summary);
+    for (const auto& [key, value] : flatFacts(group)) status.add(key, value);
   }
-}
-
-/// Of each: where what it holds is at rest, how far it is open and its force.
-void SimulatorDiagnostics::clips(Status& status) {
-  if (!now_) return status.summary(Level::OK, "preparing");
-  const SeenClips& clips = now_->clips;
-  status.summary(Level::OK, std::to_string(clips.on.size()) + " on tissue");
-  status.add("empty", clips.empty);
-  status.add("taken_off", clips.taken_off);
-  for (size_t i = 0; i < clips.on.size(); ++i) {
-    const SeenClip& clip = clips.on[i];
-    TextOut text;
-    text << std::setprecision(3) << "at rest at " << 1e3 * clip.rest_m.x() << " " << 1e3 * clip.rest_m.y() << " "
-         << 1e3 * clip.rest_m.z() << " mm, open by " << 1e3 * clip.opening_m << " mm, holds with " << clip.force_n
-         << " N";
-    status.add("clip[" + std::to_string(i) + "]", text.str());
-  }
-}
-
-/// Heat since the last reset and where it is, and what it did.
-void SimulatorDiagnostics::burns(Status& status) {
-  if (!now_) return status.summary(Level::OK, "preparing");
-  const SeenBurns& burns = now_->burns;
-  status.summaryf(Level::OK, "hottest node %.0f C", burns.hottest_c);
-  status.add("given_j", burns.given_j);
-  status.add("stored_j", burns.stored_j);
-  status.add("steam_j", burns.steam_j);
-  status.add("perfused_j", burns.perfused_j);
-  status.add("surface_j", burns.surface_j);
-  status.add("coagulated_m3", burns.coagulated_m3);
-  status.add("parted", burns.parted);
-}
-
-/// What ran out of vessels since the last reset and where it is, and what runs now.
-void SimulatorDiagnostics::bleeding(Status& status) {
-  if (!now_) return status.summary(Level::OK, "preparing");
-  const SeenBlood& blood = now_->blood;
-  status.summaryf(Level::OK, "%.1f ml, %.0f ml/min", blood.bled_ml, blood.flow_ml_per_min);
-  status.add("bled_ml", blood.bled_ml);
-  status.add("on_tissue_ml", blood.on_tissue_ml);
-  status.add("dripped_ml", blood.dripped_ml);
-  status.add("flow_ml_per_min", blood.flow_ml_per_min);
-  status.add("stumps", blood.stumps);
 }
 
 void SimulatorDiagnostics::stylus(size_t index, Status& status) {

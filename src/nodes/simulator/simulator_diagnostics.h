@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -52,10 +53,8 @@ class SimulatorDiagnostics {
   void stylus(size_t index, Status& status);
   void obstacles(Status& status);
   void cameras(Status& status);
-  void threads(Status& status);
-  void clips(Status& status);
-  void burns(Status& status);
-  void bleeding(Status& status);
+  void process(const std::string& name, Status& status);
+  void addProcesses();
 
   SimulationLoop& loop_;
   const Publishers publishers_;
@@ -66,8 +65,8 @@ class SimulatorDiagnostics {
   uint64_t missed_before_ = 0;        ///< frames of obstacles
   uint64_t held_back_before_ = 0;     ///< ticks of obstacles
   std::vector<std::string> cameras_;  ///< their names
-  std::vector<std::string> thread_names_;
-  const std::string scene_;  ///< its name
+  std::set<std::string> processes_;   ///< names of those that have a status
+  const std::string scene_;           ///< its name
   const double tick_s_;
   Slowness slowness_;
   PictureWatch pictures_;

@@ -14,6 +14,7 @@
 #include "nodes/ros/conversions.h"
 #include "viscera/math/error.h"
 #include "viscera/session/session.h"
+#include "viscera/session/tissue_processes.h"
 
 namespace viscera::nodes {
 namespace {
@@ -68,8 +69,8 @@ ToolMode modeNamed(const std::string& name) {
 size_t pieceNamed(const Session& session, const std::string& name, uint32_t which) {
   const std::vector<ThreadConfig>& threads = session.scene().threads;
   uint32_t pieces = 0;
-  for (size_t p = 0; p < session.threadPieces(); ++p) {
-    if (threads[session.threadOf(p)].name == name && pieces++ == which) return p;
+  for (size_t p = 0; p < threadPieces(session); ++p) {
+    if (threads[threadOf(session, p)].name == name && pieces++ == which) return p;
   }
   if (pieces > 0)
     throw Error("piece: thread '" + name + "' is in " + std::to_string(pieces) + ", there is no " +

@@ -9,7 +9,7 @@
 #include "nodes/ros/conversions.h"
 #include "render/shapes/obstacle_shape.h"
 #include "session/thread_looks.h"
-#include "solver/thread/needle_shape.h"
+#include "solver/processes/suture/needle_shape.h"
 #include "viscera/model/scene/scene.h"
 #include "viscera/render/camera.h"
 

@@ -58,10 +58,8 @@ class CpuBackend : public SolverBackend {
                  std::vector<Vector3f>& v_m_per_s) const override;
   void pushNodes(uint32_t stylus, float dt_s, const std::vector<uint32_t>& slots,
                  const std::vector<Vector3f>& dv_m_per_s) override;
-  void readRuns(const std::vector<uint32_t>& runs, BladeNodes::Planes& u_m,
-                BladeNodes::Planes& v_m_per_s) const override;
-  void pushRuns(uint32_t stylus, float dt_s, const std::vector<uint32_t>& runs,
-                const BladeNodes::Planes& dv_m_per_s) override;
+  void readRuns(const std::vector<uint32_t>& runs, RunPlanes& u_m, RunPlanes& v_m_per_s) const override;
+  void pushRuns(uint32_t stylus, float dt_s, const std::vector<uint32_t>& runs, const RunPlanes& dv_m_per_s) override;
   void selectBody(size_t body) override { selected_body_ = body; }
   void cutAtRest(const layout::ToolMotion& sweep, bool particles) override;
   void advance(const Substep& step, bool recovery) override;

@@ -3,8 +3,8 @@
 // What blades that tissue resists, threads and needles see and change of the nodes.
 #include <algorithm>
 
-#include "solver/contact/run_sums.h"
 #include "solver/cpu/cpu_backend.h"
+#include "solver/processes/blade/run_sums.h"
 
 namespace viscera {
 
@@ -37,21 +37,19 @@ void CpuBackend::pushNodes(uint32_t stylus, float dt_s, const std::vector<uint32
   }
 }
 
-void CpuBackend::readRuns(const std::vector<uint32_t>& runs, BladeNodes::Planes& u_m,
-                          BladeNodes::Planes& v_m_per_s) const {
+void CpuBackend::readRuns(const std::vector<uint32_t>& runs, RunPlanes& u_m, RunPlanes& v_m_per_s) const {
   const float* const u = lattice_.state.displacement[lattice_.state.current].data();
   const float* const v = lattice_.state.velocity[lattice_.state.current].data();
   for (size_t a = 0; a < 3; ++a) {
     for (size_t i = 0; i < runs.size(); ++i) {
-      const size_t from = vectorAt(runs[i]) + a * layout::kBrickSlots, to = i * BladeNodes::kLanes;
-      std::copy_n(u + from, BladeNodes::kLanes, &u_m[a][to]);
-      std::copy_n(v + from, BladeNodes::kLanes, &v_m_per_s[a][to]);
+      const size_t from = vectorAt(runs[i]) + a * layout::kBrickSlots, to = i * kRunSlots;
+      std::copy_n(u + from, kRunSlots, &u_m[a][to]);
+      std::copy_n(v + from, kRunSlots, &v_m_per_s[a][to]);
     }
   }
 }
 
-void CpuBackend::pushRuns(uint32_t stylus, float dt_s, const std::vector<uint32_t>& runs,
-                          const BladeNodes::Planes& dv_m_per_s) {
+void CpuBackend::pushRuns(uint32_t stylus, float dt_s, const std::vector<uint32_t>& runs, const RunPlanes& dv_m_per_s) {
   pushed_[stylus].resize(3 * lattice_.slotCount(), 0);
   pushed_bricks_.assign(bricks(), 0);
   viscera::pushRuns({runs.data(),

@@ -16,6 +16,7 @@
 #include "model/scene/integrators.h"
 #include "model/scene/tool_kinds.h"
 #include "solver/cpu/store/sleep.h"
+#include "solver/ticks/registry.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 #include "viscera/model/scene/scene.h"
@@ -44,7 +45,8 @@ GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& p
       buffers_(model, bodyParams(model, plan.dt_safe_s), features_),
       pairs_(solvesContacts(scene) ? std::make_unique<NodePairs>(model, scene, features_, buffers_) : nullptr),
       awake_(makeAwakeBricks(model, scene, plan, features_, buffers_)),
-      rest_(model, awake_ && !features_.network && plan.tick_s < Sleep::kQuiet_s && !pushesAfterSubsteps(scene)),
+      rest_(model, awake_ && !features_.network && plan.tick_s < Sleep::kQuiet_s &&
+                       processesAct(scene, model, plan.tools) != ProcessActs::kAlways),
       stepper_(makeStepper(scene.solver.integrator, scene.solver.iterations, features_, buffers_, pairs_.get(),
                            awake_.get())),
       measure_(features_, buffers_.store.active_count),
@@ -65,7 +67,7 @@ GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& p
     tools_.emplace(Tools{gpu::Buffer<layout::ToolMotion>(rows, "tool motions"), GrabPass(features_), CutPass(features_),
                          ReactionPass(features_, buffers_.store.active_count)});
   }
-  if ((plan.tools && resistsBlades(scene)) || pushesAfterSubsteps(scene)) {
+  if (processesAct(scene, model, plan.tools) != ProcessActs::kNever) {
     blade_.reset(new Blade{NodeWindow(features_, buffers_.store.slot_count, awake_.get()),
                            gpu::Buffer<layout::ToolMotion>(layout::kMaxStyluses, "a sweep at rest"),
                            gpu::Buffer<layout::vec4>(buffers_.store.slot_count, "tissue at rest")});

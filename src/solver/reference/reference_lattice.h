@@ -101,6 +101,7 @@ class ReferenceLattice {
   uint32_t farEnd(uint32_t slot, uint32_t spring) const { return neighbor(slot, spring).slot; }
 
  protected:
+  size_t bodies() const { return params_.size(); }
   const layout::BodyParams& body(uint32_t slot) const { return params_[nodes[slot].hi >> layout::kBodyShift]; }
 
  private:

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "solver/contact/tool_acts.h"
+#include "solver/processes/port.h"
 #include "solver/reference/reference_lattice.h"
 #include "solver/reference/reference_obstacle.h"
 #include "viscera/model/scene/solver_config.h"
@@ -36,6 +37,8 @@ struct ReferenceOptions {
   double sleep_distance_m = std::numeric_limits<double>::infinity();
   /// Wind, forces on bodies and contacts between nodes; null: none.
   std::shared_ptr<const ReferenceSurroundings> surroundings;
+  /// [bodies] 1 where the tissue resists blades, which do not cut it freely then (Blades do); empty: none does.
+  std::vector<uint8_t> resists = {};
 };
 
 /// Where the obstacles are in one substep, and how the wind blows.
@@ -49,7 +52,7 @@ using SubstepMotions = std::array<layout::ToolMotion, layout::kMaxStyluses>;
 
 /// The lattice in float64 on one thread, written to be obviously right: the truth that backends are held to.
 /// Slots are those of the model; physics.md 1, 2 and 5.
-class ReferenceSolver : public ReferenceLattice, public ToolTarget {
+class ReferenceSolver : public ReferenceLattice, public ToolTarget, public TissuePort {
  public:
   /// @param model  must outlive the solver   @param gravity_m_per_s2  tissue frame   @param dt_s  substep, > 0
   ReferenceSolver(const Model& model, const Vector3d& gravity_m_per_s2, double dt_s,
@@ -69,6 +72,15 @@ class ReferenceSolver : public ReferenceLattice, public ToolTarget {
   void takeHold(uint32_t stylus, const Pose& pose, double radius_m) override;
   void letGo(uint32_t stylus, const Release& release) override;
   void cut(uint32_t stylus, bool particles) override;
+  /// @name TissuePort, whose numbers are float32
+  /// @{
+  void readNodes(const std::vector<uint32_t>& slots, std::vector<Vector3f>& u_m,
+                 std::vector<Vector3f>& v_m_per_s) const override;
+  void pushNodes(uint32_t stylus, float dt_s, const std::vector<uint32_t>& slots,
+                 const std::vector<Vector3f>& dv_m_per_s) override;
+  void selectBody(size_t body) override { selected_body_ = body; }
+  void cutAtRest(const layout::ToolMotion& sweep, bool particles) override;
+  /// @}
 
   /// Sum of spring, dashpot and volume forces on a node in the current state [N]; gravity and drag are not in it.
   Vector3d force(uint32_t slot) const;
@@ -94,6 +106,7 @@ class ReferenceSolver : public ReferenceLattice, public ToolTarget {
 
  private:
   bool rests(uint32_t slot) const;  ///< fixed, or alone and not held
+  void cutWith(const layout::ToolMotion& m, bool particles, const std::vector<uint8_t>& spared);
   void leapfrog(Field& u_next, Field& v_next) const;
   void verletPaper(Field& u_next, Field& v_next) const;
   void implicitEuler(Field& u_next, Field& v_next);
@@ -125,6 +138,7 @@ class ReferenceSolver : public ReferenceLattice, public ToolTarget {
   double dt_s_, last_dt_s_;
   ReferenceOptions options_;
   bool first_ = true;
+  size_t selected_body_ = 0;
   SubstepMotions motions_{};                                       ///< of the substep
   std::vector<ReferenceObstacle> obstacles_;                       ///< in it
   std::array<Vector3d, layout::kMaxStyluses> impulse_before_n_s_;  ///< momentum given when the tick began

@@ -3,11 +3,12 @@
 #include "solver/reference/reference_ticks.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "model/fracture/tearing.h"
 #include "model/fracture/toughness.h"
-#include "model/scene/tool_kinds.h"
 #include "solver/reference/reference_surroundings.h"
+#include "solver/ticks/registry.h"
 #include "solver/tissue/substeps.h"
 #include "tools/motion_packing.h"
 #include "viscera/math/error.h"
@@ -28,6 +29,7 @@ ReferenceOptions optionsFor(const Model& model, const Scene& scene) {
   options.integrator = truthOf(config.integrator);
   options.push_speed_m_per_s = static_cast<float>(pushSpeed(model));
   options.sleep_distance_m = static_cast<float>(config.sleep_distance_m);
+  for (const Body& body : model.bodies) options.resists.push_back(resistsBlades(body));
   if (surroundingsOf(model, scene).any()) options.surroundings = std::make_shared<ReferenceSurroundings>(model, scene);
   return options;
 }
@@ -36,25 +38,18 @@ ReferenceOptions optionsFor(const Model& model, const Scene& scene) {
 
 // Substep, gravity and limits are the float32 numbers that the kernels get: what differs is the arithmetic alone.
 ReferenceTicks::ReferenceTicks(const Model& model, const Scene& scene)
-    : acts_(scene.styluses, 1 / scene.solver.tick_hz),
+    : acts_(scene.styluses, 1 / scene.solver.tick_hz, resistsBlades(scene) && !cutsFreely(scene)),
       tick_hz_(scene.solver.tick_hz),
       dt_safe_s_(safeTimeStep(model)),
       substeps_(planSubsteps(model, ungoverned(scene.solver), dt_safe_s_).calm),
       surroundings_(model, scene),
       solver_(model, scene.environment.gravity_m_per_s2.cast<float>().cast<double>(), static_cast<float>(dt_s()),
               optionsFor(model, scene)),
+      processes_(makeProcesses(scene, model, true), 0),
       obstacle_before_n_s_(solver_.obstacle_impulse_n_s) {
-  if (resistsBlades(scene))
-    throw SceneError(
-        "bodies[].material.cut.toughness_j_per_m2 must be 0 for the reference, which knows no blades that tissue "
-        "resists");
   if (tears(scene))
     throw SceneError(
         "bodies[].material.tear.toughness_j_per_m2 must be 0 for the reference, which knows no tissue that tears");
-  if (!scene.threads.empty()) throw SceneError("threads must be empty for the reference, which knows none");
-  if (mayBurn(scene.styluses))
-    throw SceneError("styluses[]: no mode may be cautery for the reference, which knows none");
-  if (mayClip(scene.styluses)) throw SceneError("styluses[]: no mode may be clip for the reference, which knows none");
 }
 
 void ReferenceTicks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
@@ -63,6 +58,17 @@ void ReferenceTicks::step(const ToolMotions& motions, const ObstacleMotions& obs
   surroundings_.beginTick(1 / tick_hz_, substeps_, obstacles);
   acts_.beginTick(solver_, motions);
   interpolateMotions(motions, acts_.styluses(), substeps_, motions_);
+  for (layout::ToolMotion& motion : motions_) motion.timing.x = static_cast<float>(dt_s());
+  if (std::exchange(first_, false)) {
+    for (size_t s = 0; s < layout::kMaxStyluses; ++s) motions_[s].timing.x = 0;
+  }
+  if (processes_.readCuts() && solver_.springs_cut != cuts_seen_) {
+    cuts_seen_ = solver_.springs_cut;
+    processes_.cutsChanged(solver_.state());
+  }
+  const ObstacleMotions& surrounding = surroundings_.motions().empty() ? obstacles : surroundings_.motions();
+  const ProcessTick tick{motions, surrounding, substeps_, acts_.sever(motions)};
+  processes_.beginTick(tick);
   for (int n = 0; n < substeps_; ++n) {
     SubstepMotions substep;
     std::copy_n(motions_.begin() + n * static_cast<int>(layout::kMaxStyluses), layout::kMaxStyluses, substep.begin());
@@ -70,7 +76,9 @@ void ReferenceTicks::step(const ToolMotions& motions, const ObstacleMotions& obs
     SubstepOutside outside{{}, now.wind_m_per_s.cast<double>()};
     outside.obstacles.assign(now.obstacles, now.obstacles + surroundings_.obstacleCount());
     solver_.substep(substep, outside);
+    processes_.act(solver_, tick, {n, dt_s(), substep.data()});
   }
+  processes_.endTick(solver_, tick);
   acts_.endTick(solver_, motions);
 }
 

@@ -6,18 +6,19 @@
 
 #include "solver/contact/surroundings.h"
 #include "solver/reference/reference_solver.h"
+#include "solver/ticks/process_list.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {
 
 struct Scene;
 
-/// The reference tick by tick, as Ticks goes through a scene, but always in calm substeps and without a
-/// governor. pd is implicit Euler here, solved to the end.
+/// The reference tick by tick, as Ticks goes through a scene, with the same processes in the tissue, but always in calm
+/// substeps and without a stability monitor (governor). pd is implicit Euler here, solved to the end.
 class ReferenceTicks {
  public:
   /// @param model  must outlive this
-  /// @throws SceneError  substeps (planSubsteps), parts (strengths), tissue that resists blades
+  /// @throws SceneError  substeps (planSubsteps), parts (strengths), tissue that tears
   ReferenceTicks(const Model& model, const Scene& scene);
 
   /// @throws ConvergenceError  implicit Euler found no solution
@@ -34,6 +35,8 @@ class ReferenceTicks {
   Vector3d obstacleImpulse(size_t obstacle) const {
     return solver_.obstacle_impulse_n_s[obstacle] - obstacle_before_n_s_[obstacle];
   }
+  /// What lives in the tissue: their state is float64 too, but TissuePort rounds what they read and give to float32.
+  const TissueProcesses& processes() const { return processes_.all(); }
   double maxStretch() const;        ///< largest |L - l0| / l0 of the current state
   double maxSpeed_m_per_s() const;  ///< of any node in the current state
   uint64_t nonfinite() const;       ///< nodes whose u or v is not finite
@@ -44,6 +47,9 @@ class ReferenceTicks {
   int substeps_;
   Surroundings surroundings_;  ///< where and when; what they do is the solver's
   ReferenceSolver solver_;
+  ProcessList processes_;
+  uint64_t cuts_seen_ = 0;                                           ///< springs cut, when processes were told last
+  bool first_ = true;                                                ///< no tick was made yet
   std::array<Vector3d, layout::kMaxObstacles> obstacle_before_n_s_;  ///< given when the tick began
   std::vector<layout::ToolMotion> motions_;
 };

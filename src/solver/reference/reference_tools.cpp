@@ -213,7 +213,11 @@ void ReferenceSolver::letGo(uint32_t stylus, const Release& release) {
 }
 
 void ReferenceSolver::cut(uint32_t stylus, bool particles) {
-  const layout::ToolMotion& m = motions_[stylus];
+  cutWith(motions_[stylus], particles, particles ? std::vector<uint8_t>() : options_.resists);
+}
+
+/// @param spared  [bodies] 1 where no spring is cut; empty: those of all are
+void ReferenceSolver::cutWith(const layout::ToolMotion& m, bool particles, const std::vector<uint8_t>& spared) {
   const Vector3d a = xyz(m.from), b = xyz(m.blade_from), c = xyz(m.blade_to), d = xyz(m.to);
   const auto position = [&](uint32_t slot) { return tissueAt(u_m, slot); };
   const auto erased = [&](const Vector3d& x) {
@@ -248,6 +252,7 @@ void ReferenceSolver::cut(uint32_t stylus, bool particles) {
   };
   std::vector<uint32_t> lost;  // nodes of lattices: seen in this pass as before it
   for (uint32_t slot : active) {
+    if (!spared.empty() && spared[nodes[slot].hi >> layout::kBodyShift]) continue;
     for (uint32_t s = 0; s < springsOf(slot); ++s) {
       if (!isFirstEnd(slot, s) || !isWhole(slot, s)) continue;
       const uint32_t far = farEnd(slot, s);
@@ -261,6 +266,38 @@ void ReferenceSolver::cut(uint32_t stylus, bool particles) {
     }
   }
   for (const uint32_t slot : lost) remember(slot);
+}
+
+void ReferenceSolver::readNodes(const std::vector<uint32_t>& slots, std::vector<Vector3f>& u,
+                                std::vector<Vector3f>& v) const {
+  for (size_t i = 0; i < slots.size(); ++i) {
+    u[i] = u_m[slots[i]].cast<float>();
+    v[i] = v_m_per_s[slots[i]].cast<float>();
+  }
+}
+
+void ReferenceSolver::pushNodes(uint32_t stylus, float dt_s, const std::vector<uint32_t>& slots,
+                                const std::vector<Vector3f>& dv_m_per_s) {
+  for (size_t i = 0; i < slots.size(); ++i) {
+    const uint32_t slot = slots[i];
+    if (isFixed(nodes[slot])) continue;
+    const Vector3d dv = dv_m_per_s[i].cast<double>();
+    v_m_per_s[slot] += dv;
+    u_m[slot] += static_cast<double>(dt_s) * dv;
+    if (stylus < layout::kMaxStyluses) impulse_n_s[stylus] += mass(slot) * dv;
+  }
+}
+
+/// The cut sees tissue that is where it is at rest.
+void ReferenceSolver::cutAtRest(const layout::ToolMotion& sweep, bool particles) {
+  Field u(u_m.size(), Vector3d::Zero()), v = u;
+  u_m.swap(u);
+  v_m_per_s.swap(v);
+  std::vector<uint8_t> others(bodies(), 1);
+  others[selected_body_] = 0;
+  cutWith(sweep, particles, others);
+  u_m.swap(u);
+  v_m_per_s.swap(v);
 }
 
 }  // namespace viscera

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "solver/thread/thread_pull.h"
+#include "solver/processes/process.h"
 #include "viscera/math/error.h"
 #include "viscera/math/state_hash.h"
 
@@ -53,8 +53,13 @@ bool Solver::readCuts(CutState& out) const {
   return true;
 }
 
-const ThreadPull& Solver::pull(uint32_t /*stylus*/) const {
-  static const ThreadPull kNothing;
+const TissueProcesses& Solver::processes() const {
+  static const TissueProcesses kNone;
+  return kNone;
+}
+
+const StylusPull& Solver::pull(uint32_t /*stylus*/) const {
+  static const StylusPull kNothing;
   return kNothing;
 }
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "solver/contact/blade_edge.h"
 #include "solver/contact/surroundings.h"
 #include "solver/contact/tool_acts.h"
+#include "solver/processes/port.h"
 #include "solver/tissue/substep.h"
 #include "viscera/solver/governor.h"
 #include "viscera/solver/solver.h"
@@ -22,7 +22,7 @@ class Archive;
 
 /// What holds the state of the tissue and gives the operations of which a tick is made. They are called in the order
 /// of a tick by Ticks and its Watch, once it is built: what a backend's construction must know is in TickPlan.
-class SolverBackend : public ToolTarget, public BladeTarget {
+class SolverBackend : public ToolTarget, public TissuePort {
  public:
   virtual std::string name() const = 0;  ///< for a person, such as "gpu"
 
@@ -31,7 +31,7 @@ class SolverBackend : public ToolTarget, public BladeTarget {
   /// Sweeps per substep of a recovery: as many in a tick as leapfrog has substeps.
   static constexpr int kRecoveryIterations = 20;
 
-  /// @name Operations of a tick, besides those of ToolTarget and, where tissue resists blades, of BladeTarget
+  /// @name Operations of a tick, besides those of ToolTarget and, where tissue resists blades, of TissuePort
   /// @{
   /// Before the first of them: what the backend shares with others, such as OpenGL's bindings, is its own again.
   virtual void beginTick() = 0;

@@ -14,6 +14,7 @@
 #include "model/scene/integrators.h"
 #include "model/scene/structure_rules.h"
 #include "model/scene/tool_kinds.h"
+#include "solver/ticks/registry.h"
 #include "solver/ticks/stable_step.h"
 #include "solver/tissue/joined_lattice.h"
 #include "tools/motion_packing.h"
@@ -55,6 +56,8 @@ Ticks::Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::
       recovery_substeps_(plan.recovery_substeps),
       most_substeps_(std::max(plan.mostSubsteps(), plan.substeps.calm)),
       surroundings_(plan.surroundings),
+      processes_(makeProcesses(scene, model, plan.tools),
+                 static_cast<size_t>(SolverBackend::kGoodStates + backend_->lag())),
       folds_(plan.tick_s) {
   finished_.reserve(kFinishedKept);
   if (measuresLimit(model, config_)) dt_limit_s_ = measureLimit_s(*backend_, model);
@@ -65,13 +68,8 @@ Ticks::Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::
                      numberText(dt_safe_s_ * 1e6) +
                      " us), more than solver.max_substeps = " + std::to_string(config_.max_substeps) +
                      ": use a larger spacing_m, a softer or heavier material, or raise solver.max_substeps");
-  if (hasThreadsOrClips(scene))
-    threads_ = std::make_unique<ThreadBodies>(scene, &model, SolverBackend::kGoodStates + backend_->lag());
-  if (mayBurn(scene.styluses)) burns_ = std::make_unique<Burns>(scene, model);
-  if (mayBleed(model.bodies)) bleeding_ = std::make_unique<Bleeding>(model, scene.environment.gravity_m_per_s2);
   if (plan.governed())
-    watch_.emplace(*backend_, newGovernor(), !traitsOf(config_.integrator).is_explicit, tick_s_, threads_.get());
-  if (plan.tools && resistsBlades(scene)) blades_.emplace(model, scene.styluses);
+    watch_.emplace(*backend_, newGovernor(), !traitsOf(config_.integrator).is_explicit, tick_s_, processes_);
   if (plan.tools) motions_.reserve(static_cast<size_t>(plan.mostSubsteps()) * layout::kMaxStyluses);
 }
 
@@ -89,38 +87,32 @@ void Ticks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
     surroundings_->beginTick(tick_s_, n_, obstacles);
     backend_->beginSurroundings(*surroundings_);
   }
-  if (contacts || cuts) {
-    interpolateMotions(motions, acts_.styluses(), n_, motions_);
-    for (layout::ToolMotion& motion : motions_) motion.timing.x = static_cast<float>(tick_s_ / n_);
-    for (size_t s = 0; s < layout::kMaxStyluses; ++s)
-      motions_[s].timing.x = static_cast<float>(restarted_ ? 0 : last_dt_s_);
-    backend_->writeMotions(motions_);
-  }
+  if (contacts || cuts) writeMotions(motions);
   tellOfCuts();
-  if (burns_) burns_->beginTick(motions);
-  if (threads_) threads_->beginTick(motions, surroundings_ ? surroundings_->motions() : obstacles, n_);
-  for (int s = 0; s < n_; ++s) {
-    if (contacts || cuts) backend_->selectMotions(static_cast<size_t>(s));
-    substep(s, motions, cuts, contacts);
-  }
-  if (threads_) threads_->endTick();
-  if (bleeding_) bleeding_->step(threads_ ? threads_->clips() : nullptr, burns_ ? &burns_->heat() : nullptr, tick_s_);
+  const ObstacleMotions& surrounding = surroundings_ ? surroundings_->motions() : obstacles;
+  const ProcessTick tick{motions, surrounding, n_, cuts, recovering_};
+  processes_.beginTick(tick);
+  for (int s = 0; s < n_; ++s) substep(s, tick, contacts);
   substeps_done_ += static_cast<uint64_t>(n_);
+  cut_revision_ += processes_.endTick(*backend_, tick);
   if (cuts) ++cut_revision_;
   cut_revision_ += backend_->takeTorn();
-  if (blades_ && (!cuts || recovering_)) cut_revision_ += blades_->leave(*backend_);
   const bool undone = watch_ && heed(watch_->judgeOpen());  // of the tick before, where the backend lags
-  measureTick(motions, contacts || (blades_ && cuts));
+  measureTick(motions, contacts || processes_.pushStyluses(tick));
   finishStats();
   if (watch_) heed(watch_->endTick(motions, recovering_, undone, hasLongSubsteps()));
 }
 
+void Ticks::writeMotions(const ToolMotions& motions) {
+  interpolateMotions(motions, acts_.styluses(), n_, motions_);
+  for (layout::ToolMotion& motion : motions_) motion.timing.x = static_cast<float>(tick_s_ / n_);
+  for (size_t s = 0; s < layout::kMaxStyluses; ++s)
+    motions_[s].timing.x = static_cast<float>(restarted_ ? 0 : last_dt_s_);
+  backend_->writeMotions(motions_);
+}
+
 void Ticks::tellOfCuts() {
-  const bool feeling = threads_ && threads_->feelTissue();
-  if (!(feeling || burns_ || bleeding_) || !readCuts(seen_cuts_)) return;
-  if (feeling) threads_->setCuts(model_, seen_cuts_);
-  if (burns_) burns_->setCuts(seen_cuts_);
-  if (bleeding_) bleeding_->setCuts(seen_cuts_);
+  if (processes_.readCuts() && readCuts(seen_cuts_)) processes_.cutsChanged(seen_cuts_);
 }
 
 void Ticks::measureTick(const ToolMotions& motions, bool contacts) {
@@ -159,8 +151,10 @@ void Ticks::planAnew() {
   substeps_.calm = std::max(1, static_cast<int>(std::ceil(tick_s_ / dt_s)));
 }
 
-void Ticks::substep(int index, const ToolMotions& motions, bool cuts, bool contacts) {
-  if (cuts) acts_.beforeSubstep(*backend_, motions);
+void Ticks::substep(int index, const ProcessTick& tick, bool contacts) {
+  const bool moves = contacts || tick.cuts;
+  if (moves) backend_->selectMotions(static_cast<size_t>(index));
+  if (tick.cuts) acts_.beforeSubstep(*backend_, tick.motions);
   const double dt_s = tick_s_ / n_;
   Substep step;
   step.dt_s = static_cast<float>(dt_s);
@@ -183,15 +177,11 @@ void Ticks::substep(int index, const ToolMotions& motions, bool cuts, bool conta
   if (surroundings_ && (!step.implicit || surroundings_->features().collisions)) {
     backend_->surround(step, *surroundings_);
   }
-  if (blades_ && cuts && !recovering_) cutByWork(index, motions);
-  if (threads_) cut_revision_ += threads_->act(*backend_, index);
-  if (burns_ && !recovering_) cut_revision_ += burns_->act(*backend_, index, dt_s);
+  const layout::ToolMotion* const tools =
+      moves ? &motions_[static_cast<size_t>(index) * layout::kMaxStyluses] : nullptr;
+  cut_revision_ += processes_.act(*backend_, tick, {index, dt_s, tools});
   restarted_ = false;
   last_dt_s_ = dt_s;
-}
-
-void Ticks::cutByWork(int index, const ToolMotions& motions) {
-  blades_->act(*backend_, motions, &motions_[static_cast<size_t>(index) * layout::kMaxStyluses], tick_s_ / n_);
 }
 
 void Ticks::reset() {
@@ -203,10 +193,7 @@ void Ticks::reset() {
   backend_->resetState();
   restarted_ = true;
   springs_cut_ = 0;
-  if (blades_) blades_->reset();
-  if (threads_) threads_->reset();
-  if (burns_) burns_->reset();
-  if (bleeding_) bleeding_->reset();
+  processes_.reset();
   pulls_.clear();
   told_ = {};
   stretch_ = 0;
@@ -272,10 +259,7 @@ void Ticks::persist(Archive& archive) {
   archive.section("ticks");
   persistSubsteps(archive);
   if (surroundings_) surroundings_->persist(archive);
-  if (blades_) blades_->persist(archive);
-  if (threads_) threads_->persist(archive);
-  if (burns_) burns_->persist(archive);
-  if (bleeding_) bleeding_->persist(archive);
+  processes_.persist(archive);
   backend_->persist(archive);
   if (watch_) watch_->persist(archive);
   if (archive.reads()) ++cut_revision_;
@@ -297,7 +281,7 @@ void Ticks::finishStats() {
     keepStats(oldest);
     backend_->requestStats();
   }
-  if (threads_ && !watch_) pulls_.push_back(threads_->pulls());
+  if (!watch_ && !processes_.all().empty()) pulls_.push_back(processes_.pulls());
 }
 
 bool Ticks::takeStats(TickFindings& findings, bool wait) {
@@ -326,9 +310,10 @@ bool Ticks::heed(const Watch::Verdict& verdict) {
     looks_for_folds_ = folds_.isDue(*verdict.good);
   }
   restarted_ |= verdict.rolled_back;
-  if (verdict.rolled_back) seen_cuts_.nodes.clear();  // restored tracks were embedded under older cuts: embed again
-  if (blades_ && verdict.rolled_back) cut_revision_ += blades_->leave(*backend_);
-  return verdict.rolled_back;
+  if (!verdict.rolled_back) return false;
+  seen_cuts_.nodes.clear();  // restored tracks were embedded under older cuts: embed again
+  cut_revision_ += processes_.restart(*backend_);
+  return true;
 }
 
 /// Rounded down: substeps that change in every tick make small forces flicker, and there is a margin for that.
@@ -363,7 +348,7 @@ void Ticks::unfoldTissue() {
   const size_t nodes = unfold(model_, state);
   folds_.found(nodes);
   if (nodes == 0) return;
-  if (threads_) threads_->carry(before_m, state);
+  processes_.tissueMoved(before_m, state);
   writeState(state);
   watch_->noteUnfolded(nodes);
 }

@@ -7,10 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/bleed/bleeding.h"
-#include "solver/burn/burns.h"
-#include "solver/contact/blades.h"
-#include "solver/thread/thread_bodies.h"
+#include "solver/ticks/process_list.h"
 #include "solver/ticks/solver_backend.h"
 #include "solver/ticks/tick_plan.h"
 #include "solver/ticks/unfold.h"
@@ -42,12 +39,8 @@ class Ticks : public Solver {
   double dtLimit_s() const final { return dt_limit_s_ > 0 ? dt_limit_s_ : dt_safe_s_; }
   int substeps() const final { return substeps_.calm; }
   uint64_t substepsDone() const final { return substeps_done_; }
-  BladeWork bladeWork(uint32_t stylus) const final { return blades_ ? blades_->done(stylus) : BladeWork{}; }
-  using Solver::threads;
-  ThreadBodies* threads() final { return threads_.get(); }
-  const Burns* burns() const final { return burns_.get(); }
-  const Bleeding* bleeding() const final { return bleeding_.get(); }
-  const ThreadPull& pull(uint32_t stylus) const final { return told_[stylus]; }
+  const TissueProcesses& processes() const final { return processes_.all(); }
+  const StylusPull& pull(uint32_t stylus) const final { return told_[stylus]; }
   void persist(Archive& archive) final;
   void goOnFrom(const HostState& state) final { writeState(state); }
   std::string backend() const final { return backend_->name(); }
@@ -76,12 +69,12 @@ class Ticks : public Solver {
   bool hasLongSubsteps() const;
   int calmSubsteps() const;
   void chooseSubsteps();
-  void substep(int index, const ToolMotions& motions, bool cuts, bool contacts);
+  void substep(int index, const ProcessTick& tick, bool contacts);
+  void writeMotions(const ToolMotions& motions);
   void finishStats();
   bool takeStats(TickFindings& findings, bool wait);
   void keepStats(const TickFindings& findings);
   void measureTick(const ToolMotions& motions, bool contacts);
-  void cutByWork(int index, const ToolMotions& motions);
   bool heed(const Watch::Verdict& verdict);
   void relaxSubsteps(const layout::TickStats& stats);
   void unfoldTissue();
@@ -100,18 +93,15 @@ class Ticks : public Solver {
   SubstepPlan substeps_;
   int recovery_substeps_, most_substeps_;
   std::optional<Surroundings> surroundings_;  ///< only where a scene has any
-  std::optional<Blades> blades_;              ///< only where a body resists them
-  std::unique_ptr<ThreadBodies> threads_;     ///< null: the scene has none
-  std::unique_ptr<Burns> burns_;              ///< null: no stylus burns
-  std::unique_ptr<Bleeding> bleeding_;        ///< null: nothing can bleed
-  CutState seen_cuts_;                        ///< only where threads feel tissue, some burns or bleeds
-  std::vector<ThreadPulls> pulls_;            ///< without a governor: of ticks whose measurements are under way
-  std::optional<HostState> start_;            ///< nothing: rest
-  std::optional<Watch> watch_;                ///< only where a scene has a governor
-  FoldWatch folds_;                           ///< heeded where there is a governor
-  bool looks_for_folds_ = false;              ///< before the next tick
-  std::vector<TickFindings> finished_;        ///< taken while not asked for, oldest first
-  ThreadPulls told_;                          ///< of what was asked for last
+  ProcessList processes_;
+  CutState seen_cuts_;                  ///< only where a process reads cuts
+  std::vector<StylusPulls> pulls_;      ///< without a governor: of ticks whose measurements are under way
+  std::optional<HostState> start_;      ///< nothing: rest
+  std::optional<Watch> watch_;          ///< only where a scene has a governor
+  FoldWatch folds_;                     ///< heeded where there is a governor
+  bool looks_for_folds_ = false;        ///< before the next tick
+  std::vector<TickFindings> finished_;  ///< taken while not asked for, oldest first
+  StylusPulls told_;                    ///< of what was asked for last
   std::vector<layout::ToolMotion> motions_;
   uint64_t cut_revision_ = 0, substeps_done_ = 0;
   uint32_t springs_cut_ = 0;  ///< when dt_safe was last computed

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "math/archive.h"
-#include "solver/thread/thread_bodies.h"
 #include "tools/restored_tools.h"
 
 namespace viscera {
@@ -27,15 +26,15 @@ double workOfTools(const layout::TickStats& stats, const ToolMotions& motions, d
 
 }  // namespace
 
-Watch::Watch(SolverBackend& backend, const Governor& governor, bool implicit, double tick_s, ThreadBodies* threads)
-    : backend_(backend), governor_(governor), implicit_(implicit), tick_s_(tick_s), threads_(threads) {
-  if (threads_) threads_->saveGood();  // the backend has done so
+Watch::Watch(SolverBackend& backend, const Governor& governor, bool implicit, double tick_s, ProcessList& processes)
+    : backend_(backend), governor_(governor), implicit_(implicit), tick_s_(tick_s), processes_(processes) {
+  processes_.saveGood();  // the backend has done so
 }
 
 void Watch::guard(const ToolMotions& motions, bool recovering) {
   if (backend_.lag() == 0) return;
   Governor::Bounds bounds = governor_.bounds(isImplicit(recovering));
-  if (threads_) bounds.energy_j += Governor::kEnergyMargin * std::max(0.0, threads_->work_j());
+  bounds.energy_j += Governor::kEnergyMargin * processes_.work_j();
   backend_.guard(bounds, motions, tick_s_);
 }
 
@@ -45,10 +44,8 @@ Watch::Verdict Watch::endTick(const ToolMotions& motions, bool recovering, bool 
   tick.recovering = recovering;
   tick.undone = undone;
   tick.long_substeps = long_substeps;
-  if (threads_) {
-    tick.pulls = threads_->pulls();
-    tick.threads_j = std::max(0.0, threads_->work_j());
-  }
+  tick.pulls = processes_.pulls();
+  tick.processes_j = processes_.work_j();
   open_ = tick;
   Verdict verdict;
   if (!undone && backend_.lag() == 0) verdict = judgeOpen();
@@ -58,11 +55,11 @@ Watch::Verdict Watch::endTick(const ToolMotions& motions, bool recovering, bool 
 
 void Watch::saveGood() {
   backend_.saveGood();
-  if (threads_) threads_->saveGood();
+  processes_.saveGood();
 }
 
 double Watch::workOn(const OpenTick& tick) const {
-  return workOfTools(*tick.stats, tick.motions, tick_s_) + tick.threads_j;
+  return workOfTools(*tick.stats, tick.motions, tick_s_) + tick.processes_j;
 }
 
 /// Have the open tick's measurements come?
@@ -113,7 +110,7 @@ Watch::Verdict Watch::judgeOpen() {
   }
   const int back = governor_.setbacks() - 1 + backend_.lag();
   backend_.restoreGood(back);
-  if (threads_) threads_->restoreGood(back);
+  processes_.restoreGood(back);
   verdict.rolled_back = true;
   return verdict;
 }
@@ -162,10 +159,8 @@ void Watch::persist(Archive& archive) {
   archive.value(tick.recovering);
   archive.value(tick.undone);
   archive.value(tick.long_substeps);
-  if (threads_) {
-    archive.value(tick.pulls);
-    archive.value(tick.threads_j);
-  }
+  archive.value(tick.pulls);
+  archive.value(tick.processes_j);
   archive.value(stats);
   tick.delivered = true;
   tick.stats = stats;
@@ -174,7 +169,7 @@ void Watch::persist(Archive& archive) {
 
 void Watch::keepOnlyCurrent() {
   backend_.clearGood();
-  if (threads_) threads_->clearGood();
+  processes_.clearGood();
   saveGood();
 }
 

@@ -4,19 +4,18 @@
 
 #include <optional>
 
-#include "solver/thread/thread_pull.h"
+#include "solver/ticks/process_list.h"
 #include "solver/ticks/solver_backend.h"
 #include "viscera/solver/governor.h"
 
 namespace viscera {
 
 class Archive;
-class ThreadBodies;
 
-/// What others are told of a tick: measurements, and of them what styluses gave threads and needles.
+/// What others are told of a tick: measurements, and of them what styluses gave processes, such as needles.
 struct TickFindings {
   layout::TickStats stats{};
-  ThreadPulls pulls;
+  StylusPulls pulls;
 };
 
 /// Carries out what a governor says of a scene's ticks (physics.md 3): a tick is open from its end until its
@@ -32,8 +31,8 @@ class Watch {
   };
 
   /// @param backend  must outlive this   @param implicit  the scene's integrator may be fast   @param tick_s  length
-  /// @param threads  which go back with it; null where there are none; must outlive this
-  Watch(SolverBackend& backend, const Governor& governor, bool implicit, double tick_s, ThreadBodies* threads);
+  /// @param processes  of the scene, whose states go back as they say; must outlive this
+  Watch(SolverBackend& backend, const Governor& governor, bool implicit, double tick_s, ProcessList& processes);
 
   /// As the governor has it: with one tick less than were made while one is open.
   const Health& health() const { return governor_.health(); }
@@ -69,8 +68,8 @@ class Watch {
     bool undone = false;  ///< the tick before was bad: this one does not count
     bool long_substeps = false;
     bool delivered = false;  ///< its measurements were asked for already
-    ThreadPulls pulls;       ///< in addition to what is measured
-    double threads_j = 0;    ///< work of threads on the tissue
+    StylusPulls pulls;       ///< in addition to what is measured
+    double processes_j = 0;  ///< their work on the tissue
     std::optional<layout::TickStats> stats;
   };
   bool receive(bool wait);
@@ -85,7 +84,7 @@ class Watch {
   Governor governor_;
   bool implicit_;
   double tick_s_;
-  ThreadBodies* threads_;
+  ProcessList& processes_;
   layout::TickStats last_good_{};
   std::optional<OpenTick> open_;
 };

@@ -93,8 +93,6 @@ uint32_t towards(uint32_t rgba, const std::array<float, 3>& rgb, float t) {
   return out;
 }
 
-}  // namespace
-
 uint32_t burntColor(uint32_t rgba, float share) {
   // sRGB, by share; chosen by eye: pale as boiled liver is, brown, black.
   struct Stop {
@@ -116,6 +114,12 @@ uint32_t burntColor(uint32_t rgba, float share) {
 uint32_t bloodyColor(uint32_t rgba, float share) {
   constexpr std::array<float, 3> kBlood = {112, 6, 12};  // sRGB, by eye: between that of arteries and that of veins
   return share <= 0 ? rgba : towards(rgba, kBlood, std::min(1.0F, share));
+}
+
+}  // namespace
+
+uint32_t paintedColor(PaintKind kind, uint32_t rgba, float share) {
+  return kind == PaintKind::kBurn ? burntColor(rgba, share) : bloodyColor(rgba, share);
 }
 
 }  // namespace viscera

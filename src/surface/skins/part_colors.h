@@ -8,6 +8,7 @@
 #include "viscera/layout/limits.h"
 #include "viscera/math/types.h"
 #include "viscera/model/shape/triangle_mesh.h"
+#include "viscera/solver/process_look.h"
 
 namespace viscera {
 
@@ -23,12 +24,9 @@ constexpr uint32_t wallAlpha(uint32_t body) {
 }
 static_assert(layout::kMaxBodies <= 16);
 
-/// A colour of burnt tissue: paler as it coagulates, then brown and black. @param rgba  of it fresh; its alpha stays
-/// @param share  as BurnPaint::shares
-uint32_t burntColor(uint32_t rgba, float share);
-
-/// A colour under blood. @param rgba  of it clean; its alpha stays   @param share  as BloodPaint::shares
-uint32_t bloodyColor(uint32_t rgba, float share);
+/// Returns a colour under a paint: burnt tissue is paler as it coagulates, then brown and black; blood is red.
+/// @param rgba  without the paint; its alpha stays   @param share  as NodePaint::shares
+uint32_t paintedColor(PaintKind kind, uint32_t rgba, float share);
 
 /// As the mesh's file has it (TriangleMesh::detail), where it says nothing by partColor() of the organ's colour.
 /// RGBA8 (red in the low byte) of every vertex; on a seam the colour of the lowest part. Alpha is skinAlpha(): the

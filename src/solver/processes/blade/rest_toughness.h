@@ -1,0 +1,52 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/fracture/toughness.h"
+#include "solver/processes/rest_grid.h"
+#include "viscera/model/model.h"
+
+namespace viscera {
+
+/// What a body carries of the toughness at a place at rest: of its part, or of a layer below its skin.
+class RestToughness {
+ public:
+  struct Carried {
+    double inside_j_per_m2 = 0, at_surface_j_per_m2 = 0;
+    /// @param ahead  1 at a surface that the edge comes in by, 0 inside
+    double with(double ahead) const { return inside_j_per_m2 + ahead * (at_surface_j_per_m2 - inside_j_per_m2); }
+  };
+  RestToughness(const Body& body, const RestGrid& nodes);
+  const Carried& at(const Vector3d& at_m) const;
+  /// Within it nodes share the force of an edge, and its friction.
+  double kernel_m(double friction_n_per_m) const { return kernelOf(by_place_, friction_n_per_m); }
+  /// What is carried of it, everywhere.
+  double carriedFriction_n_per_m(double friction_n_per_m) const;
+  /// The same of a point, the largest.
+  double pointKernel_m(double width_m) const;
+  /// Force of a point there at which it goes on.
+  double ofPoint_n(const Vector3d& at_m, double width_m, double kernel_m) const;
+  double spacing_m() const { return spacing_m_; }  ///< Toughness::spacing_m
+
+ private:
+  void findLabels(const Lattice& lattice);
+  void findDepths(const Skin& skin);
+  double depthAt(const Vector3d& at_m) const;
+  struct Place {
+    size_t label, layer;
+  };
+  Place placeOf(const Vector3d& at_m) const;
+
+  RestGrid cells_;                                ///< a node of it is the lowest corner of a cell
+  std::vector<std::vector<Toughness>> by_place_;  ///< toughnesses() of the body
+  std::vector<std::vector<Carried>> carried_;     ///< of it
+  std::vector<double> layers_m_;                  ///< where they end
+  std::vector<uint16_t> labels_;                  ///< [cells]; empty: there are no parts
+  std::vector<float> depths_m_;  ///< [nodes] below the skin, less than 0 outside; empty: no layer counts
+  double spacing_m_;
+};
+
+}  // namespace viscera

@@ -1,0 +1,66 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "math/archive.h"
+#include "solver/processes/burn/heat_graph.h"
+#include "viscera/math/state_hash.h"
+#include "viscera/model/model.h"
+
+namespace viscera {
+
+/// Blood on the surface of tissue at rest, as a film that runs down it (docs/lessons/bleeding.md 2). What is given is
+/// on the tissue or has dripped off.
+class BloodFilm {
+ public:
+  /// @param model, graph  as Vessels have them; must outlive it   @param gravity_m_per_s2  tissue frame
+  BloodFilm(const Model& model, const HeatGraph& graph, const Vector3d& gravity_m_per_s2);
+
+  /// @param is_cut  [links of the graph] their ends lie bare
+  void setCuts(const std::vector<uint8_t>& is_cut);
+  void give(uint32_t slot, double m3);
+  void step(double dt_s);
+
+  double volume_m3(uint32_t slot) const { return volume_m3_[slot]; }
+  double onTissue_m3() const;
+  double dripped_m3() const { return dripped_m3_; }
+  double thickness_m(uint32_t slot) const;
+  /// Slots that ever had blood, in the order of that.
+  const std::vector<uint32_t>& wet() const { return wet_; }
+
+  void reset();
+  void persist(Archive& archive);
+  void addTo(StateHash& hash) const;
+
+ private:
+  struct Surface {
+    double area_m2 = 0;  ///< 0: inside of tissue
+    double width_m = 0;  ///< times length, of what leads to another node
+    bool drips = false;  ///< it faces down, and nothing is lower
+  };
+  void lookAround(uint32_t slot);
+  void substep(double dt_s);
+  void run(uint32_t slot, double dt_s);
+  void wetten(uint32_t slot);
+  template <class Visit>
+  void forEachLink(uint32_t slot, const Visit& visit) const;
+
+  const HeatGraph& graph_;
+  double speed_per_m2_s_;         ///< of a film that hangs, over the square of its thickness
+  std::vector<Vector3d> rest_m_;  ///< [slots]
+  std::vector<double> height_m_;  ///< [slots]
+  std::vector<double> drip_cos_;  ///< [slots] what faces down by more than that lets blood fall
+  Vector3d down_;
+  std::vector<uint8_t> is_cut_;              ///< [links]
+  std::vector<Surface> surface_;             ///< [slots]
+  std::vector<double> volume_m3_, gain_m3_;  ///< [slots]
+  std::vector<uint8_t> is_wet_;              ///< [slots]
+  std::vector<uint32_t> wet_;
+  std::vector<std::pair<uint32_t, double>> ways_;  ///< of a node: to which, how much
+  double dripped_m3_ = 0;
+};
+
+}  // namespace viscera

@@ -1,0 +1,63 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/processes/burn/heat_graph.h"
+#include "viscera/model/model.h"
+
+namespace viscera {
+
+/// Parts of bodies that bleed where they are cut, as graphs of their nodes (docs/lessons/bleeding.md 1).
+class Vessels {
+ public:
+  /// @param model, graph  must outlive them; the graph for a conductivity of 1: what a link conducts is its area over
+  /// its length
+  Vessels(const Model& model, const HeatGraph& graph);
+
+  const std::vector<uint32_t>& nodes() const { return nodes_; }          ///< slots in the solver's buffers
+  const Vector3d& rest_m(uint32_t slot) const { return rest_m_[slot]; }  ///< tissue frame
+
+  /// What runs out of a node.
+  struct Leak {
+    uint32_t slot = 0;
+    double m3_per_s = 0;
+  };
+  struct Leaks {
+    std::vector<Leak> of_nodes;
+    uint64_t stumps = 0;  ///< pieces that they belong to
+  };
+  /// @param is_cut  [links of the graph]   @param is_closed  [slots] blood does not come through these
+  Leaks find(const std::vector<uint8_t>& is_cut, const std::vector<uint8_t>& is_closed) const;
+
+ private:
+  struct Node {
+    double flow_m3_per_s = 0;  ///< out of a stump of its part; 0: not of a vessel
+    double section_m2 = 0;     ///< of that stump
+    uint32_t group = 0;        ///< what hangs together as long as nothing is cut
+    bool is_held = false;
+  };
+  struct Piece {
+    std::vector<uint32_t> slots;
+    bool is_held = false;
+  };
+  void addCells(const Body& body, uint32_t offset);
+  void addNetwork(const Body& body, uint32_t offset);
+  void addPart(const Body& body, uint32_t offset, const std::vector<uint32_t>& slots, double volume_m3,
+               const BleedingConfig& bleeding);
+  std::vector<Piece> pieces(const std::vector<uint8_t>& is_cut, const std::vector<uint8_t>& is_closed) const;
+  Vector3d open_m2(uint32_t slot, const std::vector<uint8_t>& is_cut) const;
+  template <class Visit>
+  void forEachLink(uint32_t slot, const Visit& visit) const;
+
+  const HeatGraph& graph_;
+  std::vector<Vector3d> rest_m_;  ///< [slots]
+  std::vector<Node> of_slots_;    ///< [slots]
+  std::vector<double> area_m2_;   ///< [links] of the vessel, across the link; 0: not of one
+  std::vector<uint32_t> nodes_;
+  std::vector<uint8_t> group_is_held_;
+};
+
+}  // namespace viscera

@@ -1,0 +1,79 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/ticks/registry.h"
+
+#include <algorithm>
+
+#include "model/fracture/toughness.h"
+#include "model/scene/structure_rules.h"
+#include "model/scene/tool_kinds.h"
+#include "solver/processes/blade/blades.h"
+#include "solver/processes/bleed/bleeding.h"
+#include "solver/processes/burn/burns.h"
+#include "solver/processes/clip/clips.h"
+#include "solver/processes/suture/thread_bodies.h"
+#include "viscera/model/scene/scene.h"
+
+namespace viscera {
+
+namespace {
+
+struct Setup {
+  const Scene& scene;
+  const Model& model;
+  bool tools;
+};
+
+struct Kind {
+  bool (*has)(const Setup&);  ///< whether a scene has it
+  ProcessActs acts;
+  std::unique_ptr<TissueProcess> (*make)(const Setup&);
+};
+
+/// One row per process, in the order in which they act. A process that asks another one (TissueProcess::endTick) for
+/// what it did in the tick need not come behind it: all have acted by then.
+constexpr Kind kKinds[] = {
+    {[](const Setup& setup) { return setup.tools && resistsBlades(setup.scene); }, ProcessActs::kWithTools,
+     [](const Setup& setup) -> std::unique_ptr<TissueProcess> {
+       return std::make_unique<Blades>(setup.model, setup.scene.styluses);
+     }},
+    {[](const Setup& setup) { return !setup.scene.threads.empty(); }, ProcessActs::kAlways,
+     [](const Setup& setup) -> std::unique_ptr<TissueProcess> {
+       return std::make_unique<ThreadBodies>(setup.scene, &setup.model);
+     }},
+    {[](const Setup& setup) { return mayClip(setup.scene.styluses); }, ProcessActs::kAlways,
+     [](const Setup& setup) -> std::unique_ptr<TissueProcess> {
+       return std::make_unique<Clips>(setup.scene.styluses, setup.model);
+     }},
+    {[](const Setup& setup) { return mayBleed(setup.model.bodies); }, ProcessActs::kNever,
+     [](const Setup& setup) -> std::unique_ptr<TissueProcess> {
+       return std::make_unique<Bleeding>(setup.model, setup.scene.environment.gravity_m_per_s2,
+                                         1 / setup.scene.solver.tick_hz);
+     }},
+    {[](const Setup& setup) { return mayBurn(setup.scene.styluses); }, ProcessActs::kAlways,
+     [](const Setup& setup) -> std::unique_ptr<TissueProcess> {
+       return std::make_unique<Burns>(setup.scene, setup.model);
+     }},
+};
+
+}  // namespace
+
+TissueProcesses makeProcesses(const Scene& scene, const Model& model, bool tools) {
+  const Setup setup{scene, model, tools};
+  TissueProcesses out;
+  for (const Kind& kind : kKinds) {
+    if (kind.has(setup)) out.push_back(kind.make(setup));
+  }
+  return out;
+}
+
+ProcessActs processesAct(const Scene& scene, const Model& model, bool tools) {
+  const Setup setup{scene, model, tools};
+  ProcessActs out = ProcessActs::kNever;
+  for (const Kind& kind : kKinds) {
+    if (kind.has(setup)) out = std::max(out, kind.acts);
+  }
+  return out;
+}
+
+}  // namespace viscera
