@@ -64,8 +64,7 @@ class ClipSession : public OnSceneBackend {
 };
 
 TEST_P(ClipSession, HoldsTwoSidesOfEveryKindOfTissueTogether) {
-  for (const Structure structure :
-       {Structure::kLattice, Structure::kExplicit, Structure::kTetrahedra, Structure::kSurface}) {
+  for (const Structure structure : {Structure::kLattice, Structure::kExplicit, Structure::kSurface}) {
     SCOPED_TRACE(static_cast<int>(structure));
     Session session(barScene(structure), context_);
     clip(session, 0.006);
@@ -271,19 +270,6 @@ TEST_P(GrasperSession, HoldsAndLetsGoAsAHandClosesAndOpensIt) {
   EXPECT_EQ(held(0.2, 1), 0U);
 }
 VISCERA_ON_EVERY_BACKEND(GrasperSession);
-
-TEST(ClipScenes, AreRefusedWhereSubstepsCannotBeToldAfterwards) {
-  const std::string text = "name: one\nbodies: [{name: block, source: box}]\nstyluses: [{name: hand, button1: clip}]\n";
-  parseScene(text, "clip.yaml", {});
-  try {
-    parseScene(text, "clip.yaml", {"solver.integrator=verlet_paper"});
-    FAIL() << "verlet_paper knows no clips";
-  } catch (const SceneError& error) {
-    EXPECT_NE(std::string(error.what()).find("mode clip needs solver.integrator leapfrog or pd, not verlet_paper"),
-              std::string::npos)
-        << error.what();
-  }
-}
 
 }  // namespace
 }  // namespace viscera
