@@ -55,7 +55,8 @@ CpuBackend::CpuBackend(const Model& model, const Scene& scene, const TickPlan& p
       sleep_(lattice_, traitsOf(scene.solver.integrator).lets_bricks_sleep && !plan.staysAwake()
                            ? scene.solver.sleep_speed_m_per_s
                            : 0),
-      work_(std::make_unique<Work>()) {
+      work_(std::make_unique<Work>()),
+      good_(plan.governed() ? kGoodStates : 0) {
   if (features_.network) network_ = std::make_unique<CpuNetwork>(lattice_, pool_, features_, kernels_);
   if (plan.surroundings) surroundings_.emplace(model, scene, lattice_, pool_);
   if (solvesContacts(scene)) pairs_ = std::make_unique<CpuNodePairs>(model, scene, lattice_, pool_);
@@ -73,7 +74,6 @@ CpuBackend::CpuBackend(const Model& model, const Scene& scene, const TickPlan& p
   if (features_.tears) tearing_.emplace(model);
   if (!plan.governed()) return;
   recovery_ = makeCpuRecoveryStepper(kRecoveryIterations, lattice_, pool_);
-  for (int i = 0; i < kGoodStates; ++i) good_.push_back({lattice_.state.displacement[0], lattice_.state.velocity[0]});
   saveGood();
 }
 
@@ -282,11 +282,10 @@ void CpuBackend::changeAll() {
   if (network_) network_->restart(lattice_);
   if (surroundings_) surroundings_->restart();
   if (pairs_) pairs_->restart();
-  std::fill(lattice_.hands.impulses.begin(), lattice_.hands.impulses.end(), layout::vec4{});
-  std::fill(lattice_.hands.touched.begin(), lattice_.hands.touched.end(), uint8_t{0});
+  lattice_.visitState([](const StateField& field, auto& values) {
+    if (field.roll_back == FieldRollBack::kClear) setToRest(field, values);
+  });
   for (AlignedVector<float>& pushed : pushed_) std::fill(pushed.begin(), pushed.end(), 0.0f);
-  std::fill(lattice_.hands.obstacle_impulses.begin(), lattice_.hands.obstacle_impulses.end(), layout::vec4{});
-  std::fill(lattice_.hands.met.begin(), lattice_.hands.met.end(), uint8_t{0});
   sleep_.wakeAll(lattice_);
 }
 
@@ -308,29 +307,16 @@ void CpuBackend::loadState(const HostState& state) {
 }
 
 void CpuBackend::saveGood() {
-  Good& good = good_[static_cast<size_t>(next_good_)];
-  good.displacement = lattice_.state.displacement[lattice_.state.current];
-  good.velocity = lattice_.state.velocity[lattice_.state.current];
-  next_good_ = (next_good_ + 1) % kGoodStates;
-  kept_good_ = std::min(kept_good_ + 1, kGoodStates);
+  good_.save(lattice_);
 }
 
 void CpuBackend::restoreGood(int back) {
-  const bool exhausted = back >= kept_good_;
-  back = std::min(back, kept_good_ - 1);
-  next_good_ = (next_good_ - back + kGoodStates) % kGoodStates;
-  kept_good_ -= back;
-  const Good& good = good_[static_cast<size_t>((next_good_ - 1 + kGoodStates) % kGoodStates)];
-  lattice_.state.displacement[lattice_.state.current] = good.displacement;
-  lattice_.state.velocity[lattice_.state.current] = good.velocity;
-  if (exhausted)
-    std::fill(lattice_.state.velocity[lattice_.state.current].begin(),
-              lattice_.state.velocity[lattice_.state.current].end(), 0.0f);
+  good_.restore(lattice_, back);
   changeAll();
 }
 
 void CpuBackend::clearGood() {
-  kept_good_ = 0;
+  good_.clear();
 }
 
 void CpuBackend::persist(Archive& archive) {
@@ -346,16 +332,7 @@ void CpuBackend::persist(Archive& archive) {
   archive.value(stats_);
   archive.value(springs_cut_);
   archive.value(rate_springs_cut_);
-  int next = next_good_, kept = kept_good_;
-  archive.value(next);
-  archive.value(kept);
-  archive.require(next >= 0 && next < kGoodStates && kept >= 0 && kept <= kGoodStates, "there is no such good state");
-  next_good_ = next;
-  kept_good_ = kept;
-  for (Good& good : good_) {
-    archive.values(good.displacement);
-    archive.values(good.velocity);
-  }
+  good_.persist(archive, lattice_);
 }
 
 HostState CpuBackend::readState() const {

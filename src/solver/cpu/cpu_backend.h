@@ -11,6 +11,7 @@
 #include "solver/cpu/steps/surroundings.h"
 #include "solver/cpu/store/cpu_lattice.h"
 #include "solver/cpu/store/cpu_stepper.h"
+#include "solver/cpu/store/good_states.h"
 #include "solver/cpu/store/sleep.h"
 #include "solver/cpu/store/thread_pool.h"
 #include "solver/cpu/text/tearing.h"
@@ -124,11 +125,7 @@ class CpuBackend : public SolverBackend {
   bool has_stats_ = false;
   uint32_t springs_cut_ = 0, rate_springs_cut_ = 0;
 
-  struct Good {
-    AlignedVector<float> displacement, velocity;
-  };
-  std::vector<Good> good_;  ///< ring
-  int next_good_ = 0, kept_good_ = 0;
+  CpuGoodStates good_;
 };
 
 }  // namespace viscera

@@ -53,7 +53,6 @@ void GoodStates::restore(LatticeBuffers& buffers, int back) {
   buffers.state.displacement[buffers.state.current].copyFrom(last().displacement);
   buffers.state.velocity[buffers.state.current].copyFrom(last().velocity);
   if (exhausted) buffers.state.velocity[buffers.state.current].clear();
-  if (buffers.state.compensation.size()) buffers.state.compensation.clear();
 }
 
 void GoodStates::persist(Archive& archive) {

@@ -340,9 +340,8 @@ void GpuBackend::saveGood() {
 void GpuBackend::restoreGood(int back) {
   wakeAll();
   recovery_->good.restore(buffers_, back);
+  buffers_.clearRolledBack();
   stepper_->restart();
-  if (buffers_.hands.impulses.size()) buffers_.hands.impulses.clear();
-  if (buffers_.hands.obstacle_impulses.size()) buffers_.hands.obstacle_impulses.clear();
   if (surroundings_) surroundings_->restart();
   if (pairs_) pairs_->restart();
 }

@@ -3,6 +3,7 @@
 #include "solver/cpu/store/cpu_lattice.h"
 
 #include <algorithm>
+#include <string>
 
 #include "math/archive.h"
 #include "solver/tissue/restored_nodes.h"
@@ -79,20 +80,9 @@ CpuLattice::CpuLattice(const Model& model, const std::vector<layout::BodyParams>
 
 void CpuLattice::reset() {
   store.nodes = store.whole_nodes;
-  for (int i = 0; i < 2; ++i) {
-    clear(state.displacement[i]);
-    clear(state.velocity[i]);
-  }
-  clear(hands.grab_offsets);
-  clear(hands.impulses);
-  clear(hands.touched);
-  clear(hands.obstacle_impulses);
-  clear(hands.met);
+  visitState([](const StateField& field, auto& values) { setToRest(field, values); });
   state.current = 0;
-  clear(axial_cut);
-  clear(cut_sides);
   links.writeSpringCut({});
-  std::fill(strengths.left.begin(), strengths.left.end(), 1.0f);
   strengths.refreshAll(store);
 }
 
@@ -112,26 +102,16 @@ void CpuLattice::readCuts(CutSprings& out) const {
 }
 
 void CpuLattice::persist(Archive& archive) {
-  archive.section("nodes");
-  for (const int i : {state.current, 1 - state.current}) {
-    archive.values(state.displacement[i]);
-    archive.values(state.velocity[i]);
-  }
+  archive.section("springs");
   archive.values(store.nodes);
   if (archive.reads()) requireNodesOf(store.whole_nodes, store.bodies, store.nodes, archive);
-  archive.section("cuts");
   std::vector<float> spring_cut = links.spring_cut;
   archive.values(spring_cut);
-  archive.values(axial_cut);
-  archive.values(cut_sides);
-  if (!strengths.left.empty()) archive.values(strengths.left);
-  archive.section("hands");
-  archive.values(hands.grab_offsets);
-  archive.values(hands.impulses);
-  archive.values(hands.touched);
-  archive.values(hands.held);
-  archive.values(hands.obstacle_impulses);
-  archive.values(hands.met);
+  std::string section;
+  visitState([&](const StateField& field, auto& values) {
+    if (section != field.section) archive.section(section = field.section);
+    archive.values(values);
+  });
   if (!archive.reads()) return;
   links.writeSpringCut(spring_cut);
   strengths.refreshAll(store);
@@ -145,7 +125,7 @@ void CpuLattice::write(const HostState& from) {
   clear(cut_sides);
   std::copy_n(from.axial_cut.begin(), std::min(from.axial_cut.size(), axial_cut.size()), axial_cut.begin());
   links.writeSpringCut(from.spring_cut);
-  std::fill(strengths.left.begin(), strengths.left.end(), 1.0f);
+  setToRest(fields::kLeftByTearing, strengths.left);
   strengths.refreshAll(store);
 }
 

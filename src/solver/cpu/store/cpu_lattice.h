@@ -2,9 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <type_traits>
+
 #include "solver/cpu/store/cpu_strengths.h"
 #include "solver/tissue/cut_record.h"
 #include "solver/tissue/joined_network.h"
+#include "solver/tissue/state_fields.h"
 #include "viscera/math/types.h"
 #include "viscera/solver/material.h"
 #include "viscera/solver/state.h"
@@ -58,6 +62,24 @@ struct CpuLattice {
 
   /// Rest state, whole springs, nothing held.
   void reset();
+  /// Calls visit(StateField, array) with all of the state but node bits and cut links, which springs follow from. What
+  /// a scene does not have is empty.
+  template <class Visit>
+  void visitState(Visit&& visit) {
+    visit(fields::kDisplacement, state.displacement[state.current]);
+    visit(fields::kVelocity, state.velocity[state.current]);
+    visit(fields::kOtherState, state.displacement[1 - state.current]);
+    visit(fields::kOtherState, state.velocity[1 - state.current]);
+    visit(fields::kAxialCut, axial_cut);
+    visit(fields::kCutSides, cut_sides);
+    visit(fields::kLeftByTearing, strengths.left);
+    visit(fields::kGrabOffsets, hands.grab_offsets);
+    visit(fields::kHeldBricks, hands.held);
+    visit(fields::kImpulses, hands.impulses);
+    visit(fields::kImpulses, hands.touched);
+    visit(fields::kImpulses, hands.obstacle_impulses);
+    visit(fields::kImpulses, hands.met);
+  }
   void swap() { state.swap(); }
   HostState read() const;
   void readCuts(CutSprings& out) const;
@@ -78,6 +100,16 @@ struct CpuLattice {
   std::vector<float> axial_cut;         ///< [record.size()] as in CutSprings, of implicit lattices
   std::vector<layout::vec4> cut_sides;  ///< [slots] where there is a record: see shaders/solver/tools/cut_sides.glsl
 };
+
+/// Sets an array of the state to what it is in whole tissue at rest.
+template <class Values>
+void setToRest(const StateField& field, Values& values) {
+  using Value = typename Values::value_type;
+  if constexpr (std::is_arithmetic_v<Value>)
+    std::fill(values.begin(), values.end(), static_cast<Value>(field.at_rest));
+  else
+    std::fill(values.begin(), values.end(), Value{});
+}
 
 /// The vector of a slot in displacement or velocity.
 inline Vector3f planesAt(const float* planes, uint32_t slot) {

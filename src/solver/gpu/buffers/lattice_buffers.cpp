@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/gpu/buffers/lattice_buffers.h"
 
+#include <string>
+
 #include "gpu/archive.h"
 #include "gpu/limits.h"
 #include "layout/bindings.h"
@@ -149,15 +151,6 @@ void StateBuffers::swap() {
   bindBoth();
 }
 
-void StateBuffers::reset() {
-  for (int i = 0; i < 2; ++i) {
-    displacement[i].clear();
-    velocity[i].clear();
-  }
-  if (compensation.size()) compensation.clear();
-  current = 0;
-}
-
 HandBuffers::HandBuffers(size_t slots, const FeatureSet& features) {
   if (features.obstacles > 0) {
     obstacle_impulses = gpu::Buffer<layout::vec4>(slots * features.obstacles, "impulses of obstacles");
@@ -171,12 +164,6 @@ void HandBuffers::bind() const {
   if (grab_offsets.size()) grab_offsets.bindStorage(layout::kBindGrabOffsets);
   if (impulses.size()) impulses.bindStorage(layout::kBindImpulses);
   if (obstacle_impulses.size()) obstacle_impulses.bindStorage(layout::kBindObstacleImpulses);
-}
-
-void HandBuffers::reset() {
-  if (grab_offsets.size()) grab_offsets.clear();
-  if (impulses.size()) impulses.clear();
-  if (obstacle_impulses.size()) obstacle_impulses.clear();
 }
 
 LatticeBuffers::LatticeBuffers(const Model& model, const std::vector<layout::BodyParams>& params,
@@ -224,23 +211,17 @@ std::vector<float> LatticeBuffers::readAxialCut(const std::vector<float>& spring
 }
 
 void LatticeBuffers::persist(Archive& archive) {
-  archive.section("nodes");
-  for (const int i : {state.current, 1 - state.current}) {
-    gpu::persist(archive, state.displacement[i]);
-    gpu::persist(archive, state.velocity[i]);
-  }
-  if (state.compensation.size()) gpu::persist(archive, state.compensation);
+  archive.section("springs");
   store.persistNodes(archive);
-  archive.section("cuts");
   std::vector<float> spring_cut = links.spring_cut.read();
   archive.values(spring_cut);
   if (archive.reads()) links.writeSpringCut(spring_cut);
-  gpu::persist(archive, axial_cut);
-  gpu::persist(archive, cut_sides);
-  archive.section("hands");
-  gpu::persist(archive, hands.grab_offsets);
-  gpu::persist(archive, hands.impulses);
-  gpu::persist(archive, hands.obstacle_impulses);
+  std::string section;
+  visitState([&](const StateField& field, auto& buffer) {
+    if (section != field.section) archive.section(section = field.section);
+    gpu::persist(archive, buffer);
+  });
+  archive.section("measurements");
   gpu::persist(archive, stats);
 }
 
@@ -253,11 +234,16 @@ void LatticeBuffers::writeAxialCut(const std::vector<float>& cut) {
 
 void LatticeBuffers::reset() {
   links.writeSpringCut({});
-  writeAxialCut({});
   store.reset();
-  state.reset();
-  hands.reset();
+  visitState([](const StateField&, auto& buffer) { buffer.clear(); });  // all that the GPU keeps is 0 at rest
+  state.current = 0;
   stats.clear();
+}
+
+void LatticeBuffers::clearRolledBack() {
+  visitState([](const StateField& field, auto& buffer) {
+    if (field.roll_back == FieldRollBack::kClear) buffer.clear();
+  });
 }
 
 }  // namespace viscera

@@ -6,6 +6,7 @@
 #include "solver/tissue/cut_record.h"
 #include "solver/tissue/features.h"
 #include "solver/tissue/joined_network.h"
+#include "solver/tissue/state_fields.h"
 #include "viscera/layout/tick_stats.h"
 #include "viscera/model/body/elasticity.h"
 #include "viscera/model/model.h"
@@ -62,7 +63,6 @@ struct StateBuffers {
   void bind() const;
   /// What was output becomes the current state. Binds again only what that changes.
   void swap();
-  void reset();
 
   gpu::Buffer<layout::vec4> displacement[2];  ///< [slots] m
   gpu::Buffer<layout::vec4> velocity[2];      ///< [slots] m/s
@@ -78,7 +78,6 @@ struct StateBuffers {
 struct HandBuffers {
   HandBuffers(size_t slots, const FeatureSet& features);
   void bind() const;
-  void reset();
 
   gpu::Buffer<layout::vec4> grab_offsets;       ///< [slots] m, stylus frame
   gpu::Buffer<layout::vec4> impulses;           ///< [kMaxStyluses * slots] N s
@@ -113,6 +112,26 @@ struct LatticeBuffers {
   void swap() { state.swap(); }
   /// Rest state, whole springs, nothing held.
   void reset();
+  /// Calls visit(StateField, buffer) with all of the state that a scene has, but node bits and cut links, which springs
+  /// follow from.
+  template <class Visit>
+  void visitState(const Visit& visit) {
+    const auto there = [&](const StateField& field, auto& buffer) {
+      if (buffer.size()) visit(field, buffer);
+    };
+    there(fields::kDisplacement, state.displacement[state.current]);
+    there(fields::kVelocity, state.velocity[state.current]);
+    there(fields::kOtherState, state.displacement[1 - state.current]);
+    there(fields::kOtherState, state.velocity[1 - state.current]);
+    there(fields::kRoundingErrors, state.compensation);
+    there(fields::kAxialCut, axial_cut);
+    there(fields::kCutSides, cut_sides);
+    there(fields::kGrabOffsets, hands.grab_offsets);
+    there(fields::kImpulses, hands.impulses);
+    there(fields::kImpulses, hands.obstacle_impulses);
+  }
+  /// Clears what a roll-back clears.
+  void clearRolledBack();
   void persist(Archive& archive);                                               ///< waits
   std::vector<float> readAxialCut(const std::vector<float>& spring_cut) const;  ///< both as in CutSprings; waits
   void writeAxialCut(const std::vector<float>& cut);                            ///< as in CutSprings, none: whole
