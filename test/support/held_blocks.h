@@ -9,7 +9,6 @@
 namespace viscera::test {
 
 inline const Vector3d kGravity(0, 0, -9.81);
-constexpr double kTick_s = 1.0 / 60;
 
 /// A block of 10 cm, held at one face.
 inline Body block(int cells, double young_modulus_pa, double nu, Cells kind = Cells::kSprings) {
@@ -36,10 +35,6 @@ inline Scene sceneOf(Integrator integrator, std::vector<StylusConfig> styluses =
   scene.solver.governor = false;
   scene.solver.sleep_speed_m_per_s = 0;
   return scene;
-}
-
-inline std::unique_ptr<Ticks> solverOf(const Model& model, const Scene& scene, int threads = 2) {
-  return makeCpu("", model, scene, threads);
 }
 
 inline double lowest(const Model& model, const HostState& state) {

@@ -6,11 +6,14 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "math/number_text.h"
+#include "model/body/body_nodes.h"
 #include "solver/contact/surroundings.h"
 #include "solver/cpu/cpu_backend.h"
 #include "solver/cpu/steps/network.h"
+#include "solver/processes/burn/heat_graph.h"
 #include "solver/ticks/stable_step.h"
 #include "viscera/math/error.h"
 #include "viscera/model/scene/scene.h"
@@ -39,13 +42,44 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// Pieces of tissue that hang together by springs, as a union-find over slots.
+class Pieces {
+ public:
+  explicit Pieces(const Model& model) : parent_(model.slots()) {
+    std::iota(parent_.begin(), parent_.end(), 0U);
+    for (const BurntSpring& spring : springsOf(model)) parent_[rootOf(spring.a)] = rootOf(spring.b);
+  }
+  uint32_t rootOf(uint32_t slot) {
+    while (parent_[slot] != slot) slot = parent_[slot] = parent_[parent_[slot]];
+    return slot;
+  }
+
+ private:
+  std::vector<uint32_t> parent_;
+};
+
+/// @throws SceneError  a piece of tissue is held nowhere, so that it falls for ever; names its body and where it is
 void requireHeld(const Model& model) {
-  for (const Body& body : model.bodies) {
-    const Lattice& lattice = body.lattice;
-    const bool held = std::any_of(lattice.active_slots.begin(), lattice.active_slots.end(),
-                                  [&lattice](uint32_t slot) { return isFixed(lattice.nodes[slot]); });
-    if (!held)
-      throw SceneError("body '" + body.name + "' is held nowhere: it has no equilibrium. Give it 'fixed' nodes");
+  Pieces pieces(model);
+  std::vector<uint8_t> is_held(model.slots(), 0);
+  std::vector<uint32_t> sizes(model.slots(), 0);
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    for (const uint32_t local : model.bodies[b].lattice.active_slots) {
+      const uint32_t root = pieces.rootOf(model.slotOffset(b) + local);
+      ++sizes[root];
+      is_held[root] |= static_cast<uint8_t>(isFixed(model.bodies[b].lattice.nodes[local]));
+    }
+  }
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    for (const uint32_t local : body.lattice.active_slots) {
+      const uint32_t root = pieces.rootOf(model.slotOffset(b) + local);
+      if (is_held[root] || sizes[root] == 1) continue;  // nodes without springs do not fall
+      const Vector3d at_m = restPosition(body, local);
+      throw SceneError("body '" + body.name + "': a piece of " + std::to_string(sizes[root]) + " nodes at " +
+                       numberText(at_m.x(), 3) + " " + numberText(at_m.y(), 3) + " " + numberText(at_m.z(), 3) +
+                       " m is held nowhere: it has no equilibrium. Give it 'fixed' nodes");
+    }
   }
 }
 

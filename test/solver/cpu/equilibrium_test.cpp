@@ -119,5 +119,21 @@ TEST(Equilibrium, WhatNothingHoldsHasNone) {
   EXPECT_THROW(equilibriumOf(model, sceneOf(Integrator::kLeapfrog), report), SceneError);
 }
 
+TEST(Equilibrium, OfALoosePieceThereIsNone) {
+  Body body = momentBody({7, 2, 2}, 0.01, [](const Vector3d& at) { return at.x() < 3 || at.x() > 4; });
+  for (const uint32_t slot : body.lattice.active_slots) {
+    if (body.lattice.nodeAt(slot).x() == 0) body.lattice.nodes[slot].lo |= layout::kFixedBit;
+  }
+  const Model model = modelOf({body});
+  SettleReport report;
+  try {
+    equilibriumOf(model, sceneOf(Integrator::kLeapfrog), report);
+    FAIL() << "a piece falls for ever";
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("body 'part': a piece of 36 nodes"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(report.substeps, 0);
+}
+
 }  // namespace
 }  // namespace viscera::test
