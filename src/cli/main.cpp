@@ -9,6 +9,7 @@
 #include "cli/fault.h"
 #include "devices/device_profile.h"
 #include "math/memory_for.h"
+#include "model/scene/feature_rules.h"
 #include "model/scene/tissue_presets.h"
 #include "tasks/task.h"
 #include "viscera/math/error.h"
@@ -256,9 +257,9 @@ CLI::App* addKeys(CLI::App& app, Options& o) {
   CLI::App* keys = app.add_subcommand("keys", "print the table of a file's keys, or of tissues");
   keys->add_option(
           "file", o.keys_of,
-          "scene, device: of config/devices, task: of config/tasks, or tissues: what material.tissue may name; default "
-          "scene")
-      ->check(CLI::IsMember({"scene", "device", "task", "tissues"}));
+          "scene, device: of config/devices, task: of config/tasks, features: what goes with what, or tissues: what "
+          "material.tissue may name; default scene")
+      ->check(CLI::IsMember({"scene", "device", "task", "features", "tissues"}));
   return keys;
 }
 
@@ -272,10 +273,11 @@ int importScan(Options& o) {
 }
 
 int printKeys(Options& o) {
-  std::cout << (o.keys_of == "device"    ? deviceKeysTable()
-                : o.keys_of == "task"    ? taskKeysTable()
-                : o.keys_of == "tissues" ? tissueTable()
-                                         : sceneKeysTable());
+  std::cout << (o.keys_of == "device"     ? deviceKeysTable()
+                : o.keys_of == "task"     ? taskKeysTable()
+                : o.keys_of == "features" ? featuresTable()
+                : o.keys_of == "tissues"  ? tissueTable()
+                                          : sceneKeysTable());
   return 0;
 }
 

@@ -47,5 +47,9 @@ TEST(Keys, DocumentOfTissuesToo) {
   expectTable("docs/tissues.md", {"keys", "tissues"}, "tissue");
 }
 
+TEST(Keys, DocumentOfFeaturesToo) {
+  expectTable("docs/material.md", {"keys", "features"}, "feature");
+}
+
 }  // namespace
 }  // namespace viscera

@@ -173,17 +173,21 @@ TEST(NetworkScene, AnExplicitLatticeMayResistBending) {
 
 TEST(NetworkScene, WhatDoesNotGoTogetherIsRefused) {
   const std::string ball = "source: ball, structure: surface";
-  expectRefused<SceneError>("source: sheet", {"s.yaml: body 'tissue'", "source sheet has no volume"});
-  expectRefused<SceneError>("source: sheet, structure: explicit", {"it needs structure surface"});
+  expectRefused<SceneError>("source: sheet", {"s.yaml: body 'tissue'",
+                                              "source: sheet needs structure surface, not lattice: it has no volume"});
+  expectRefused<SceneError>("source: sheet, structure: explicit", {"needs structure surface, not explicit"});
   expectRefused<SceneError>("source: ball, structure: tetrahedra",
                             {"s.yaml:1", "'bodies[0].structure: tetrahedra' was removed: use lattice", ".msh file"});
-  expectRefused<SceneError>(ball + ", material: {poisson_ratio: 0.3}", {"poisson_ratio = 0.3", "1/3 in a sheet"});
+  expectRefused<SceneError>(ball + ", material: {poisson_ratio: 0.3}",
+                            {"material.poisson_ratio needs structure lattice or explicit, not surface", "1/3"});
   expectRefused<SceneError>(ball + ", material: {weights: paper}", {"weights: paper needs structure lattice"});
-  expectRefused<SceneError>(ball + ", parts: [{part: a}]", {"parts need structure lattice or explicit"});
-  expectRefused<SceneError>(ball + ", skin: volume", {"skin must be auto"});
-  expectRefused<SceneError>(ball + ", spacing_m: auto", {"spacing_m: auto needs structure lattice"});
-  expectRefused<SceneError>(ball + ", mapping: constant", {"mapping must be auto with structure"});
-  expectRefused<SceneError>("bending_ratio: 0.1", {"bending_ratio must be 0"});
+  expectRefused<SceneError>(ball + ", parts: [{part: a}]", {"parts needs structure lattice or explicit"});
+  expectRefused<SceneError>(ball + ", skin: volume", {"skin other than auto needs structure lattice or explicit"});
+  expectRefused<SceneError>(ball + ", spacing_m: auto",
+                            {"spacing_m: auto without target_nodes needs structure lattice"});
+  expectRefused<SceneError>(ball + ", mapping: constant", {"mapping other than auto needs structure lattice"});
+  expectRefused<SceneError>("bending_ratio: 0.1",
+                            {"bending_ratio above 0 needs structure explicit or surface, not lattice"});
   expectRefused<LatticeError>(ball + ", spacing_m: 1", {"body 'tissue'", "larger than the whole body"});
   expectRefused<LatticeError>("source: sheet, structure: surface, box_size_m: [10, 10, 1], spacing_m: 1e-5",
                               {"more than 2e+07"});
@@ -193,7 +197,7 @@ TEST(NetworkScene, WhatDoesNotGoTogetherIsRefused) {
 TEST(NetworkScene, ConfigurationsMadeInCodeAreHeldToTheSameRules) {
   BodyConfig config;
   config.source = TissueSource::kSheet;
-  EXPECT_TRUE(contains(errorOf<SceneError>(config), "source sheet has no volume"));
+  EXPECT_TRUE(contains(errorOf<SceneError>(config), "source: sheet needs structure surface"));
 }
 
 TEST(NetworkScene, BodiesOfEveryKindGoTogether) {

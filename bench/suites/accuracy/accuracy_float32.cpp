@@ -6,6 +6,7 @@
 #include "bench/harness/experiment.h"
 #include "bench/harness/specimens/beam.h"
 #include "bench/suites/accuracy/accuracy_parts.h"
+#include "model/scene/integrators.h"
 #include "viscera/math/state_hash.h"
 
 namespace viscera::bench {
@@ -94,7 +95,7 @@ class Variables {
     std::fill(worst_.begin(), worst_.end(), 0);
     for (const Variant& variant : kVariants) {
       report_.stage("float32, " + nameOf(variant.integrator) + ", drag " + Cell(drag).text(2) + " per s");
-      const Track truth = sameSubstep(letGo({drag}, substeps_), truthOf(variant.integrator));
+      const Track truth = sameSubstep(letGo({drag}, substeps_), traitsOf(variant.integrator).truth);
       for (size_t b = 0; b < worst_.size(); ++b) runVariant(variant, drag, truth, b);
     }
     for (size_t b = 0; b < worst_.size(); ++b) {

@@ -14,8 +14,6 @@ namespace viscera {
 
 namespace {
 
-const char* const kKey = "bodies[].material.tear.toughness_j_per_m2 above 0 ";
-
 // Measured, docs/cutting.md 8.
 constexpr double kOnset = 0.6;     // strain of an axial spring, times sqrt(G / (E h))
 constexpr double kCounted = 0.88;  // of G, for springs beside the tear soften too
@@ -63,19 +61,6 @@ bool tears(const Scene& scene) {
 bool threadsTear(const Scene& scene) {
   return !scene.styluses.empty() && std::any_of(scene.threads.begin(), scene.threads.end(),
                                                 [](const ThreadConfig& thread) { return thread.feelsTissue(); });
-}
-
-void requireTearingFits(const Scene& scene) {
-  if (!tears(scene)) return;
-  for (const BodyConfig& body : scene.bodies) {
-    if (toughnessOf(body.material) > 0 && body.structure != Structure::kLattice)
-      throw SceneError(std::string(kKey) + "needs structure lattice, which body '" + body.name + "' has not");
-  }
-  if (scene.solver.integrator != Integrator::kLeapfrog)
-    throw SceneError(std::string(kKey) + "needs solver.integrator leapfrog, not " +
-                     traitsOf(scene.solver.integrator).name);
-  if (scene.solver.backend == Backend::kGpu)
-    throw SceneError(std::string(kKey) + "needs solver.backend cpu or auto, not gpu");
 }
 
 }  // namespace viscera

@@ -31,7 +31,5 @@ bool tears(const Body& body);
 bool tears(const Scene& scene);
 /// May a thread that is pulled part it? Only where there are hands.
 bool threadsTear(const Scene& scene);
-/// @throws SceneError  it does, and a structure, the integrator or the backend is none for it; names the key
-void requireTearingFits(const Scene& scene);
 
 }  // namespace viscera

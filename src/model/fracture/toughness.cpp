@@ -127,11 +127,4 @@ bool cutsFreely(const Scene& scene) {
   return !std::all_of(scene.bodies.begin(), scene.bodies.end(), resists<BodyConfig>);
 }
 
-void requireBladesFit(const Scene& scene) {
-  if (!resistsBlades(scene)) return;
-  const std::string key = "bodies[].material.cut.toughness_j_per_m2 above 0 ";
-  if (scene.solver.integrator != Integrator::kLeapfrog)
-    throw SceneError(key + "needs solver.integrator leapfrog, not " + traitsOf(scene.solver.integrator).name);
-}
-
 }  // namespace viscera

@@ -45,7 +45,5 @@ bool resistsBlades(const Body& body);
 bool resistsBlades(const Scene& scene);
 /// Does some of it not?
 bool cutsFreely(const Scene& scene);
-/// @throws SceneError  it does, and the integrator is none for it; names the key
-void requireBladesFit(const Scene& scene);
 
 }  // namespace viscera

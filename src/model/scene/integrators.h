@@ -9,27 +9,39 @@
 
 namespace viscera {
 
+/// Time integration of the float64 reference (physics.md 2).
+enum class ReferenceIntegrator {
+  kLeapfrog,      ///< (u, v) half a substep apart, symmetric drag
+  kVerletPaper,   ///< position Verlet with backward-difference drag, without dashpot (VR05, GW)
+  kImplicitEuler  ///< solved to convergence: the truth for pd
+};
+
 /// What an integrator is: all that anybody but its own steppers may ask of it (physics.md 2).
 struct IntegratorTraits {
   Integrator integrator;
-  const char* name;        ///< in scene files and tables
-  bool is_explicit;        ///< stable below a substep only, see stableFraction()
-  bool dashpot_limits;     ///< ... which the dashpot lowers: it acts on velocities of half a substep ago
-  bool staggered;          ///< velocities belong to half a substep before the displacements
-  bool shortens;           ///< has shorter substeps while the tissue is strained (dt_fraction_strained)
-  bool own_positions;      ///< keeps positions beside the state: writing the state makes it start again
-  bool iterates;           ///< solver.iterations says how often a substep goes over the nodes
-  bool lets_bricks_sleep;  ///< steps only bricks that move
-  bool compensates;        ///< can sum u and v with Kahan's compensation
+  const char* name;   ///< in scene files and tables
+  const char* about;  ///< in the key's sentence; null: scenes cannot ask for it, only benchmarks of the papers can
+  ReferenceIntegrator truth;  ///< what it is held to
+  bool is_explicit;           ///< stable below a substep only, see stableFraction()
+  bool dashpot_limits;        ///< ... which the dashpot lowers: it acts on velocities of half a substep ago
+  bool staggered;             ///< velocities belong to half a substep before the displacements
+  bool shortens;              ///< has shorter substeps while the tissue is strained (dt_fraction_strained)
+  bool own_positions;         ///< keeps positions beside the state: writing the state makes it start again
+  bool iterates;              ///< solver.iterations says how often a substep goes over the nodes
+  bool lets_bricks_sleep;     ///< steps only bricks that move
+  bool compensates;           ///< can sum u and v with Kahan's compensation
 };
 
 /// By the value of the enum.
 // clang-format off
 constexpr std::array<IntegratorTraits, 3> kIntegrators = {{
-    //                                        explicit dashpot stagger shorten own_pos iterate sleep  compens
-    {Integrator::kLeapfrog, "leapfrog",         true,  true,  true,  true,  false, false, true,  true},
-    {Integrator::kVerletPaper, "verlet_paper",  true,  false, false, false, true,  false, false, false},
-    {Integrator::kPd, "pd",                     false, false, false, false, false, true,  false, false},
+    //   explicit dashpot stagger shorten own_pos iterate sleep  compens
+    {Integrator::kLeapfrog, "leapfrog", "explicit, order 2", ReferenceIntegrator::kLeapfrog,
+         true,    true,   true,   true,   false,  false,  true,  true},
+    {Integrator::kVerletPaper, "verlet_paper", nullptr, ReferenceIntegrator::kVerletPaper,
+         true,    false,  false,  false,  true,   false,  false, false},
+    {Integrator::kPd, "pd", "implicit Euler", ReferenceIntegrator::kImplicitEuler,
+         false,   false,  false,  false,  false,  true,   false, false},
 }};
 // clang-format on
 

@@ -8,6 +8,7 @@
 
 #include "math/memory_for.h"
 #include "math/shipped_files.h"
+#include "model/scene/feature_rules.h"
 #include "model/scene/file_bounds.h"
 #include "model/scene/integrators.h"
 #include "model/scene/structure_rules.h"
@@ -164,14 +165,6 @@ void requireNeedles(const std::string& file, const Scene& scene) {
   }
 }
 
-/// Burnt tissue pulls after substeps: beside an implicit one it would be too strong.
-void requireBurns(const std::string& file, const Scene& scene) {
-  const Integrator integrator = scene.solver.integrator;
-  if (mayBurn(scene.styluses) && integrator != Integrator::kLeapfrog)
-    throw SceneError(file + ": a stylus with mode cautery needs solver.integrator leapfrog, not " +
-                     traitsOf(integrator).name);
-}
-
 /// What no single key can tell.
 void requireConsistent(const std::string& file, const Scene& scene) {
   if (scene.bodies.empty()) throw SceneError(file + ": 'bodies' must hold at least one body");
@@ -198,7 +191,11 @@ void requireConsistent(const std::string& file, const Scene& scene) {
     requireNeedle(file, thread);
   }
   requireNeedles(file, scene);
-  requireBurns(file, scene);
+  try {
+    requireFeatures(scene);
+  } catch (const SceneError& error) {
+    throw SceneError(file + ": " + error.what());
+  }
   for (const BodyConfig& body : scene.bodies) requireStableSubstep(file, scene.solver, body);
   for (const CameraConfig& camera : scene.cameras) {
     requireLens(file, camera);

@@ -326,18 +326,29 @@ void visitFields(V& v, ThreadConfig& c) {
   v.list("ties", c.ties, 16, "knots that no hand throws, in the order of their times (docs/thread.md 4)");
 }
 
-/// Those of scenes: verlet_paper is for the benchmarks of the papers' integrator alone (bench/suites/accuracy).
+/// Those of scenes.
 inline Choices<Integrator> namesOfIntegrators() {
   Choices<Integrator> out;
   for (const IntegratorTraits& traits : kIntegrators)
-    if (traits.integrator != Integrator::kVerletPaper) out.push_back({traits.name, traits.integrator});
+    if (traits.about) out.push_back({traits.name, traits.integrator});
   return out;
+}
+
+/// "leapfrog: explicit, order 2; pd: ...", of those of scenes.
+inline const char* aboutIntegrators() {
+  static const std::string text = [] {
+    std::string out;
+    for (const IntegratorTraits& traits : kIntegrators)
+      if (traits.about) out += (out.empty() ? "" : "; ") + std::string(traits.name) + ": " + traits.about;
+    return out;
+  }();
+  return text.c_str();
 }
 
 template <class V>
 void visitFields(V& v, SolverConfig& c) {
   v.number("tick_hz", c.tick_hz, {1, 1000}, "Hz", "ticks per second: tools, forces and surface follow at this rate");
-  v.choice("integrator", c.integrator, namesOfIntegrators(), "leapfrog: explicit, order 2; pd: implicit Euler");
+  v.choice("integrator", c.integrator, namesOfIntegrators(), aboutIntegrators());
   v.choice(
       "start", c.start, {{"rest", SolverStart::kRest}, {"equilibrium", SolverStart::kEquilibrium}},
       "the state that it begins in: all at rest, or in equilibrium with its weight and the forces on bodies, without "

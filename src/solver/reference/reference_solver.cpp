@@ -51,18 +51,6 @@ Vector3d ReferenceSolver::momentum() const {
   return sum;
 }
 
-ReferenceIntegrator truthOf(Integrator integrator) {
-  switch (integrator) {
-    case Integrator::kVerletPaper:
-      return ReferenceIntegrator::kVerletPaper;
-    case Integrator::kPd:
-      return ReferenceIntegrator::kImplicitEuler;
-    case Integrator::kLeapfrog:
-      return ReferenceIntegrator::kLeapfrog;
-  }
-  throw notStepped(integrator, "truthOf()");
-}
-
 HostState ReferenceSolver::state() const {
   HostState out;
   for (const Vector3d& u : u_m) out.displacement_m.push_back(rounded(u));

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "model/scene/integrators.h"
 #include "solver/contact/tool_acts.h"
 #include "solver/processes/port.h"
 #include "solver/reference/reference_lattice.h"
@@ -18,16 +19,6 @@
 namespace viscera {
 
 class ReferenceSurroundings;
-
-/// Time integration of the reference (physics.md 2).
-enum class ReferenceIntegrator {
-  kLeapfrog,      ///< (u, v) half a substep apart, symmetric drag
-  kVerletPaper,   ///< position Verlet with backward-difference drag, without dashpot (VR05, GW)
-  kImplicitEuler  ///< solved to convergence: the truth for pd
-};
-
-/// What an integrator of the backends is held to; of auto leapfrog.
-ReferenceIntegrator truthOf(Integrator integrator);
 
 struct ReferenceOptions {
   ReferenceIntegrator integrator = ReferenceIntegrator::kLeapfrog;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "model/fracture/tearing.h"
 #include "model/fracture/toughness.h"
+#include "model/scene/feature_rules.h"
 #include "solver/reference/reference_surroundings.h"
 #include "solver/ticks/registry.h"
 #include "solver/tissue/substeps.h"
@@ -26,7 +26,7 @@ SolverConfig ungoverned(SolverConfig config) {
 ReferenceOptions optionsFor(const Model& model, const Scene& scene) {
   const SolverConfig& config = scene.solver;
   ReferenceOptions options;
-  options.integrator = truthOf(config.integrator);
+  options.integrator = traitsOf(config.integrator).truth;
   options.push_speed_m_per_s = static_cast<float>(pushSpeed(model));
   options.sleep_distance_m = static_cast<float>(config.sleep_distance_m);
   for (const Body& body : model.bodies) options.resists.push_back(resistsBlades(body));
@@ -47,9 +47,7 @@ ReferenceTicks::ReferenceTicks(const Model& model, const Scene& scene)
               optionsFor(model, scene)),
       processes_(makeProcesses(scene, model, true), 0),
       obstacle_before_n_s_(solver_.obstacle_impulse_n_s) {
-  if (tears(scene))
-    throw SceneError(
-        "bodies[].material.tear.toughness_j_per_m2 must be 0 for the reference, which knows no tissue that tears");
+  requireReferenceFeatures(scene);
 }
 
 void ReferenceTicks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {

@@ -4,8 +4,7 @@
 
 #include <limits>
 
-#include "model/fracture/tearing.h"
-#include "model/fracture/toughness.h"
+#include "model/scene/feature_rules.h"
 #include "solver/ticks/solver_backend.h"
 #include "solver/ticks/stable_step.h"
 #include "viscera/math/error.h"
@@ -35,8 +34,7 @@ SubstepPlan planned(const Model& model, const SolverConfig& asked, double dt_saf
 }  // namespace
 
 TickPlan planTicks(const Model& model, const Scene& scene, const SolverOptions& options) {
-  requireBladesFit(scene);
-  requireTearingFits(scene);
+  requireFeatures(scene);
   TickPlan plan;
   plan.tick_s = 1 / scene.solver.tick_hz;
   plan.dt_safe_s = safeTimeStep(model);

@@ -37,7 +37,7 @@ struct TickPlan {
   int mostSubsteps() const { return std::max(substeps.strained, recovery_substeps); }  ///< a tick can have
 };
 
-/// @throws SceneError  substeps (planSubsteps), surroundings (Surroundings), blades (requireBladesFit), tearing
+/// @throws SceneError  substeps (planSubsteps), surroundings (Surroundings), features (requireFeatures)
 TickPlan planTicks(const Model& model, const Scene& scene, const SolverOptions& options = {});
 
 }  // namespace viscera

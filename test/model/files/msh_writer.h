@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "math/number_text.h"
-#include "mesh_files.h"
+#include "model/mesh_files.h"
 #include "viscera/math/types.h"
 
 namespace viscera::test {

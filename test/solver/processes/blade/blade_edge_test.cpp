@@ -13,6 +13,7 @@
 #include "math/archive.h"
 #include "math/decompositions.h"
 #include "model/fracture/toughness.h"
+#include "model/scene/feature_rules.h"
 #include "solver/cpu/cpu_solver.h"
 #include "solver/processes/blade/blades.h"
 #include "viscera/math/error.h"
@@ -143,7 +144,7 @@ TEST(BladeEdge, WhatItDoesNotGoWithIsRefused) {
     Scene scene = Hand::sceneOf(100);
     change(scene);
     try {
-      requireBladesFit(scene);
+      requireFeatures(scene);
     } catch (const SceneError& error) {
       return std::string(error.what());
     }
