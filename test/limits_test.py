@@ -19,8 +19,14 @@ ENDINGS = (".cpp", ".h", ".py", ".comp", ".glsl", ".vert", ".frag", ".inc", ".cm
 FOLDERS = ("src", "include", "shaders", "bench", "test", "examples", "scripts", "cmake")
 
 LONG_FILES = {
+    "test/cli/run_gl_test.cpp": "the options of `viscera run`, one short test each",
+    "test/model/network_builder_test.cpp": "the kinds of networks, one short test each",
+    "test/model/scene_keys_test.cpp": "the kinds of keys, one short test each",
+    "test/session/threaded_view_gl_test.cpp": "one fixture that all its tests need",
 }
 LONG_FUNCTIONS = {
+    "src/model/scene/body_fields.h: visitFields": "the table of a body's keys, a line each",
+    "test/model/scene_keys_test.cpp: TEST": "a table of keys that are refused, a line each",
 }
 
 TYPE = re.compile(r"^(template <.*> )?(class|struct|enum|union|namespace|extern)\b")
