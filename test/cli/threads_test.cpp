@@ -3,6 +3,8 @@
 // Threads through the command.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "cli/small_scene.h"
 #include "support/temporary_folder.h"
 
@@ -29,10 +31,15 @@ TEST(ThreadCommand, SaysWhatIsMissing) {
       viscera({"run", bare, "--no-view", "--seconds", "0.1", "--out", folder.file("out"), "--export", "threads"});
   EXPECT_NE(none.status, 0);
   EXPECT_NE(none.err.find("--export threads: the scene has none"), std::string::npos) << none.err;
+}
+
+TEST(ThreadCommand, IsReportedByTheReferenceToo) {
+  const TemporaryFolder folder;
   const std::string scene = folder.write("scene.yaml", std::string(kBlockScene) + kThread);
-  const Ending reference = viscera({"bench", "reference", scene, "--seconds", "0.05"});
-  EXPECT_NE(reference.status, 0);
-  EXPECT_NE(reference.err.find("threads must be empty for the reference"), std::string::npos) << reference.err;
+  const Json metrics = lastLine(viscera({"bench", "reference", scene, "--seconds", "0.05"}));
+  ASSERT_EQ(metrics["threads"]["pieces"].size(), 1U);
+  EXPECT_EQ(metrics["threads"]["pieces"][0]["name"], "suture");
+  EXPECT_GT(metrics["threads"]["pieces"][0]["largest_n"], 0);
 }
 
 }  // namespace
