@@ -150,7 +150,7 @@ void requireSomethingToWrite(const RunOptions& options, const Session& session, 
   if (options.exported->source == ExportSource::kThreads && scene.threads.empty())
     throw Error("--export threads: the scene has none");
   if (options.exported->source == ExportSource::kNetwork && std::none_of(bodies.begin(), bodies.end(), isNetwork))
-    throw Error("--export network: the scene has none: no body has structure explicit, surface or tetrahedra");
+    throw Error("--export network: the scene has none: no body has structure explicit or surface");
   const double run_s = static_cast<double>(ticks) * session.tick_s();
   if (options.exported->every_s > run_s + session.tick_s() / 2)
     throw Error("--every " + numberText(options.exported->every_s) + " s is longer than the run, " + numberText(run_s) +

@@ -19,13 +19,12 @@ gpu::Program networkKernel(const std::string& name) {
 
 }  // namespace
 
-NetworkSurface::NetworkSurface(const NetworkSkins& skins, bool wounds)
+NetworkSurface::NetworkSurface(const NetworkSkins& skins)
     : vertices_(skins.vertices),
       rings_(skins.rings),
       edges_(skins.edges),
       triangles_(skins.triangles),
       follow_(networkKernel("network_skin.comp")) {
-  if (wounds) wound_ = networkKernel("wound_skin.comp");
   if (skins.edges.empty()) return;
   crossed_ = gpu::Buffer<uint32_t>(4 + edges_.size(), "crossed");
   list_crossed_ = networkKernel("crossed_edges.comp");
@@ -59,15 +58,6 @@ void NetworkSurface::placeSplits(const StateView& state, uint32_t since) {
     runOver(split_edges_, edges_.size());
   }
   placed_ = true;
-}
-
-void NetworkSurface::followWounds(const StateView& state, size_t first, size_t end) {
-  if (!wound_) return;
-  assert(state.rest != 0);
-  gpu::Program::storageBarrier();  // normals are copied from vertices of the skin
-  bindStorage(layout::kBindRest, state.rest);
-  wound_.set("first_vertex", static_cast<uint32_t>(first));
-  runOver(wound_, end - first);
 }
 
 void NetworkSurface::split(const StateView& state, size_t triangles) {

@@ -13,19 +13,16 @@
 namespace viscera {
 
 /// What Surface does for networks. Owner of shaders/surface/network_skin.comp, split_edges.comp,
-/// crossed_edges.comp, split_triangles.comp and wound_skin.comp.
+/// crossed_edges.comp and split_triangles.comp.
 class NetworkSurface {
  public:
-  /// Needs a current context. @param wounds  some body of tetrahedra can be cut   @throws GpuError
-  NetworkSurface(const NetworkSkins& skins, bool wounds);
+  /// Needs a current context. @throws GpuError
+  explicit NetworkSurface(const NetworkSkins& skins);
 
   /// Vertices and normals of the networks, and the split vertices if they can be seen. Positions, normals and the
   /// state of triangles are bound by Surface.
   /// @param since  what moved no later is in place; 0: nothing is
   void follow(const StateView& state, uint32_t since);
-  /// Vertices that wounds have added, from first to end, where follow() has been and bodies of tetrahedra can be cut.
-  /// Their bindings are bound by Surface.
-  void followWounds(const StateView& state, size_t first, size_t end);
   /// What is shown of each triangle. @param triangles  of all bodies
   void split(const StateView& state, size_t triangles);
   void reset() { torn_ = placed_ = false; }
@@ -38,7 +35,7 @@ class NetworkSurface {
   gpu::Buffer<layout::SplitEdge> edges_;
   gpu::Buffer<layout::SplitTriangle> triangles_;
   gpu::Buffer<uint32_t> crossed_;  ///< see kBindCrossedEdges
-  gpu::Program follow_, list_crossed_, split_edges_, split_triangles_, wound_;
+  gpu::Program follow_, list_crossed_, split_edges_, split_triangles_;
   bool torn_ = false;    ///< some triangle may be split
   bool placed_ = false;  ///< split vertices of whole edges are
 };

@@ -24,11 +24,6 @@ void appendShown(const uint32_t* corners, const uint32_t* splits, uint32_t alive
   }
 }
 
-void markReplaced(const ShownWounds::OfBody& body, size_t triangles, uint32_t* alive) {
-  std::fill_n(alive, triangles, layout::kShownWhole);
-  for (const uint32_t triangle : body.replaced) alive[triangle] = 0;
-}
-
 ShownTriangles::ShownTriangles(const Model& model, size_t vertices, std::vector<uint32_t> indices,
                                std::vector<uint32_t> splits)
     : indices_(std::move(indices)), splits_(std::move(splits)), alive_(indices_.size() / 3, layout::kShownWhole) {

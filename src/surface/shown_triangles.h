@@ -26,10 +26,6 @@ using IndexRuns = std::vector<IndexRun>;
 /// @param alive    0 torn, 1 whole, or the pieces that are left (layout::kShownCorner, kShownRest)
 void appendShown(const uint32_t* corners, const uint32_t* splits, uint32_t alive, std::vector<uint32_t>& out);
 
-/// Marks as torn the triangles of a body that its wound shows in pieces, and as whole all others.
-/// @param alive  [triangles] of the body, as in appendShown
-void markReplaced(const ShownWounds::OfBody& body, size_t triangles, uint32_t* alive);
-
 /// Makes of the codes of what is left of each triangle the triangles that are shown.
 class ShownTriangles {
  public:

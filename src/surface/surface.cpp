@@ -127,7 +127,6 @@ Surface::Surface(const Model& model) {
   beyond_indices_.resize(model.bodies.size());
   if (Wounds::possible(model)) wounds_ = std::make_unique<Wounds>(model, skins);
   was_wounded_.resize(model.bodies.size());
-  had_replaced_.resize(model.bodies.size());
   std::vector<uint32_t> splits = splitsOf(skins);
   shown_ = ShownTriangles(model, vertices_, std::move(skins.triangles), std::move(splits));
   if (skins.any_bound) {
@@ -135,7 +134,7 @@ Surface::Surface(const Model& model) {
     if (summed_nodes_.size() > 0) summed_normal_ = surfaceKernel("node_normal.comp", {"SUMMED"});
     map_ = surfaceKernel("map_skin.comp", mapFeatures(skins));
   }
-  if (skins.any_one_to_one) networks_ = std::make_unique<NetworkSurface>(skins.networks, Wounds::ofTetrahedra(model));
+  if (skins.any_one_to_one) networks_ = std::make_unique<NetworkSurface>(skins.networks);
   if (!wounds_) {
     whole_colors_ = std::move(skins.colors);
     whole_bindings_ = std::move(skins.bindings);
@@ -201,10 +200,6 @@ bool Surface::followNetworks(const StateView& state) {
   followed_networks_ = known ? state.revision : 0;
   alive_.bindStorage(layout::kBindSkinAlive);
   networks_->follow(state, since);
-  if (vertices_ > whole_vertices_) {
-    bindings_.bindStorage(layout::kBindSkinBindings);
-    networks_->followWounds(state, whole_vertices_, vertices_);
-  }
   return true;
 }
 
@@ -302,7 +297,6 @@ void Surface::showWounds() {
     }
     was_wounded_[b] = body.wounded;
     beyond_indices_[b] = body.wounded ? body.skin.size() - std::min(count, body.skin.size()) + body.walls.size() : 0;
-    showReplaced(b, first / 3);
     first += count;
   }
   live_.write(wound_indices_, first_wound_index_);
@@ -328,16 +322,6 @@ IndexRuns Surface::runsOf(const std::vector<uint8_t>& bodies) const {
   for (size_t b = 0; b < bodies.size(); ++b) add(bodies[b], split_indices_[b]);
   for (size_t b = 0; b < bodies.size(); ++b) add(bodies[b], beyond_indices_[b]);
   return runs;
-}
-
-/// Normals beside a wound of tetrahedra are those of whole triangles.
-void Surface::showReplaced(size_t body, size_t first_triangle) {
-  const ShownWounds::OfBody& shown = wounds_->shown()->bodies[body];
-  if (shown.replaced.empty() && !had_replaced_[body]) return;
-  had_replaced_[body] = !shown.replaced.empty();
-  body_alive_.resize(shown_.trianglesOf(body));
-  markReplaced(shown, body_alive_.size(), body_alive_.data());
-  alive_.write(body_alive_, first_triangle);
 }
 
 void Surface::wound(const CutSprings& cuts, uint64_t revision) {

@@ -40,7 +40,7 @@ class Surface {
   /// Splits the triangles of networks along the cut (the rule is in split_triangles.comp), until reset(). Looks at the
   /// springs only if state.cut_revision has changed since the last call; costs nothing otherwise.
   void split(const StateView& state);
-  /// Shows the wounds of bodies on lattices and of tetrahedra that can be cut (surface/wounds/wounds.h), until reset().
+  /// Shows the wounds of bodies on lattices that can be cut (surface/wounds/wounds.h), until reset().
   /// Makes buffers only where wounds outgrow those that are there.
   /// @param revision  of the cuts; the last one again costs nothing
   void wound(const CutSprings& cuts, uint64_t revision);
@@ -54,7 +54,7 @@ class Surface {
   size_t vertices() const { return vertices_; }        ///< of the skins and of what wounds have added
   size_t capacity() const { return normals_.size(); }  ///< of vertices; grows with wounds
   bool canBeWounded() const { return wounds_ != nullptr; }
-  /// Null where no body on a lattice or of tetrahedra can be cut.
+  /// Null where no body on a lattice can be cut.
   std::shared_ptr<const ShownWounds> wounds() const { return wounds_ ? wounds_->shown() : nullptr; }
   size_t triangles() const { return shown_.count(); }
   const gpu::Buffer<float>& positions() const { return positions_; }  ///< [3 * vertices] m, tissue frame
@@ -86,7 +86,6 @@ class Surface {
   void showWounds();
   void writeColors();
   void writePaintedColors();
-  void showReplaced(size_t body, size_t first_triangle);
   void makeRoom(size_t vertices, size_t indices);
   void showWoundedCharts();
 
@@ -110,8 +109,7 @@ class Surface {
   std::vector<layout::SkinBinding> whole_bindings_;
   std::vector<uint32_t> wound_indices_, charts_, wound_charts_;
   size_t whole_vertices_ = 0;
-  std::vector<bool> was_wounded_, had_replaced_;  ///< [bodies]
-  std::vector<uint32_t> body_alive_;              ///< of the one whose codes are written
+  std::vector<bool> was_wounded_;  ///< [bodies]
   uint64_t cut_revision_ = 0, wound_revision_ = 0, mappings_ = 0;
   SkinBoxes boxes_;
   std::vector<bool> one_to_one_;                        ///< [bodies]

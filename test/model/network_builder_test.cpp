@@ -257,62 +257,6 @@ TEST(MembraneNetwork, TrianglesWithoutAreaAreLeftOutAndCounted) {
   EXPECT_EQ(network.masses_kg[4], 0);
 }
 
-/// Springs along one tetrahedron: k = E V / l^2 each.
-TEST(TetrahedraNetwork, EveryEdgeIsOneSpringAsStiffAsTheTetrahedraAtIt) {
-  TetrahedraMesh mesh;
-  mesh.positions_m = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
-  mesh.tetrahedra = {{0, 1, 2, 3}, {1, 2, 3, 4}};
-  const SpringNetwork network = tetrahedraNetwork(mesh, rubber());
-  EXPECT_EQ(network.springs.size(), 9u);
-  EXPECT_NEAR(springOf(network, 0, 1).stiffness_n_per_m, 1e6 / 6, 1e-6);
-  EXPECT_NEAR(springOf(network, 1, 2).stiffness_n_per_m, 1e6 * (1.0 / 6 + 1.0 / 3) / 2, 1e-6);
-  EXPECT_NEAR(massOf(network), 1200 * 0.5, kNetworkBuilderRounding * 600);
-  EXPECT_NEAR(network.masses_kg[0], 1200.0 / 24, kNetworkBuilderRounding * 50);
-  EXPECT_EQ(network.triangles.size(), 6u) << "the face between the two is inside";
-}
-
-Solid filledBox(const Vector3i& cells) {
-  return boxSolid(Vector3d::Zero(), kSpacing_m * cells.cast<double>(), kSpacing_m);
-}
-
-TriangleMesh surfaceOf(const SpringNetwork& network) {
-  TriangleMesh mesh;
-  for (const Vector3d& p : network.positions_m) mesh.positions_m.push_back(p.cast<float>());
-  mesh.triangles = network.triangles;
-  mesh.parts.assign(mesh.triangles.size(), 0);
-  return mesh;
-}
-
-TEST(TetrahedraNetwork, CellsInTetrahedraMeetAndFillTheirBox) {
-  const TetrahedraMesh mesh = tetrahedraOf(filledBox({3, 4, 2}));
-  EXPECT_EQ(mesh.tetrahedra.size(), 5u * 24);
-  EXPECT_EQ(mesh.positions_m.size(), 4u * 5 * 3);
-  for (const auto& tetrahedron : mesh.tetrahedra) EXPECT_GT(signedVolume(mesh, tetrahedron), 0);
-  const SpringNetwork network = tetrahedraNetwork(mesh, rubber());
-  EXPECT_EQ(network.triangles.size(), 2u * 2 * (12 + 8 + 6)) << "two triangles per square of the border";
-  const TriangleMesh surface = surfaceOf(network);
-  const double volume_m3 = 24 * kSpacing_m * kSpacing_m * kSpacing_m;
-  EXPECT_EQ(openEdges(surface), 0u);
-  EXPECT_NEAR(signedVolume(surface), volume_m3, 1e-6 * volume_m3) << "facing outward";
-  EXPECT_NEAR(massOf(network), 1200 * volume_m3, kNetworkBuilderRounding * 1200 * volume_m3);
-}
-
-TEST(TetrahedraNetwork, TheSurfaceFacesOutwardWhicheverWayTheTetrahedraAreGiven) {
-  TetrahedraMesh mesh = tetrahedraOf(filledBox({2, 2, 2}));
-  for (auto& tetrahedron : mesh.tetrahedra) std::swap(tetrahedron[0], tetrahedron[1]);
-  EXPECT_GT(signedVolume(surfaceOf(tetrahedraNetwork(mesh, rubber()))), 0);
-}
-
-/// The trace of the stiffness: sum of k l^2 is 6 E V for any division, as for an isotropic solid with nu = 1/4, of
-/// which a uniform compression asks for nothing more: energy 1/2 e^2 sum k l^2 = 3 E V e^2 (bulk modulus 2/3 E).
-TEST(TetrahedraNetwork, ResistsCompressionAsASolidDoes) {
-  const SpringNetwork network = tetrahedraNetwork(tetrahedraOf(filledBox({5, 4, 3})), rubber());
-  const double volume_m3 = 60 * kSpacing_m * kSpacing_m * kSpacing_m;
-  constexpr double kStrain = 1e-3;
-  const double energy_j = energyOf(network, [&](const Vector3d& p) { return Vector3d((1 - kStrain) * p); });
-  EXPECT_NEAR(energy_j, 3 * 1e6 * volume_m3 * kStrain * kStrain, 1e-9 * energy_j);
-}
-
 void expectAsImplicit(const Body& body) {
   const Lattice& lattice = body.lattice;
   const SpringNetwork network = latticeNetwork(body);

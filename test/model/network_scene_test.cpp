@@ -154,39 +154,6 @@ TEST(NetworkScene, ABallIsFilledOrHollow) {
   EXPECT_LT(hollow.lattice.active_slots.size(), solid.lattice.active_slots.size() / 2);
 }
 
-TEST(NetworkScene, SolidsBecomeTetrahedra) {
-  const Body body = bodyOf("source: box, box_size_m: [0.05, 0.04, 0.03], spacing_m: 0.01, structure: tetrahedra");
-  EXPECT_EQ(body.lattice.active_slots.size(), 6u * 5 * 4);
-  EXPECT_NEAR(massOf(body), 1060 * 6e-5, 1e-9 * massOf(body));
-  EXPECT_TRUE(hasNote(body, "tetrahedra: 300 as springs")) << allNotes(body);
-  EXPECT_GT(signedVolume(body.skin.mesh), 0.99 * 6e-5);
-  EXPECT_GT(bodyOf("source: ball, ball_radius_m: 0.03, structure: tetrahedra").network->springs.size(), 1000u);
-}
-
-/// Two tetrahedra on the edge y z, in millimetres with y up.
-const char* const kMsh =
-    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n1 0 0 0\n2 20 0 0\n3 0 20 0\n4 0 0 20\n5 20 20 20\n$EndNodes\n"
-    "$Elements\n2\n1 4 0 1 2 3 4\n2 4 0 2 3 4 5\n$EndElements\n";
-
-TEST(NetworkScene, AGmshFileIsPlacedAsAMeshIs) {
-  const std::string path = temporaryPath("two.msh");
-  writeFile(path, kMsh);
-  const std::string source =
-      "source: mesh, structure: tetrahedra, unit_scale_m: 0.001, up_axis: y, mesh_file: '" + path + "'";
-  const Body body = bodyOf(source + ", position_m: [1, 0, 0]");
-  EXPECT_EQ(body.lattice.active_slots.size(), 5u);
-  EXPECT_EQ(body.network->springs.size(), 9u);
-  EXPECT_NEAR(massOf(body), 1060 * 8e-6 * 0.5, 1e-12);
-  Eigen::AlignedBox3d box;
-  for (const uint32_t slot : body.lattice.active_slots) box.extend(restPosition(body, slot));
-  EXPECT_TRUE(box.isApprox(Eigen::AlignedBox3d(Vector3d(1, -0.02, 0), Vector3d(1.02, 0, 0.02))));
-  EXPECT_TRUE(hasNote(body, "MSH 2.2, 2 tetrahedra")) << allNotes(body);
-  const Body centered = bodyOf(source + ", centered: true");
-  box.setEmpty();
-  for (const uint32_t slot : centered.lattice.active_slots) box.extend(restPosition(centered, slot));
-  EXPECT_LT(box.center().norm(), 1e-12);
-}
-
 TEST(NetworkScene, AnExplicitLatticeIsTheLatticeWithLinks) {
   const std::string source = "source: phantom, spacing_m: 0.006, fixed: [{shape: part, part: aorta}]";
   const Body implicit = bodyOf(source), body = bodyOf(source + ", structure: explicit");
@@ -208,11 +175,8 @@ TEST(NetworkScene, WhatDoesNotGoTogetherIsRefused) {
   const std::string ball = "source: ball, structure: surface";
   expectRefused<SceneError>("source: sheet", {"s.yaml: body 'tissue'", "source sheet has no volume"});
   expectRefused<SceneError>("source: sheet, structure: explicit", {"it needs structure surface"});
-  expectRefused<SceneError>("source: mesh, mesh_file: a.msh", {"'a.msh' holds tetrahedra"});
-  expectRefused<SceneError>("source: mesh, mesh_file: a.obj, structure: tetrahedra",
-                            {"needs a Gmsh .msh file", "a.obj"});
-  expectRefused<SceneError>("source: mesh, mesh_file: a.msh, structure: tetrahedra, target_nodes: 10",
-                            {"target_nodes"});
+  expectRefused<SceneError>("source: ball, structure: tetrahedra",
+                            {"s.yaml:1", "'bodies[0].structure: tetrahedra' was removed: use lattice", ".msh file"});
   expectRefused<SceneError>(ball + ", material: {poisson_ratio: 0.3}", {"poisson_ratio = 0.3", "1/3 in a sheet"});
   expectRefused<SceneError>(ball + ", material: {weights: paper}", {"weights: paper needs structure lattice"});
   expectRefused<SceneError>(ball + ", parts: [{part: a}]", {"parts need structure lattice or explicit"});
@@ -220,11 +184,10 @@ TEST(NetworkScene, WhatDoesNotGoTogetherIsRefused) {
   expectRefused<SceneError>(ball + ", spacing_m: auto", {"spacing_m: auto needs structure lattice"});
   expectRefused<SceneError>(ball + ", mapping: constant", {"mapping must be auto with structure"});
   expectRefused<SceneError>("bending_ratio: 0.1", {"bending_ratio must be 0"});
-  expectRefused<SceneError>("source: ball, structure: tetrahedra, bending_ratio: 0.1", {"bending_ratio must be 0"});
   expectRefused<LatticeError>(ball + ", spacing_m: 1", {"body 'tissue'", "larger than the whole body"});
   expectRefused<LatticeError>("source: sheet, structure: surface, box_size_m: [10, 10, 1], spacing_m: 1e-5",
                               {"more than 2e+07"});
-  expectRefused<MeshError>("source: mesh, mesh_file: gone.msh, structure: tetrahedra", {"gone.msh", "cannot be read"});
+  expectRefused<MeshError>("source: mesh, mesh_file: gone.msh", {"gone.msh", "no such file"});
 }
 
 TEST(NetworkScene, ConfigurationsMadeInCodeAreHeldToTheSameRules) {

@@ -24,8 +24,7 @@ constexpr double kBalance = 1e-9;  // of all blood, sums of float64
 constexpr double kFull = 1e-9;     // of the flow out of what is cut through: its area is that of the vessel at least
 constexpr double kNick = 0.02;     // of the flow out of a nick: lengths of vessels are from corner to corner
 constexpr int kClosing = 30, kOpen = 4, kDraws = 30;  // ticks
-constexpr Structure kStructures[] = {Structure::kLattice, Structure::kExplicit, Structure::kTetrahedra,
-                                     Structure::kSurface};
+constexpr Structure kStructures[] = {Structure::kLattice, Structure::kExplicit, Structure::kSurface};
 
 class Bleeding : public OnSceneBackend {
  protected:

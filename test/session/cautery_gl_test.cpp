@@ -82,8 +82,7 @@ class Cautery : public OnSceneBackend {
 };
 
 TEST_P(Cautery, HeatIsPowerTimesTimeInTouchAndAllOfItIsAccountedFor) {
-  for (const Structure structure :
-       {Structure::kLattice, Structure::kExplicit, Structure::kTetrahedra, Structure::kSurface}) {
+  for (const Structure structure : {Structure::kLattice, Structure::kExplicit, Structure::kSurface}) {
     SCOPED_TRACE(static_cast<int>(structure));
     Session session(burning(4, structure), context_);
     const double top_m = structure == Structure::kSurface ? 0 : 0.006;

@@ -6,7 +6,6 @@
 #include "math/number_text.h"
 #include "model/scene/scene_text.h"
 #include "model/scene/scene_yaml.h"
-#include "model/shape/files/msh_reader.h"
 #include "session/on_backends.h"
 #include "support/comma_locale.h"
 #include "support/temporary_folder.h"
@@ -37,11 +36,7 @@ std::string cornersOf(const std::string& path) {
     const auto add = [&out](const auto& p) {
       for (int axis = 0; axis < 3; ++axis) out += exactText(p[axis]) + ' ';
     };
-    if (path.substr(path.size() - 4) == ".msh") {
-      for (const Vector3d& p : readMsh(path, 1).positions_m) add(p);
-    } else {
-      for (const Vector3f& p : importMesh(path, 1).positions_m) add(p);
-    }
+    for (const Vector3f& p : importMesh(path, 1).positions_m) add(p);
     return out;
   } catch (const std::exception& error) {
     return error.what();

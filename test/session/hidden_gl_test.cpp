@@ -103,11 +103,9 @@ using Setting = std::tuple<Backend, Mapping>;
 class Hidden : public GpuTest, public ::testing::WithParamInterface<Setting> {
  protected:
   /// Presses, then cuts where that is a tool's, or holds and drags.
-  Shown played(bool draw_hidden, bool can_cut, Structure of_block = Structure::kLattice) {
+  Shown played(bool draw_hidden, bool can_cut) {
     Scene scene = hiddenScene(draw_hidden, std::get<1>(GetParam()), can_cut);
     scene.solver.backend = std::get<0>(GetParam());
-    scene.bodies[0].structure = of_block;
-    if (of_block == Structure::kTetrahedra) scene.bodies[0].mapping = Mapping::kAuto;
     Session session(scene, context_);
     Shown out;
     for (int tick = 1; tick <= kPressTicks + 2 * kCutTicks; ++tick) {
@@ -130,12 +128,6 @@ TEST_P(Hidden, NoPictureDiffersWhileTissueMoves) {
 
 TEST_P(Hidden, NoPictureDiffersWhileTissueIsCut) {
   const Shown all = played(true, true), seen = played(false, true);
-  expectSame(all, seen);
-}
-
-TEST_P(Hidden, NoPictureDiffersWhileTetrahedraAreCut) {
-  if (std::get<1>(GetParam()) != Mapping::kAuto) return;  // they have none other
-  const Shown all = played(true, true, Structure::kTetrahedra), seen = played(false, true, Structure::kTetrahedra);
   expectSame(all, seen);
 }
 

@@ -63,8 +63,7 @@ class ClipSession : public OnSceneBackend {
 };
 
 TEST_P(ClipSession, HoldsTwoSidesOfEveryKindOfTissueTogether) {
-  for (const Structure structure :
-       {Structure::kLattice, Structure::kExplicit, Structure::kTetrahedra, Structure::kSurface}) {
+  for (const Structure structure : {Structure::kLattice, Structure::kExplicit, Structure::kSurface}) {
     SCOPED_TRACE(static_cast<int>(structure));
     Session session(barScene(structure), context_);
     clip(session, 0.006);

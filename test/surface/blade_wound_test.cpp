@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Wounds behind blades that tissue resists: of tetrahedra as of lattices they are closed, where the fronts have been.
+// Wounds behind blades that tissue resists: they are closed, where the fronts have been.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "solver/cpu/cpu_solver.h"
-#include "surface/tetrahedra_rig.h"
 #include "surface/wound_checks.h"
+#include "surface/wound_rig.h"
 #include "viscera/model/scene/scene.h"
 
 namespace viscera::testing {
@@ -58,19 +58,6 @@ void expectClosedWound(Of& of) {
   EXPECT_NEAR(volume(of, rest) / (0.06 * 0.048 * 0.012), 1, kVolume);
   EXPECT_GT(of.wound.wallTriangles().size(), 0u);
   EXPECT_LT(distancesFromPlane(of, rest, {0, kBeside_m, 0}, Vector3d::UnitY()).back(), kOffPlane_m);
-}
-
-TEST(BladeWound, OfTetrahedraIsClosed) {
-  const Scene scene = sceneOf("tetrahedra");
-  const Model model = buildModel(scene);
-  for (const int ticks : {45, 80}) {
-    SCOPED_TRACE(ticks);
-    const HostState state = strokeThrough(model, scene, ticks);
-    WoundedTetrahedra box(model.bodies[0]);
-    box.nodes = state.nodes;
-    box.spring_cut = state.spring_cut;
-    expectClosedWound(box);
-  }
 }
 
 TEST(BladeWound, OfLatticesIsClosed) {

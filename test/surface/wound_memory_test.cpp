@@ -7,7 +7,6 @@
 #include "model/shape/mesh/box_surface.h"
 #include "support/counted_memory.h"
 #include "surface/skins/joined_skins.h"
-#include "surface/tetrahedra_rig.h"
 #include "surface/wound_rig.h"
 #include "surface/wounds/wounds.h"
 
@@ -30,15 +29,14 @@ Model boxModel() {
 }
 
 /// A slanting cut that comes a little farther with each tick. @returns what it asked for, while another shows the last
-/// @param box  with its springs whole   @param left  (box): what a solver says of them
-template <class Body, class CutsLeft>
-uint64_t cutThrough(Body& box, Wounds& wounds, const CutsLeft& left) {
+/// @param box  with its springs whole
+uint64_t cutThrough(Wounded& box, Wounds& wounds) {
   const Vector3d normal = Vector3d(1, 0.3, 0.2).normalized(), middle(0.041, 0.034, 0.03);
   std::shared_ptr<const ShownWounds> shown = wounds.shown();
   uint64_t asked = 0;
   for (int tick = 1; tick <= kTicks; ++tick) {
     box.cut(middle, normal, [&](const Vector3d& at) { return at.z() > 0.06 * (1 - tick / double{kTicks}); });
-    const CutSprings cuts = left(box);
+    const CutSprings cuts{box.nodes, {}, box.axial_cut};
     const uint64_t before = allocations;
     wounds.update(cuts);
     asked += allocations - before;
@@ -50,27 +48,13 @@ uint64_t cutThrough(Body& box, Wounds& wounds, const CutsLeft& left) {
 }
 
 /// Twice the same cut, with a reset between: the second asks for nothing.
-template <class Body, class CutsLeft>
-void expectNoneTheSecondTime(const Model& model, const CutsLeft& left) {
-  Wounds wounds(model, joinSkins(model));
-  Body first(model.bodies[0]), second(model.bodies[0]);
-  EXPECT_LT(cutThrough(first, wounds, left), kGrowing);
-  wounds.reset();
-  EXPECT_EQ(cutThrough(second, wounds, left), 0u);
-}
-
 TEST(WoundMemory, ACutThatGoesOnAsksForNone) {
-  expectNoneTheSecondTime<Wounded>(boxModel(), [](const Wounded& box) {
-    return CutSprings{box.nodes, {}, box.axial_cut};
-  });
-}
-
-TEST(WoundMemory, ACutThroughTetrahedraThatGoesOnAsksForNone) {
-  Model model;
-  model.bodies.push_back(tetrahedraBox({16, 14, 12}, kSpacing_m));
-  expectNoneTheSecondTime<WoundedTetrahedra>(model, [](const WoundedTetrahedra& box) {
-    return CutSprings{box.nodes, box.spring_cut, {}};
-  });
+  const Model model = boxModel();
+  Wounds wounds(model, joinSkins(model));
+  Wounded first(model.bodies[0]), second(model.bodies[0]);
+  EXPECT_LT(cutThrough(first, wounds), kGrowing);
+  wounds.reset();
+  EXPECT_EQ(cutThrough(second, wounds), 0u);
 }
 
 }  // namespace

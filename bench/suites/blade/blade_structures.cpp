@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kForce = 0.05;    // of the force by the law
 constexpr double kRipple = 0.1;    // of J w
-constexpr double kLeastDet = 0.1;  // of a whole tetrahedron or triangle: nothing folds
+constexpr double kLeastDet = 0.1;  // of a whole cell or triangle: nothing folds
 constexpr double kWork = 0.02;     // of the work: what is not parting, elastic, kinetic or damping
 constexpr double kBladeStructuresMilli = 1e-3;
 constexpr double kToughness_j_per_m2 = 100;
@@ -23,8 +23,7 @@ struct Kind {
   const char* name;
   Structure structure;
 };
-constexpr Kind kKinds[] = {
-    {"explicit", Structure::kExplicit}, {"tetrahedra", Structure::kTetrahedra}, {"sheet", Structure::kSurface}};
+constexpr Kind kKinds[] = {{"explicit", Structure::kExplicit}, {"sheet", Structure::kSurface}};
 
 BladeTrial trialOf(const Kind& kind, double spacing_m, double carried, double angle_deg) {
   BladeTrial trial;
@@ -33,7 +32,7 @@ BladeTrial trialOf(const Kind& kind, double spacing_m, double carried, double an
   trial.toughness_j_per_m2 = kToughness_j_per_m2;
   trial.young_modulus_pa = kToughness_j_per_m2 / (carried * spacing_m);
   trial.angle_deg = angle_deg;
-  if (spacing_m > 0.002) {  // a kernel of nine springs of tetrahedra is 43 mm: as much block beside it, and way to go
+  if (spacing_m > 0.002) {  // a kernel is nine springs wide: as much block beside it, and way to go
     trial.length_m = 0.09;
     trial.width_m = 0.072;
     trial.stroke_m = 0.0675;

@@ -192,8 +192,6 @@ void onTheGpu(Report& report) {
   trial.spacing_m = 0.004;
   trial.toughness_j_per_m2 = 100;
   addPair("lattice", trial, table, report);
-  trial.structure = Structure::kTetrahedra;
-  addPair("tetrahedra", trial, table, report);
   trial.structure = Structure::kSurface;
   trial.thickness_m = 0.001;
   addPair("sheet", trial, table, report);

@@ -67,24 +67,20 @@ Scene sceneOf(const BladeTrial& trial) {
   return scene;
 }
 
-/// Of tetrahedra and triangles without a cut spring.
+/// Least area of a triangle without a cut spring, over that at rest.
 double leastVolume(const SpringNetwork& network, const HostState& state) {
   double least = 1;
-  const auto ratio = [&](const auto& slots) {
+  for (const std::array<uint32_t, 3>& slots : network.triangles) {
+    const auto is_severed = [&](uint32_t slot) { return (state.nodes[slot].lo & layout::kSeveredBit) != 0; };
+    if (std::any_of(slots.begin(), slots.end(), is_severed)) continue;
     Eigen::Matrix3d rest = Eigen::Matrix3d::Identity(), now = rest;
-    for (size_t i = 0; i < slots.size(); ++i) {
-      if (state.nodes[slots[i]].lo & layout::kSeveredBit) return;
-      if (i == 0) continue;
+    for (size_t i = 1; i < slots.size(); ++i) {
       const auto column = static_cast<int>(i) - 1;
       rest.col(column) = network.positions_m[slots[i]] - network.positions_m[slots[0]];
       now.col(column) = rest.col(column) + xyz(state.displacement_m[slots[i]]) - xyz(state.displacement_m[slots[0]]);
     }
-    if (slots.size() == 3) now.col(2) = rest.col(2) = rest.col(0).cross(rest.col(1)).normalized();
+    now.col(2) = rest.col(2) = rest.col(0).cross(rest.col(1)).normalized();
     least = std::min(least, now.determinant() / rest.determinant());
-  };
-  for (const std::array<uint32_t, 4>& tetrahedron : network.tetrahedra) ratio(tetrahedron);
-  for (const std::array<uint32_t, 3>& triangle : network.triangles) {
-    if (network.tetrahedra.empty()) ratio(triangle);
   }
   return least;
 }

@@ -30,7 +30,7 @@ struct BladeResult {
   double work_j = 0;
   double cut_share = 0, stored_share = 0;  ///< of the work: parting; elastic and kinetic energy at the end
   double damped_share = 0;                 ///< by drag and dashpots; 0 where it was not asked for
-  double worst_det = 1;                    ///< least volume of a whole cell (tetrahedron, triangle), over that at rest
+  double worst_det = 1;                    ///< least volume of a whole cell or triangle, over that at rest
   double length_m = 0;                     ///< h of the law, Toughness::spacing_m
   double trips = 0, stretch = 0;
   double substep_us = 0;  ///< while the blade cuts, until its measurements are there

@@ -27,9 +27,6 @@ const uint kInCellBit = 1u << 29;
 const uint kCornerShift = 16u;
 // Of SkinBinding.springs: a vertex of a network's skin, which is its node slot0; normal_constant is its normal at rest.
 const uint kOneToOneBit = 1u << 30;
-// Of SkinBinding.springs, with it, of a vertex that a cut added to a body of tetrahedra (shaders/surface/wound_skin.comp): one more than
-// the vertex whose normal it has, or 0: normal_constant, at rest, turns with its three nodes. Its offset_constant is that at rest too.
-const uint kCopiedNormalMask = (1u << 25) - 1u;
 // Of SkinBinding.springs: a vertex that goes with the node slot0 of a lattice (EGVE 3.2). Its offset stays as it is at rest; it is shaded
 // by the node's approximate normal.
 const uint kOneNodeBit = 1u << 28;

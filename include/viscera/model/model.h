@@ -20,8 +20,8 @@ struct Scene;
 struct Body {
   std::string name;
   MaterialConfig material;
-  std::vector<PartConfig> parts;  ///< elasticities of their own
-  Lattice lattice;                ///< of a body of structure surface or tetrahedra: only slots, bricks that lie nowhere
+  std::vector<PartConfig> parts;         ///< elasticities of their own
+  Lattice lattice;                       ///< of a body of structure surface: only slots, bricks that lie nowhere
   std::optional<SpringNetwork> network;  ///< explicit connections: they act instead of the lattice's
   Skin skin;
   Vector3d color = Vector3d::Ones();

@@ -26,10 +26,6 @@ PartNodes partsOf(const TriangleMesh& mesh, const std::vector<uint32_t>& slot_of
   return {mesh.part_names, slots};
 }
 
-PartNodes noParts() {
-  return {{}, [](uint16_t) { return std::vector<uint32_t>(); }};
-}
-
 void addMembrane(const BodyConfig& config, const Tissue& tissue, Body& body, PartNodes* parts) {
   const TriangleMesh mesh =
       config.target_nodes > 0 ? shellToNodes(tissue, config.target_nodes) : tissue.shell(config.spacing_m);
@@ -43,19 +39,6 @@ void addMembrane(const BodyConfig& config, const Tissue& tissue, Body& body, Par
   note << "surface: " << network.triangles.size() << " triangles as springs, " << config.thickness_m * 1e3
        << " mm thick; " << degenerate << " without area left out";
   body.notes.push_back(note.str());
-}
-
-void addTetrahedra(const BodyConfig& config, const Tissue& tissue, const Progress& progress, Body& body) {
-  const TetrahedraMesh* given = tissue.tetrahedra();
-  TetrahedraMesh made;
-  if (!given) {
-    const Filling filling = fill(tissue, config, progress);
-    if (!filling.note.empty()) body.notes.push_back(filling.note);
-    made = tetrahedraOf(filling.solid);
-  }
-  const TetrahedraMesh& mesh = given ? *given : made;
-  adoptNetwork(tetrahedraNetwork(mesh, config.material), body);
-  body.notes.push_back("tetrahedra: " + std::to_string(mesh.tetrahedra.size()) + " as springs");
 }
 
 }  // namespace
@@ -80,12 +63,7 @@ Body plainBody(const BodyConfig& config) {
 Body networkBody(const BodyConfig& config, const Tissue& tissue, const Progress& progress, PartNodes* parts) {
   Body body = plainBody(config);
   if (progress) progress("build network", 0);
-  if (parts) *parts = noParts();
-  if (config.structure == Structure::kSurface) {
-    addMembrane(config, tissue, body, parts);
-  } else {
-    addTetrahedra(config, tissue, progress, body);
-  }
+  addMembrane(config, tissue, body, parts);
   body.lattice.part_names = {config.name};
   return body;
 }

@@ -10,7 +10,7 @@ namespace viscera {
 /// Name, material and colour of a body as configured.
 Body plainBody(const BodyConfig& config);
 
-/// A body of structure surface or tetrahedra, with notes on how it came about; nothing fixed, no skin.
+/// A body of structure surface, with notes on how it came about; nothing fixed, no skin.
 /// @param parts  set to the parts of its surface, if wanted
 /// @throws LatticeError  spacing_m or target_nodes out of reach, no triangle with an area
 Body networkBody(const BodyConfig& config, const Tissue& tissue, const Progress& progress, PartNodes* parts = nullptr);

@@ -12,19 +12,19 @@
 namespace viscera {
 namespace {
 
-/// What one triangle or tetrahedron gives to one of its edges.
+/// What one triangle gives to one of its edges.
 struct EdgeShare {
-  uint32_t a, b;          // a < b
-  double measure;         // area [m2] or volume [m3]
-  uint32_t opposite = 0;  // third corner of the triangle
+  uint32_t a, b;  // a < b
+  double area_m2;
+  uint32_t opposite;  // third corner of the triangle
 };
 
 bool before(const EdgeShare& s, const EdgeShare& t) {
   return s.a != t.a ? s.a < t.a : s.b < t.b;
 }
 
-EdgeShare shareOf(uint32_t from, uint32_t to, double measure, uint32_t opposite = 0) {
-  return {std::min(from, to), std::max(from, to), measure, opposite};
+EdgeShare shareOf(uint32_t from, uint32_t to, double area_m2, uint32_t opposite) {
+  return {std::min(from, to), std::max(from, to), area_m2, opposite};
 }
 
 void sortByEnds(std::vector<NetworkSpring>& springs) {
@@ -58,17 +58,16 @@ void addBending(std::vector<EdgeShare>::const_iterator first, std::vector<EdgeSh
   }
 }
 
-/// One spring per edge, of k = modulus * measure / l^2.
-/// @param modulus  E t [N/m] for areas, E [Pa] for volumes
-void addSprings(std::vector<EdgeShare> shares, double modulus, double bending_ratio, SpringNetwork& network) {
+/// One spring per edge, of k = E t A / l^2.
+void addSprings(std::vector<EdgeShare> shares, double modulus_n_per_m, double bending_ratio, SpringNetwork& network) {
   std::stable_sort(shares.begin(), shares.end(), before);
   std::vector<NetworkSpring> bending;
   for (auto first = shares.cbegin(); first != shares.cend();) {
     auto last = first;
-    double measure = 0;
-    for (; last != shares.cend() && !before(*first, *last); ++last) measure += last->measure;
+    double area_m2 = 0;
+    for (; last != shares.cend() && !before(*first, *last); ++last) area_m2 += last->area_m2;
     NetworkSpring spring = springBetween(network, first->a, first->b, 0);
-    spring.stiffness_n_per_m = modulus * measure / (spring.rest_length_m * spring.rest_length_m);
+    spring.stiffness_n_per_m = modulus_n_per_m * area_m2 / (spring.rest_length_m * spring.rest_length_m);
     network.springs.push_back(spring);
     if (bending_ratio > 0) addBending(first, last, bending_ratio * spring.stiffness_n_per_m, network, bending);
     first = last;
@@ -89,36 +88,6 @@ bool isDegenerate(const std::vector<Vector3d>& positions_m, const std::array<uin
   for (size_t e = 0; e < 3; ++e)
     longest = std::max(longest, (positions_m[t[e]] - positions_m[t[(e + 1) % 3]]).squaredNorm());
   return areaOf(positions_m, t) <= 0.5 * kFlat * longest;
-}
-
-/// Faces of a tetrahedron of positive volume, counter-clockwise seen from outside.
-constexpr size_t kFaces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
-constexpr size_t kEdges[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
-
-/// Faces that belong to one tetrahedron only.
-std::vector<std::array<uint32_t, 3>> outerFaces(const TetrahedraMesh& mesh) {
-  struct Face {
-    std::array<uint32_t, 3> key, corners;
-  };
-  std::vector<Face> faces;
-  for (auto tetrahedron : mesh.tetrahedra) {
-    if (signedVolume(mesh, tetrahedron) < 0) std::swap(tetrahedron[2], tetrahedron[3]);
-    for (const auto& f : kFaces) {
-      Face face{{}, {tetrahedron[f[0]], tetrahedron[f[1]], tetrahedron[f[2]]}};
-      face.key = face.corners;
-      std::sort(face.key.begin(), face.key.end());
-      faces.push_back(face);
-    }
-  }
-  std::stable_sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.key < b.key; });
-  std::vector<std::array<uint32_t, 3>> outer;
-  for (size_t i = 0; i < faces.size();) {
-    size_t next = i + 1;
-    while (next < faces.size() && faces[next].key == faces[i].key) ++next;
-    if (next == i + 1) outer.push_back(faces[i].corners);
-    i = next;
-  }
-  return outer;
 }
 
 /// Stiffness and mass as the kernels of the implicit lattice have them, in float32.
@@ -220,24 +189,6 @@ SpringNetwork membraneNetwork(const TriangleMesh& mesh, const MaterialConfig& ma
   return network;
 }
 
-SpringNetwork tetrahedraNetwork(const TetrahedraMesh& mesh, const MaterialConfig& material) {
-  SpringNetwork network;
-  network.positions_m = mesh.positions_m;
-  network.masses_kg.resize(mesh.positions_m.size());
-  std::vector<EdgeShare> shares;
-  for (const auto& tetrahedron : mesh.tetrahedra) {
-    const double volume_m3 = std::abs(signedVolume(mesh, tetrahedron));
-    for (const auto& e : kEdges) shares.push_back(shareOf(tetrahedron[e[0]], tetrahedron[e[1]], volume_m3));
-    for (const uint32_t v : tetrahedron) network.masses_kg[v] += material.density_kg_per_m3 * volume_m3 / 4;
-  }
-  addSprings(std::move(shares), material.young_modulus_pa, 0, network);
-  network.triangles = outerFaces(mesh);
-  network.tetrahedra = mesh.tetrahedra;
-  for (auto& tetrahedron : network.tetrahedra)
-    if (signedVolume(mesh, tetrahedron) < 0) std::swap(tetrahedron[2], tetrahedron[3]);
-  return network;
-}
-
 SpringNetwork latticeNetwork(const Body& body, double bending_ratio) {
   const Lattice& lattice = body.lattice;
   const LatticeStrengths strengths(body);
@@ -285,8 +236,6 @@ SpringNetwork renumbered(const SpringNetwork& network, std::vector<uint32_t>* sl
   }
   sortByEnds(out.springs);
   for (const auto& t : network.triangles) out.triangles.push_back({slot_of[t[0]], slot_of[t[1]], slot_of[t[2]]});
-  for (const auto& t : network.tetrahedra)
-    out.tetrahedra.push_back({slot_of[t[0]], slot_of[t[1]], slot_of[t[2]], slot_of[t[3]]});
   out.charts = network.charts;
   out.detail = network.detail;
   if (slot_of_node) *slot_of_node = std::move(slot_of);

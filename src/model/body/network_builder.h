@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/shape/solid/tetrahedra_mesh.h"
 #include "viscera/model/model.h"
 
 namespace viscera {
@@ -20,11 +19,6 @@ namespace viscera {
 /// @param degenerate     counts triangles without area or with a repeated vertex, which are left out
 SpringNetwork membraneNetwork(const TriangleMesh& mesh, const MaterialConfig& material, double thickness_m,
                               double bending_ratio = 0, size_t* degenerate = nullptr);
-
-/// Springs along the edges of a tetrahedral mesh, each once: k = E V / l^2, V the volume of all tetrahedra at the edge
-/// (E and nu = 1/4 where edges point in all directions alike), and masses of rho V / 4. Its surface are the faces of
-/// one tetrahedron only, facing outward. The tetrahedra stay with it: wounds need them.
-SpringNetwork tetrahedraNetwork(const TetrahedraMesh& mesh, const MaterialConfig& material);
 
 /// The lattice of a body as explicit connections (VR05 2.5.1): springs and masses are, as floats, those that the
 /// kernels make of the counts in NodeBits.
@@ -42,7 +36,7 @@ SpringNetwork renumbered(const SpringNetwork& network, std::vector<uint32_t>* sl
 /// The slots of a renumbered network: bricks that lie nowhere, active slots, and NodeBits with the number of links.
 Lattice slotsOfNetwork(const SpringNetwork& network);
 
-/// Gives a body a network of structure surface or tetrahedra: renumbered, with slots. Returns `slot_of_node`.
+/// Gives a body a network of structure surface: renumbered, with slots. Returns `slot_of_node`.
 std::vector<uint32_t> adoptNetwork(const SpringNetwork& network, Body& body);
 
 }  // namespace viscera

@@ -96,7 +96,7 @@ Skin bindNetworkSkin(const SpringNetwork& network, bool can_be_cut) {
   const std::vector<Vector3f> normals = vertexNormals(skin.mesh);
   for (size_t v = 0; v < normals.size(); ++v) skin.bindings.push_back(oneToOne(skin.bound_slots[v], normals[v]));
   skin.two_sided = hasBorder(skin.mesh);
-  if (can_be_cut && network.tetrahedra.empty()) addSplitEdges(network, skin);
+  if (can_be_cut) addSplitEdges(network, skin);
   return skin;
 }
 

@@ -76,8 +76,8 @@ void visitFields(V& v, MaterialConfig& c) {
   v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E");
   v.number(
       "poisson_ratio", c.poisson_ratio, {0, 0.49}, "1",
-      "Poisson's ratio nu; 1/4 costs least (with cells springs any other adds a pass over them); structure surface and "
-      "tetrahedra have that of their springs, 1/3 and 1/4");
+      "Poisson's ratio nu; 1/4 costs least (with cells springs any other adds a pass over them); structure surface "
+      "has that of its springs, 1/3");
   v.number("density_kg_per_m3", c.density_kg_per_m3, {1, 1e5}, "kg/m3", "mass density");
   v.number("drag_per_s", c.drag_per_s, {0, 1e4}, "1/s", "node drag gamma: every velocity decays at this rate");
   v.number("dashpot_ratio", c.dashpot_ratio, {0, 0.5}, "1",
@@ -97,7 +97,7 @@ void visitFields(V& v, MaterialConfig& c) {
   v.group(
       "prestress", c.prestress,
       "tissue pulls before anything touches it, and gapes when cut; what balances in the given shape is kept. Needs "
-      "structure explicit, surface or tetrahedra");
+      "structure explicit or surface");
   v.group("tear", c.tear, "what it takes to pull it apart");
   v.group("bleeding", c.bleeding, "blood that runs out where it is cut, as if it were a vessel");
 }
@@ -162,14 +162,13 @@ void visitFields(V& v, BodyConfig& c) {
        {"labels", TissueSource::kLabels}},
       "where the tissue comes from: the built-in heart, a mesh file, a box, a flat sheet, a ball, labels of a scan");
   v.choice("structure", c.structure,
-           {{"lattice", Structure::kLattice},
-            {"explicit", Structure::kExplicit},
-            {"surface", Structure::kSurface},
-            {"tetrahedra", Structure::kTetrahedra}},
+           {{"lattice", Structure::kLattice}, {"explicit", Structure::kExplicit}, {"surface", Structure::kSurface}},
            "what is made of it: a solid lattice; the same with explicit connections (VR05 2.5.1); springs along the "
-           "edges of its surface (cloth, membranes, vessel walls); springs along the edges of a tetrahedral mesh");
+           "edges of its surface (cloth, membranes, vessel walls)");
   v.text("mesh_file", c.mesh_file,
-         "mesh: OBJ, STL, PLY, glTF or GLB file, for tetrahedra a Gmsh .msh file; relative to the scene file");
+         "mesh: OBJ, STL, PLY, glTF or GLB file, or a Gmsh .msh file of volumes, whose physical groups are parts; "
+         "relative "
+         "to the scene file");
   v.group("scan", c.scan, "labels: the scan and which of its labels; each label is a part of the body, by its name");
   v.number("unit_scale_m", c.unit_scale_m, {1e-9, 1e3}, "m", "mesh: metres per unit of the file");
   v.group("import_limits", c.import_limits,

@@ -3,72 +3,49 @@
 #include "model/scene/structure_rules.h"
 
 #include <algorithm>
-#include <cctype>
-#include <filesystem>
 
 #include "model/scene/yaml/yaml_reader.h"
 
 namespace viscera {
 namespace {
 
-bool isMsh(const std::string& mesh_file) {
-  std::string extension = std::filesystem::path(mesh_file).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension == ".msh";
-}
-
 std::string sourceFault(const BodyConfig& body) {
   if (body.source == TissueSource::kSheet && body.structure != Structure::kSurface) {
     return "source sheet has no volume: it needs structure surface";
   }
   const bool from_labels = body.source == TissueSource::kLabels;
-  if (from_labels && body.structure == Structure::kTetrahedra) {
-    return "structure tetrahedra needs source mesh, box, ball or phantom, not labels";
-  }
   if (body.skin == SkinSource::kInput && body.source != TissueSource::kMesh && !from_labels) {
     return "skin: input needs source: mesh or labels; use auto or volume";
   }
   if (body.fill == Fill::kEnclosed && (body.source != TissueSource::kMesh || isNetwork(body.structure))) {
     return "fill: enclosed needs source mesh and structure lattice or explicit";
   }
-  if (body.source != TissueSource::kMesh) return "";
-  const bool is_msh = isMsh(body.mesh_file);
-  if (is_msh && body.structure != Structure::kTetrahedra) {
-    return "mesh_file '" + body.mesh_file + "' holds tetrahedra: it needs structure tetrahedra";
-  }
-  if (!is_msh && body.structure == Structure::kTetrahedra) {
-    return "structure tetrahedra needs a Gmsh .msh file as mesh_file, not '" + body.mesh_file +
-           "', or source box, ball or phantom";
-  }
-  if (is_msh && body.target_nodes > 0) return "target_nodes must be 0: the nodes are those of the .msh file";
   return "";
 }
 
 /// Keys that only lattices have.
 std::string networkFault(const BodyConfig& body) {
-  const std::string name = body.structure == Structure::kSurface ? "surface" : "tetrahedra";
-  const std::string nature = body.structure == Structure::kSurface ? "1/3 in a sheet" : "1/4 in a solid";
   if (body.material.poisson_ratio != MaterialConfig{}.poisson_ratio) {
-    return "material.poisson_ratio = " + numberText(body.material.poisson_ratio) + " does not go with structure " +
-           name + ", whose springs give what they give (" + nature + "): leave it out";
+    return "material.poisson_ratio = " + numberText(body.material.poisson_ratio) +
+           " does not go with structure "
+           "surface, whose springs give what they give (1/3 in a sheet): leave it out";
   }
-  if (!body.parts.empty()) return "parts need structure lattice or explicit, not " + name;
+  if (!body.parts.empty()) return "parts need structure lattice or explicit, not surface";
   for (const LayerConfig& layer : body.layers) {
-    if (layer.toughness_j_per_m2 > 0 && body.structure == Structure::kSurface)
+    if (layer.toughness_j_per_m2 > 0)
       return "layers[].toughness_j_per_m2 must be 0 with structure surface, which has no depth";
   }
   if (body.material.weights != Weights::kCell) return "material.weights: paper needs structure lattice or explicit";
   if (body.material.cells == Cells::kMoments) return "material.cells: moments needs structure lattice or explicit";
-  if (body.skin != SkinSource::kAuto) return "skin must be auto with structure " + name + ": the skin is its surface";
+  if (body.skin != SkinSource::kAuto) return "skin must be auto with structure surface: the skin is its surface";
   if (body.mapping != Mapping::kAuto) {
-    return "mapping must be auto with structure " + name + ": each vertex of its skin is one of its nodes already";
+    return "mapping must be auto with structure surface: each vertex of its skin is one of its nodes already";
   }
   for (const char* key : {body.detail_mesh.empty() ? "" : "detail_mesh", body.skin_faces > 0 ? "skin_faces" : ""}) {
-    if (*key != 0)
-      return key + std::string(" needs structure lattice or explicit: the skin of ") + name + " is its nodes";
+    if (*key != 0) return key + std::string(" needs structure lattice or explicit: the skin of surface is its nodes");
   }
   if (body.auto_spacing && body.target_nodes == 0) {
-    return "spacing_m: auto needs structure lattice or explicit; give " + name + " a number or target_nodes";
+    return "spacing_m: auto needs structure lattice or explicit; give surface a number or target_nodes";
   }
   return "";
 }
@@ -93,7 +70,7 @@ std::string structureFault(const BodyConfig& body) {
   }
   const bool can_bend = body.structure == Structure::kSurface || body.structure == Structure::kExplicit;
   if (body.structure == Structure::kLattice && isPrestressed(body))
-    return "material.prestress needs structure explicit, surface or tetrahedra: springs of a lattice have one rest "
+    return "material.prestress needs structure explicit or surface: springs of a lattice have one rest "
            "length";
   if (hasMoments(body) && body.material.weights != Weights::kCell)
     return "material.cells: moments does not go with material.weights: paper";

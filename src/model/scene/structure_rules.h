@@ -11,7 +11,7 @@ namespace viscera {
 
 /// Nodes of its own instead of a lattice's?
 inline bool isNetwork(Structure structure) {
-  return structure == Structure::kSurface || structure == Structure::kTetrahedra;
+  return structure == Structure::kSurface;
 }
 
 /// Do the body's cells resist by moments (Cells)? By default those of lattices do, unless their springs are weighted as

@@ -23,7 +23,7 @@ constexpr double kOneSided = 0.5;     // sum of unit vectors to a node's neighbo
 constexpr double kLower = 0.01;       // spacings: what is lower by less lies as high
 
 bool isSheet(const Body& body) {
-  return hasOwnNetwork(body) && body.network->tetrahedra.empty();
+  return hasOwnNetwork(body);
 }
 
 }  // namespace

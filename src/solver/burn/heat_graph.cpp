@@ -164,18 +164,16 @@ void HeatGraph::addCells(const Lattice& lattice, uint32_t offset, size_t first, 
   }
 }
 
-/// Springs are to an isotropic conduction what they are to stiffness: their sum of k l^2 n n^T is E / 2.5 each way and
-/// 5 mu in all, times the volume; of a sheet 3/2 E.
+/// Springs are to an isotropic conduction what they are to stiffness: their sum of k l^2 n n^T over a sheet is 3/2 E.
 void HeatGraph::addNetwork(const SpringNetwork& network, double young_modulus_pa, uint32_t offset, size_t first,
                            size_t end, double conductivity) {
   spacing_m.push_back(network.meanLength());
-  const bool sheet = network.tetrahedra.empty();
   for (const std::array<uint32_t, 3>& t : network.triangles) {
     const std::vector<Vector3d>& at = network.positions_m;
     const double area_m2 = 0.5 * (at[t[1]] - at[t[0]]).cross(at[t[2]] - at[t[0]]).norm();
-    for (const uint32_t slot : t) exposed_m2[offset + slot] += (sheet ? 2 : 1) * area_m2 / 3;
+    for (const uint32_t slot : t) exposed_m2[offset + slot] += 2 * area_m2 / 3;
   }
-  const double per_stiffness = (sheet ? 2.0 / 3 : 0.5) * conductivity / young_modulus_pa;
+  const double per_stiffness = 2.0 / 3 * conductivity / young_modulus_pa;
   for (size_t s = first; s < end; ++s)
     links.push_back(
         {springs[s].a, springs[s].b, static_cast<uint32_t>(s), per_stiffness * springs[s].stiffness_n_per_m});

@@ -17,8 +17,6 @@ namespace {
 
 constexpr double kFillSide = 0.5;    // of the spacing: of the cube within which tissue begins smoothly
 constexpr double kSheetReach = 0.5;  // of the spacing: to both sides of a sheet
-constexpr int kSamples = 4;          // of a cell's edge: is tissue there?
-constexpr double kOnFace = 1e-9;     // of a tetrahedron: places on faces that two share are in one of them at least
 
 /// The part of a cube of that side around x that is above 0, in cells.
 double above(double x, double side) {
@@ -56,13 +54,10 @@ void forEachWithin(const RestGrid& grid, const Vector3d& low_m, const Vector3d& 
 }  // namespace
 
 RestFill::RestFill(const Body& body, const RestGrid& nodes) : cells_(nodes), side_(kFillSide) {
-  const bool is_sheet = !body.hasCells() && body.network->tetrahedra.empty();
-  if (is_sheet)
-    addSheet(*body.network, body.material.density_kg_per_m3);
-  else if (!body.hasCells())
-    addTetrahedra(*body.network);
-  else
+  if (body.hasCells())
     addCells(body.lattice);
+  else
+    addSheet(*body.network, body.material.density_kg_per_m3);
 }
 
 double RestFill::at(const Vector3d& at_m) const {
@@ -75,42 +70,6 @@ void RestFill::addCells(const Lattice& lattice) {
     if (lattice.nodes[slot].lo & layout::kCellBit)
       shares_[cells_.at(lattice.nodeAt(slot))] = static_cast<float>(fillOf(lattice, slot).share);
   }
-}
-
-/// Cells of half a spacing, by samples in them.
-void RestFill::addTetrahedra(const SpringNetwork& network) {
-  cells_.spacing_m *= kFillSide;
-  cells_.count = (cells_.count.cast<double>() / kFillSide).cast<int>();
-  side_ = 1;
-  RestGrid samples = cells_;
-  samples.spacing_m /= kSamples;
-  samples.origin_m += Vector3d::Constant(0.5 * samples.spacing_m);
-  samples.count *= kSamples;
-  std::vector<bool> full(samples.places());
-  for (const std::array<uint32_t, 4>& corners : network.tetrahedra) {
-    const Vector3d& first = network.positions_m[corners[0]];
-    Eigen::Matrix3d edges;
-    Vector3d low = first, high = first;
-    for (int c = 0; c < 3; ++c) {
-      const Vector3d& corner = network.positions_m[corners[static_cast<size_t>(c) + 1]];
-      edges.col(c) = corner - first;
-      low = low.cwiseMin(corner);
-      high = high.cwiseMax(corner);
-    }
-    const Eigen::Matrix3d inverse = edges.inverse();
-    const Vector3d grown = Vector3d::Constant(kOnFace * samples.spacing_m);
-    forEachWithin(samples, low - grown, high + grown, [&](const Vector3i& place) {
-      const Vector3d at = samples.origin_m + samples.spacing_m * place.cast<double>();
-      const Vector3d shares = inverse * (at - first);
-      if (shares.minCoeff() >= -kOnFace && shares.sum() <= 1 + kOnFace) full[samples.at(place)] = true;
-    });
-  }
-  shares_.assign(cells_.places(), 0);
-  forEachWithin(samples, samples.origin_m, samples.origin_m + samples.spacing_m * samples.count.cast<double>(),
-                [&](const Vector3i& place) {
-                  if (full[samples.at(place)])
-                    shares_[cells_.at(place / kSamples)] += 1.0f / (kSamples * kSamples * kSamples);
-                });
 }
 
 void RestFill::addSheet(const SpringNetwork& network, double density_kg_per_m3) {

@@ -20,7 +20,6 @@ class RestFill {
 
  private:
   void addCells(const Lattice& lattice);
-  void addTetrahedra(const SpringNetwork& network);
   void addSheet(const SpringNetwork& network, double density_kg_per_m3);
   double ofCells(const Vector3d& at_m) const;
   double ofSheet(const Vector3d& at_m) const;

@@ -21,14 +21,13 @@ constexpr int kBesideCut = 2;         // rings of cubes in which a whole element
 constexpr int kNearestRings = 3;
 constexpr double kWholeSpring = -1;
 constexpr double kUnknownShare = 0.5;  // of a cut spring whose place was not noted
-constexpr std::array<uint32_t, 3> kCorners = {8, 4, 3};
 
 double spacingOf_m(const Body& body) {
   return body.hasCells() ? body.lattice.spacing_m : body.network->meanLength();
 }
 
 uint32_t cornersOf(const Body& body) {
-  return body.hasCells() ? kCorners[0] : body.network->tetrahedra.empty() ? kCorners[2] : kCorners[1];
+  return body.hasCells() ? 8 : 3;
 }
 
 bool anyElement(uint32_t) {
@@ -72,8 +71,7 @@ void RestElements::collect() {
     std::copy(slots.begin(), slots.end(), corners_.back().begin());
   };
   if (!body_.hasCells()) {
-    if (count_ == 4) std::for_each(body_.network->tetrahedra.begin(), body_.network->tetrahedra.end(), add);
-    if (count_ == 3) std::for_each(body_.network->triangles.begin(), body_.network->triangles.end(), add);
+    std::for_each(body_.network->triangles.begin(), body_.network->triangles.end(), add);
     return;
   }
   for (const uint32_t slot : body_.lattice.active_slots) {
@@ -160,7 +158,7 @@ RestElements::Weights RestElements::weights(const Corners& corners, const Vector
   }
   Eigen::Matrix3d edges = Eigen::Matrix3d::Zero();
   for (uint32_t c = 1; c < count_; ++c) edges.col(c - 1) = restPosition(body_, corners[c]) - first;
-  if (count_ == 3) edges.col(2) = edges.col(0).cross(edges.col(1)).normalized();
+  edges.col(2) = edges.col(0).cross(edges.col(1)).normalized();
   const Vector3d shares = edges.inverse() * from;
   out[0] = 1;
   for (uint32_t c = 1; c < count_; ++c) {
@@ -181,7 +179,6 @@ RestElements::Fit RestElements::fit(uint32_t element, const Vector3d& at_m) cons
   }
   out.weights = weights(corners_[element], at_m);
   out.outside_m = -h * *std::min_element(out.weights.begin(), out.weights.begin() + count_);
-  if (count_ == 4) return out;
   Vector3d foot = Vector3d::Zero();
   for (uint32_t c = 0; c < 3; ++c) foot += out.weights[c] * corner_m(element, c);
   out.off_m = (at_m - foot).norm();

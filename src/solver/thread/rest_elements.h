@@ -26,7 +26,7 @@ struct TissuePoint {
 /// A node. @param slot  of its body
 TissuePoint nodePoint(const Model& model, uint32_t body, uint32_t slot);
 
-/// What carries places of a body: cells of its lattice, tetrahedra, or triangles of a sheet, by where they are at rest.
+/// What carries places of a body: cells of its lattice, or triangles of a sheet, by where they are at rest.
 class RestElements {
  public:
   /// @param slot_offset, first_spring  of the body in the solver's buffers, and of its network among all of them

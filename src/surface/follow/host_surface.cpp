@@ -73,7 +73,6 @@ struct SkinKernel {
   const SurfaceNode* surface_nodes = nullptr;
   uint first_item = 0, count = 0;
   uint triangle_count = 0;  // of all bodies
-  uint first_vertex = 0;    // of those that wounds have added
   const RingVertex* ring_vertices = nullptr;
   const RingTriangle* rings = nullptr;
   const SplitEdge* split_edges = nullptr;
@@ -114,11 +113,6 @@ struct SkinKernel {
 #define VARIANT_TEXT "shaders/surface/split_edges.comp"
 #include "solver/cpu/text/glsl_variant.inc"
 
-#define VARIANT_NAME WoundSkin
-#define VARIANT_BASE SkinKernel
-#define VARIANT_TEXT "shaders/surface/wound_skin.comp"
-#include "solver/cpu/text/glsl_variant.inc"
-
 #define VARIANT_NAME SplitTriangles
 #define VARIANT_BASE SkinKernel
 #define VARIANT_TEXT "shaders/surface/split_triangles.comp"
@@ -146,7 +140,6 @@ struct HostSurface::Buffers : glsl::SkinKernel {
     node_normals = {of.node_normals_.data()};
     skin = of.wounds_ ? of.wounds_->bindings().data() : of.skins_.bindings.data();
     triangles = of.shown_.indices().data();
-    first_vertex = static_cast<uint32_t>(of.skins_.bindings.size());
     triangle_count = static_cast<uint32_t>(of.shown_.count());
     const NetworkSkins& networks = of.skins_.networks;
     ring_vertices = networks.vertices.data();
@@ -179,19 +172,10 @@ void HostSurface::reset() {
   if (wounds_) wounds_->reset();
 }
 
-/// Normals beside a wound are those of whole triangles.
-void HostSurface::noteReplaced() {
-  size_t first = 0;
-  for (size_t b = 0; b < wounds_->shown()->bodies.size(); ++b) {
-    markReplaced(wounds_->shown()->bodies[b], shown_.trianglesOf(b), &alive_[first]);
-    first += shown_.trianglesOf(b);
-  }
-}
-
 void HostSurface::split(const StateSnapshot& snapshot) {
   if (snapshot.cut_revision == cut_revision_) return;
   cut_revision_ = snapshot.cut_revision;
-  if (wounds_ && wounds_->update(snapshot)) noteReplaced();
+  if (wounds_) wounds_->update(snapshot);
   glsl::run<glsl::SplitTriangles>(Buffers(*this, snapshot), skins_.networks.triangles.size());
 }
 
@@ -212,7 +196,6 @@ void HostSurface::show(const StateSnapshot& snapshot, ShownMesh& out) {
   }
   glsl::run<glsl::NetworkSkin>(buffers, skins_.networks.vertices.size());
   glsl::run<glsl::SplitEdges>(buffers, skins_.networks.edges.size());
-  if (skins_.any_one_to_one) glsl::run<glsl::WoundSkin>(buffers, vertices() - skins_.bindings.size());
   out.topology = shown_.shown(alive_.data(), wounds_ ? wounds_->shown().get() : nullptr);
   ++mappings_;
 }

@@ -36,7 +36,6 @@ class HostSurface {
  private:
   struct Buffers;
   void split(const StateSnapshot& snapshot);
-  void noteReplaced();
 
   JoinedSkins skins_;
   std::unique_ptr<Wounds> wounds_;  ///< null where no body with an inside can be cut

@@ -23,12 +23,16 @@ uint32_t rgba(const Vector3d& color, uint32_t body) {
   return out;
 }
 
-bool hasTetrahedra(const Body& body) {
-  return isOneToOne(body) && !body.network->tetrahedra.empty();
+bool canBeWounded(const Body& body) {
+  return body.skin.can_be_cut && !isOneToOne(body);
 }
 
-bool canBeWounded(const Body& body) {
-  return body.skin.can_be_cut && (!isOneToOne(body) || hasTetrahedra(body));
+/// A binding of a body among those of all. @param slot  where the body's begin
+layout::SkinBinding numbered(uint32_t slot, layout::SkinBinding binding) {
+  binding.slot0 += slot;
+  binding.slot1 += slot;
+  binding.slot2 += slot;
+  return binding;
 }
 
 }  // namespace
@@ -37,37 +41,28 @@ bool Wounds::possible(const Model& model) {
   return std::any_of(model.bodies.begin(), model.bodies.end(), canBeWounded);
 }
 
-bool Wounds::ofTetrahedra(const Model& model) {
-  return std::any_of(model.bodies.begin(), model.bodies.end(),
-                     [](const Body& body) { return hasTetrahedra(body) && canBeWounded(body); });
-}
-
 Wounds::Wounds(const Model& model, const JoinedSkins& skins)
     : slots_(model.slots()),
       whole_bindings_(skins.bindings),
       bindings_(skins.bindings),
       whole_colors_(skins.colors),
       colors_(skins.colors) {
-  uint32_t vertex = 0, spring = 0;
+  uint32_t vertex = 0;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     Place place;
     place.slot = model.slotOffset(b);
     place.vertex = vertex;
-    place.spring = spring;
     place.color = body.color;
     place.origin_m = body.lattice.origin_m;
     place.spacing_m = body.lattice.spacing_m;
     place.number = static_cast<uint32_t>(b);
-    if (canBeWounded(body) && hasTetrahedra(body)) {
-      place.tetrahedra = std::make_unique<TetrahedraWound>(body.skin, *body.network);
-    } else if (canBeWounded(body)) {
+    if (canBeWounded(body)) {
       place.wound = std::make_unique<BodyWound>(body.skin, body.lattice);
       place.depths = std::make_unique<WoundDepths>(body.skin, body.lattice);
     }
     places_.push_back(std::move(place));
     vertex += static_cast<uint32_t>(body.skin.bindings.size() + 2 * body.skin.split_edges.size());
-    if (body.network) spring += static_cast<uint32_t>(body.network->springs.size());
   }
   reset();
 }
@@ -110,14 +105,12 @@ std::shared_ptr<ShownWounds> Wounds::next() {
     body.skin.clear();
     body.walls.clear();
     body.skin_sources.clear();
-    body.replaced.clear();
   }
   return *found;
 }
 
 /// Vertices of a wound are the body's own, then those that it has added, which follow all others here.
-template <class Wound>
-void Wounds::appendTriangles(const Place& place, const Wound& wound, ShownWounds::OfBody& out) const {
+void Wounds::appendTriangles(const Place& place, const BodyWound& wound, ShownWounds::OfBody& out) const {
   const auto own = static_cast<uint32_t>(wound.ownVertices()), first_added = static_cast<uint32_t>(bindings_.size());
   const auto number = [&](const std::vector<uint32_t>& triangles, std::vector<uint32_t>& all) {
     keepRoom(all, triangles.size());
@@ -131,22 +124,13 @@ void Wounds::appendTriangles(const Place& place, const Wound& wound, ShownWounds
   out.skin_sources = wound.skinSources();
 }
 
-/// A binding of a body among those of all.
-layout::SkinBinding Wounds::numbered(const Place& place, layout::SkinBinding binding) const {
-  binding.slot0 += place.slot;
-  binding.slot1 += place.slot;
-  binding.slot2 += place.slot;
-  if (place.tetrahedra && (binding.springs & layout::kCopiedNormalMask) != 0) binding.springs += place.vertex;
-  return binding;
-}
-
 void Wounds::append(Place& place, ShownWounds::OfBody& out) {
   const BodyWound& wound = *place.wound;
   const auto own = static_cast<uint32_t>(wound.ownVertices());
   appendTriangles(place, wound, out);
   for (const uint32_t vertex : wound.rebound())
-    bindings_[place.vertex + vertex] = numbered(place, wound.bindings()[vertex]);
-  for (size_t v = own; v < wound.bindings().size(); ++v) bindings_.push_back(numbered(place, wound.bindings()[v]));
+    bindings_[place.vertex + vertex] = numbered(place.slot, wound.bindings()[vertex]);
+  for (size_t v = own; v < wound.bindings().size(); ++v) bindings_.push_back(numbered(place.slot, wound.bindings()[v]));
   for (const WoundVertex& vertex : wound.lipVertices()) {
     colors_.push_back(whole_colors_[place.vertex + vertex.skin_vertex]);
     addRest(place, vertex, 0);
@@ -160,21 +144,6 @@ void Wounds::append(Place& place, ShownWounds::OfBody& out) {
   for (size_t v = 0; v < walls.size(); ++v) {
     colors_.push_back(flesh);
     addRest(place, walls[v], place.wall_depths_m[v]);
-  }
-}
-
-void Wounds::appendTetrahedra(const Place& place, ShownWounds::OfBody& out) {
-  const TetrahedraWound& wound = *place.tetrahedra;
-  appendTriangles(place, wound, out);
-  keepRoom(out.replaced, wound.replaced().size());
-  out.replaced = wound.replaced();
-  const uint32_t flesh = rgba(woundColor(place.color), place.number);
-  for (const TetrahedraWound::Vertex& vertex : wound.added()) {
-    const bool is_wall = vertex.like == UINT32_MAX;
-    const Vector3f at = vertex.rest_m.cast<float>();
-    bindings_.push_back(numbered(place, vertex.binding));
-    colors_.push_back(is_wall ? flesh : whole_colors_[place.vertex + vertex.like]);
-    added_rests_.push_back({at.x(), at.y(), at.z(), is_wall ? static_cast<float>(vertex.depth_m) : 0});
   }
 }
 
@@ -205,10 +174,6 @@ bool Wounds::update(const CutSprings& cuts) {
   for (size_t b = 0; b < places_.size(); ++b) {
     Place& place = places_[b];
     const layout::NodeBits* const nodes = cuts.nodes.data() + place.slot;
-    if (place.tetrahedra) {
-      place.tetrahedra->update(nodes, cuts.spring_cut.data() + place.spring);
-      if (place.tetrahedra->any()) appendTetrahedra(place, now->bodies[b]);
-    }
     if (!place.wound) continue;
     place.wound->update(nodes, axial_cut ? axial_cut + 3 * size_t{place.slot} : nullptr);
     if (!place.wound->any()) continue;

@@ -8,22 +8,20 @@
 
 #include "surface/skins/joined_skins.h"
 #include "surface/wounds/body_wound.h"
-#include "surface/wounds/tetrahedra_wound.h"
 #include "surface/wounds/wound_depths.h"
 #include "viscera/model/model.h"
 #include "viscera/solver/state.h"
 
 namespace viscera {
 
-/// What cuts have made of the skins of bodies with an inside, lattices and tetrahedra: not changed while anybody shows
-/// it, so that who does shares it.
+/// What cuts have made of the skins of bodies on lattices: not changed while anybody shows it, so that who does
+/// shares it.
 struct ShownWounds {
   /// Triangles of one body, [3 * n] vertex indices as in JoinedSkins, and beyond its vertices those added by cuts.
   struct OfBody {
     bool wounded = false;  ///< else its skin is whole, and the lists are empty
     std::vector<uint32_t> skin, walls;
     std::vector<uint32_t> skin_sources;  ///< [n] which triangle of the body's whole skin each of `skin` is a piece of
-    std::vector<uint32_t> replaced;      ///< of tetrahedra: which triangles of the body's whole skin are split or gone
   };
   uint64_t revision = 0;
   size_t vertices = 0;         ///< of the whole skins and added ones
@@ -32,16 +30,14 @@ struct ShownWounds {
   std::vector<OfBody> bodies;  ///< in the model's order
 };
 
-/// The wounds of a model's bodies on lattices and of tetrahedra that can be cut (docs/wounds.md). Vertices and slots
-/// are numbered through as in JoinedSkins.
+/// The wounds of a model's bodies on lattices that can be cut (docs/wounds.md). Vertices and slots are numbered
+/// through as in JoinedSkins.
 class Wounds {
  public:
   /// @param model  must outlive this   @param skins  of this model
   Wounds(const Model& model, const JoinedSkins& skins);
   /// Can any body get one?
   static bool possible(const Model& model);
-  /// Can one of tetrahedra?
-  static bool ofTetrahedra(const Model& model);
 
   /// @returns whether anything is cut now that was not: else nothing has changed
   bool update(const CutSprings& cuts);
@@ -55,21 +51,16 @@ class Wounds {
 
  private:
   struct Place {
-    std::unique_ptr<BodyWound> wound;             ///< none where the body is no lattice or cannot be cut
-    std::unique_ptr<TetrahedraWound> tetrahedra;  ///< where it has some instead
-    uint32_t slot = 0, vertex = 0, spring = 0;    ///< where the body's begin
+    std::unique_ptr<BodyWound> wound;  ///< none where the body is no lattice or cannot be cut
+    uint32_t slot = 0, vertex = 0;     ///< where the body's begin
     Vector3d color, origin_m;
     double spacing_m = 1;
     std::unique_ptr<WoundDepths> depths;  ///< where there is a wound
     std::vector<double> wall_depths_m;    ///< [wall vertices] of it
     uint32_t number = 0;                  ///< of the body
   };
-  template <class Wound>
-  void appendTriangles(const Place& place, const Wound& wound, ShownWounds::OfBody& out) const;
-  layout::SkinBinding numbered(const Place& place, layout::SkinBinding binding) const;
+  void appendTriangles(const Place& place, const BodyWound& wound, ShownWounds::OfBody& out) const;
   void append(Place& place, ShownWounds::OfBody& out);
-  void appendTetrahedra(const Place& place, ShownWounds::OfBody& out);
-
   void addRest(const Place& place, const WoundVertex& vertex, double depth_m);
   void forget();
   std::shared_ptr<ShownWounds> next();

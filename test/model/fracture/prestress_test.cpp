@@ -156,14 +156,6 @@ TEST(Prestress, SkinPullsAtFatThatIsAtRestAndBothBalance) {
   }
 }
 
-TEST(Prestress, TetrahedraBalanceToo) {
-  BodyConfig config = heldSlab(0.25, 0.05);
-  config.structure = Structure::kTetrahedra;
-  const Body body = build(config);
-  EXPECT_LT(unbalanced(body), kBalanced);
-  EXPECT_FALSE(contains(noteOf(body), "prestress: 0 %")) << noteOf(body);
-}
-
 TEST(Prestress, RefusesWhatSpringsCannotHave) {
   BodyConfig config = heldSlab(0.25, 0.05);
   config.structure = Structure::kLattice;

@@ -108,7 +108,6 @@ TEST_F(LabelBody, ErrorsNameBodyFileAndWhatIsAccepted) {
       says(refusal("scan: {file: scan.nrrd, labels: [9]}"), {"'organs'", "scan: ", "scan.nrrd", "9", "3 (bone)"}));
   EXPECT_TRUE(says(refusal("scan: {file: none.nii}"), {"'organs'", "none.nii"}));
   EXPECT_TRUE(says(refusal("scan: {file: scan.nrrd, labels: [[3]]}"), {"labels", "list of texts"}));
-  EXPECT_TRUE(says(refusal("scan: {file: scan.nrrd}, structure: tetrahedra"), {"tetrahedra", "labels"}));
   EXPECT_TRUE(says(refusal("scan: {file: scan.nrrd}, parts: [{part: lung}]"),
                    {"scene.yaml:1", "bodies[0].parts[0]", "'lung'", "bone, liver"}));
 }

@@ -25,7 +25,7 @@ constexpr double kBeside_m = 0.001;    // off a row of nodes
 constexpr double kOfLaw = 0.05;        // force, area and work
 constexpr double kFront_m = 0.003;     // the front bends at the surface, and the area counts its mean
 constexpr double kShare = 0.15;        // of a spring: a front stays in its plane
-constexpr double kCounted_m = 0.0006;  // an eighth of the mean spring of tetrahedra: area is counted in such steps
+constexpr double kCounted_m = 0.0006;  // area is counted in steps of up to an eighth of a spring
 constexpr double kPulled = 1e-3;       // of the plateau: what sways into the blade as it goes back
 constexpr double kFelt = 0.02;         // of the plateau: in its own wound a blade feels nothing
 
@@ -36,7 +36,6 @@ struct Kind {
 const std::vector<Kind> kKinds = {
     {"lattice", "source: box, structure: lattice, box_size_m: [0.06, 0.048, 0.012]", 0.012},
     {"explicit", "source: box, structure: explicit, box_size_m: [0.06, 0.048, 0.012]", 0.012},
-    {"tetrahedra", "source: box, structure: tetrahedra, box_size_m: [0.06, 0.048, 0.012]", 0.012},
     {"sheet", "source: sheet, structure: surface, thickness_m: 0.001, box_size_m: [0.06, 0.048, 0.001]", 0.001}};
 
 /// Held on both flanks. @param cut  what stands in material: ", cut: {...}" or nothing

@@ -135,7 +135,7 @@ TEST_F(ResistedBlade, CutsTissueThatSleeps) {
 }
 
 TEST_F(ResistedBlade, CutsEveryStructure) {
-  for (const Structure structure : {Structure::kExplicit, Structure::kTetrahedra, Structure::kSurface}) {
+  for (const Structure structure : {Structure::kExplicit, Structure::kSurface}) {
     Scene scene = blockOnAPlate();
     scene.solver.governor = false;
     BodyConfig& body = scene.bodies[0];

@@ -28,11 +28,9 @@ struct SpringNetwork {
   std::vector<double> masses_kg;                   ///< [slots] > 0 where a node is, else 0
   std::vector<NetworkSpring> springs;              ///< ordered by (a, b)
   std::vector<std::array<uint32_t, 3>> triangles;  ///< its surface: slots, counter-clockwise seen from outside
-  /// Of structure tetrahedra: slots of their corners, of positive volume as in TetrahedraMesh.
-  std::vector<std::array<uint32_t, 4>> tetrahedra;
-  std::vector<uint32_t> charts;                 ///< of the triangles, as in TriangleMesh
-  std::shared_ptr<const SurfaceDetail> detail;  ///< the same
-  bool of_lattice = false;                      ///< the nodes are those of the body's lattice, with bricks in space
+  std::vector<uint32_t> charts;                    ///< of the triangles, as in TriangleMesh
+  std::shared_ptr<const SurfaceDetail> detail;     ///< the same
+  bool of_lattice = false;                         ///< the nodes are those of the body's lattice, with bricks in space
 
   /// Mean rest length of the springs but those against bending [m]; 0 without any.
   double meanLength() const;

@@ -10,7 +10,7 @@
 namespace viscera {
 
 enum class TissueSource { kPhantom, kMesh, kBox, kSheet, kBall, kLabels };
-enum class Structure { kLattice, kExplicit, kSurface, kTetrahedra };
+enum class Structure { kLattice, kExplicit, kSurface };
 enum class SkinSource { kAuto, kInput, kVolume };
 enum class Mapping { kAuto, kOneToOne, kConstant, kInterpolated, kAlongNormal };  ///< see docs/mappings.md
 enum class UpAxis { kZ, kY };

@@ -16,6 +16,7 @@ constexpr Removed kRemoved[] = {
     {"solver.integrator", "multigrid",
      "use leapfrog; solver.start: equilibrium settles stiff tissue before it is stepped"},
     {"solver.integrator", "auto", "use leapfrog, the default"},
+    {"bodies.structure", "tetrahedra", "use lattice; a Gmsh .msh file of volumes is a shape for it"},
 };
 
 std::string withoutIndices(const std::string& key) {

@@ -49,7 +49,7 @@ void requireKnownFormat(const std::string& path, const ImportLimits& limits) {
   const std::string extension = extensionOf(path);
   if (std::find(std::begin(kKnown), std::end(kKnown), extension) != std::end(kKnown)) return;
   const std::string found = extension == ".ply" ? "it does not begin as PLY does" : "found '" + extension + "'";
-  throw MeshError("is not OBJ, STL, PLY, glTF or GLB by its name: " + found +
+  throw MeshError("is not OBJ, STL, PLY, glTF, GLB or Gmsh (.msh) by its name: " + found +
                   "; bodies[].import_limits.other_formats tries other formats");
 }
 

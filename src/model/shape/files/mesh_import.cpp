@@ -24,6 +24,7 @@
 #include "model/shape/files/gltf_limits.h"
 #include "model/shape/files/import_limits.h"
 #include "model/shape/files/mesh_look.h"
+#include "model/shape/files/msh_reader.h"
 #include "model/shape/files/ply_reader.h"
 #include "model/shape/files/stl_reader.h"
 #include "viscera/math/error.h"
@@ -43,7 +44,7 @@ void requireReadableFile(const std::string& path) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
   if (!fs::exists(status)) fail(path, "no such file");
-  if (fs::is_directory(status)) fail(path, "is a directory; give a mesh file (OBJ, STL, PLY, glTF or GLB)");
+  if (fs::is_directory(status)) fail(path, "is a directory; give a mesh file (OBJ, STL, PLY, glTF, GLB or Gmsh .msh)");
   if (!fs::is_regular_file(status)) fail(path, "is not a regular file");
   if (fs::file_size(path, code) == 0) fail(path, "is empty (0 bytes)");
 }
@@ -269,8 +270,14 @@ const aiScene& readScene(Assimp::Importer& importer, const std::string& path, co
   return *scene;
 }
 
-void gather(const std::string& path, const ImportLimits& limits, Gatherer& gatherer) {
+void gather(const std::string& path, double unit_scale_m, const ImportLimits& limits, Gatherer& gatherer) {
   requireFileSize(path, limits);
+  if (isMsh(path)) {
+    std::string note;
+    gatherer.mesh = readMsh(path, unit_scale_m, limits, note);
+    gatherer.report.parts = static_cast<int>(gatherer.mesh.part_names.size());
+    return gatherer.report.look_notes.push_back(path + ": " + note);
+  }
   const bool is_ply = isPly(path);
   if (!is_ply && !isStl(path)) {
     Assimp::Importer importer;
@@ -307,7 +314,7 @@ TriangleMesh importMesh(const std::string& path, double unit_scale_m, ImportRepo
   requireReadableFile(path);
   Gatherer gatherer(unit_scale_m, path, limits, with_look);
   try {
-    memoryFor<MeshError>("reading it", [&] { gather(path, limits, gatherer); });
+    memoryFor<MeshError>("reading it", [&] { gather(path, unit_scale_m, limits, gatherer); });
   } catch (const std::exception& error) {  // assimp's own too
     fail(path, error.what());
   }

@@ -4,321 +4,373 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <limits>
+#include <map>
+#include <set>
 #include <unordered_map>
 
-#include "math/memory_for.h"
 #include "math/number_text.h"
-#include "model/scene/file_bounds.h"
 #include "model/shape/files/import_limits.h"
+#include "model/shape/files/msh_elements.h"
+#include "model/shape/files/msh_numbers.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
 namespace {
 
-constexpr uint64_t kPoint = 15, kTetrahedron = 4;
-
-/// Corners of the elements that are read or passed over, by Gmsh's number of their type; 0: of no such type.
-size_t cornersOf(uint64_t type) {
-  constexpr size_t kCorners[] = {0, 2, 3, 4, 4};  // line, triangle, quadrangle, tetrahedron
-  return type == kPoint ? 1 : type < std::size(kCorners) ? kCorners[type] : 0;
-}
-
-/// The lines of a file that hold something, as words.
-class MshLines {
- public:
-  explicit MshLines(const std::string& path) : path_(path), file_(path, std::ios::binary) {
-    std::error_code error;
-    if (std::filesystem::is_directory(path, error)) throw MeshError("mesh file '" + path + "' is a folder");
-    if (!file_) throw MeshError("mesh file '" + path + "' cannot be read (does it exist?)");
-  }
-
-  bool next() {
-    for (std::string text; std::getline(file_, text);) {
-      ++line_;
-      words_.clear();
-      TextIn in(text);
-      for (std::string word; in >> word;) words_.push_back(word);
-      if (!words_.empty()) return true;
-    }
-    return false;
-  }
-  /// The next line, one of `section`.
-  void need(const std::string& section) {
-    if (!next()) fail("the file ends within $" + section);
-    if (words_[0][0] == '$') fail(words_[0] + " where $" + section + " should go on: its counts do not match");
-  }
-  /// The line that closes a section.
-  void needEnd(const std::string& section) {
-    if (!next()) fail("the file ends within $" + section);
-    if (words_[0] != "$End" + section) {
-      fail("'" + words_[0] + "' where $End" + section + " should stand: the counts of $" + section + " do not match");
-    }
-  }
-  void needWords(size_t least, size_t most) const {
-    if (words_.size() >= least && words_.size() <= most) return;
-    const std::string range =
-        least == most ? std::to_string(least) : std::to_string(least) + " to " + std::to_string(most);
-    fail("needs " + range + " numbers, has " + std::to_string(words_.size()));
-  }
-
-  const std::string& word(size_t i) const { return words_[i]; }
-  size_t words() const { return words_.size(); }
-  uint64_t whole(size_t i) const {
-    const std::string& w = words_[i];
-    constexpr size_t kMostDigits = 15;
-    if (w.size() > kMostDigits || w.find_first_not_of("0123456789") != std::string::npos) {
-      fail("'" + w + "' is not a whole number from 0 to 10^15");
-    }
-    return std::stoull(w);
-  }
-  double number(size_t i) const {
-    const std::string& w = words_[i];
-    const std::optional<double> value = readNumber(w);
-    if (!value) fail("'" + w + "' is not a number");
-    if (!std::isfinite(*value)) fail("'" + w + "' is not finite");
-    return *value;
-  }
-  Vector3d point(size_t i) const { return {number(i), number(i + 1), number(i + 2)}; }
-
-  [[noreturn]] void fail(const std::string& what) const {
-    throw MeshError("mesh file '" + path_ + "', line " + std::to_string(line_) + ": " + what);
-  }
-
- private:
-  std::string path_;
-  std::ifstream file_;
-  size_t line_ = 0;
-  std::vector<std::string> words_;
+struct Element {
+  const MshType* type;
+  int64_t group;  ///< physical; 0: of none
+  std::vector<uint32_t> nodes;
+  bool inside_out;
 };
 
 class MshReader {
  public:
-  MshReader(const std::string& path, double unit_scale_m) : lines_(path), unit_scale_m_(unit_scale_m) {}
+  MshReader(const std::string& path, double unit_scale_m) : in_(path), unit_scale_m_(unit_scale_m) {}
 
   void read() {
-    readFormat();
-    bool has_nodes = false, has_elements = false;
-    while (lines_.next()) {
-      const std::string section = sectionOf(lines_.word(0));
-      if (section == "Nodes") {
-        once(section, has_nodes);
-        is_4_ ? readNodeBlocks() : readNodes();
-        lines_.needEnd(section);
-      } else if (section == "Elements") {
-        once(section, has_elements);
-        is_4_ ? readElementBlocks() : readElements();
-        lines_.needEnd(section);
-      } else {
-        passOver(section);
-      }
+    while (!in_.isAtEnd()) {
+      const std::string section = in_.word();
+      if (section[0] != '$' || section.rfind("$End", 0) == 0)
+        in_.fail("'" + section + "' where a section should start");
+      readSection(section.substr(1));
     }
-    if (!has_nodes) lines_.fail("the file has no $Nodes");
-    if (mesh_.tetrahedra.empty()) lines_.fail("the file has no tetrahedron (elements of type 4)");
+    if (positions_m.empty()) in_.fail("the file has no $Nodes");
+    if (elements.empty()) in_.fail("the file has no tetrahedron, hexahedron, prism or pyramid; it has" + passedOver());
   }
 
-  /// The mesh without the nodes that only other elements have.
-  TetrahedraMesh used(MshReport& report) const {
-    constexpr uint32_t kUnused = std::numeric_limits<uint32_t>::max();
-    std::vector<uint32_t> moved(mesh_.positions_m.size(), kUnused);
-    TetrahedraMesh out;
-    for (auto tetrahedron : mesh_.tetrahedra) {
-      for (uint32_t& vertex : tetrahedron) {
-        if (moved[vertex] == kUnused) {
-          moved[vertex] = static_cast<uint32_t>(out.positions_m.size());
-          out.positions_m.push_back(mesh_.positions_m[vertex]);
-        }
-        vertex = moved[vertex];
-      }
-      out.tetrahedra.push_back(tetrahedron);
-    }
-    report = report_;
-    report.tetrahedra = out.tetrahedra.size();
-    report.unused_nodes = mesh_.positions_m.size() - out.positions_m.size();
-    return out;
+  std::string passedOver() const {
+    std::string out;
+    for (const auto& [name, count] : passed_over_) out += " " + std::to_string(count) + " " + name;
+    return out.empty() ? " no element" : out;
   }
+  std::string note() const {
+    std::map<std::string, size_t> read;
+    for (const Element& element : elements) ++read[element.type->name];
+    TextOut out;
+    out << "MSH " << version_ << ":";
+    for (const auto& [name, count] : read) out << " " << count << " " << name;
+    out << "; passed over" << passedOver();
+    if (volumes_in_two_ > 0)
+      out << "; " << volumes_in_two_ << " volumes are of several physical groups: the first is taken";
+    return out.str();
+  }
+  std::string nameOf(int64_t group) const {
+    const auto named = names_.find(group);
+    return named != names_.end() ? named->second : group == 0 ? "part" : std::to_string(group);
+  }
+
+  std::vector<Vector3d> positions_m;
+  std::vector<uint64_t> tags;  ///< [positions]
+  std::vector<Element> elements;
 
  private:
-  void readFormat() {
-    if (!lines_.next() || lines_.word(0) != "$MeshFormat") lines_.fail("a Gmsh file starts with $MeshFormat");
-    lines_.need("MeshFormat");
-    lines_.needWords(3, 3);
-    report_.version = lines_.word(0);
-    is_4_ = report_.version == "4.1";
-    if (!is_4_ && report_.version != "2.2") {
-      lines_.fail("version " + report_.version + " is not read; save it as MSH 2.2 or 4.1 (gmsh -format msh41)");
+  void readSection(const std::string& section) {
+    const bool has_format = version_ != 0;
+    if (section == "MeshFormat") {
+      readFormat();
+    } else if (section == "NOD") {
+      version_ = 1;
+      readNodes();
+    } else if (!has_format) {
+      in_.fail("a Gmsh file starts with $MeshFormat or $NOD");
+    } else if (section == "PhysicalNames") {
+      readNames();
+    } else if (section == "PartitionedEntities") {
+      in_.fail("partitioned meshes are not read; save it without partitions");
+    } else if (section == "Entities") {
+      readEntities();
+    } else if (section == "Nodes") {
+      version_ < 4 ? readNodes() : readNodeBlocks();
+    } else if (section == "ELM" || section == "Elements") {
+      version_ < 2 ? readElements1() : version_ < 4 ? readElements2() : readElementBlocks();
+    } else {
+      return in_.pass("$End" + section);
     }
-    if (lines_.word(1) != "0") lines_.fail("binary files are not read; save it as ASCII (gmsh without -bin)");
-    lines_.needEnd("MeshFormat");
+    in_.setBinary(false);
+    if (!read_.insert(section).second) in_.fail("a second $" + section);
+    const std::string end = (version_ == 1 ? "$END" : "$End") + section, found = in_.word();
+    if (found != end)
+      in_.fail("'" + found + "' where " + end + " should stand: the counts of $" + section + " do not match");
   }
 
-  std::string sectionOf(const std::string& word) const {
-    if (word[0] != '$' || word.rfind("$End", 0) == 0) lines_.fail("'" + word + "' where a section should start");
-    return word.substr(1);
+  void readFormat() {
+    version_ = in_.number();
+    const bool is_known = (version_ >= 2 && version_ < 3) || version_ == 4 || version_ == 4.1;
+    if (!is_known) {
+      in_.fail("version " + numberText(version_) +
+               " is not read; accepted: 1, 2 to 2.2, 4 and 4.1 (gmsh FILE -save -format msh41)");
+    }
+    is_binary_ = in_.whole(4) == 1;
+    if (in_.whole(4) != 8) in_.fail("the data size of $MeshFormat is not 8 bytes");
+    in_.setBinary(is_binary_);
+    if (is_binary_ && in_.whole(4) != 1)
+      in_.fail("big-endian files are not read; save it as ASCII (gmsh without -bin)");
   }
-  void once(const std::string& section, bool& has) const {
-    if (has) lines_.fail("a second $" + section);
-    has = true;
+
+  void readNames() {
+    for (uint64_t left = in_.count(4); left > 0; --left) {
+      const int64_t dimension = in_.whole(4), group = in_.whole(4);
+      const std::string rest = in_.line();
+      const size_t first = rest.find('"'), last = rest.rfind('"');
+      if (first == last) in_.fail("a name in quotes should stand after its number");
+      if (dimension == 3) names_[group] = rest.substr(first + 1, last - first - 1);
+    }
   }
-  void passOver(const std::string& section) {
-    do {
-      if (!lines_.next()) lines_.fail("the file ends within $" + section);
-    } while (lines_.word(0) != "$End" + section);
+
+  void readEntities() {
+    in_.setBinary(is_binary_);
+    std::array<uint64_t, 4> counts{};
+    for (uint64_t& count : counts) count = in_.count(8);
+    for (size_t dimension = 0; dimension < 4; ++dimension)
+      for (uint64_t left = counts[dimension]; left > 0; --left) readEntity(dimension);
+  }
+  void readEntity(size_t dimension) {
+    const int64_t entity = in_.whole(4);
+    const int numbers = dimension == 0 && version_ > 4 ? 3 : 6;  // its place, or its box
+    for (int i = 0; i < numbers; ++i) in_.number();
+    const uint64_t groups = in_.count(8);
+    for (uint64_t g = 0; g < groups; ++g) {
+      const int64_t group = std::abs(in_.whole(4));
+      if (dimension == 3 && g == 0) group_of_volume_[entity] = group;
+    }
+    if (dimension == 3 && groups > 1) ++volumes_in_two_;
+    if (dimension == 0) return;
+    for (uint64_t left = in_.count(8); left > 0; --left) in_.whole(4);
   }
 
   void readNodes() {
-    lines_.need("Nodes");
-    lines_.needWords(1, 1);
-    for (uint64_t left = lines_.whole(0); left > 0; --left) {
-      lines_.need("Nodes");
-      lines_.needWords(4, 4);
-      addNode(lines_.whole(0), lines_.point(1));
+    uint64_t left = in_.count(8);
+    for (in_.setBinary(is_binary_); left > 0; --left) {
+      const uint64_t tag = in_.count(4);
+      addNode(tag, 0);
     }
   }
-
   void readNodeBlocks() {
-    lines_.need("Nodes");
-    lines_.needWords(4, 4);
-    const uint64_t blocks = lines_.whole(0), nodes = lines_.whole(1);
+    in_.setBinary(is_binary_);
+    const auto [blocks, nodes] = readCounts();
     for (uint64_t b = 0; b < blocks; ++b) {
-      lines_.need("Nodes");
-      lines_.needWords(4, 4);
-      const bool is_parametric = lines_.whole(2) != 0;
-      std::vector<uint64_t> tags;
-      for (uint64_t left = lines_.whole(3); left > 0; --left) {
-        lines_.need("Nodes");
-        lines_.needWords(1, 1);
-        tags.push_back(lines_.whole(0));
-      }
-      for (const uint64_t tag : tags) {
-        lines_.need("Nodes");
-        lines_.needWords(3, is_parametric ? 6 : 3);
-        addNode(tag, lines_.point(0));
+      const auto [dimension, entity] = readEntityOf();
+      const int64_t parameters = in_.whole(4) != 0 ? dimension : 0;
+      const uint64_t count = in_.count(8);
+      std::vector<uint64_t> of_block;
+      for (uint64_t n = 0; version_ > 4 && n < count; ++n) of_block.push_back(in_.count(8));
+      for (uint64_t n = 0; n < count; ++n) {
+        const uint64_t tag = version_ > 4 ? of_block[n] : in_.count(4);
+        addNode(tag, parameters);
       }
     }
-    requireCount("nodes", nodes, mesh_.positions_m.size());
+    requireCount("nodes", nodes, positions_m.size());
+  }
+  void addNode(uint64_t tag, int64_t parameters) {
+    const Vector3d file{in_.number(), in_.number(), in_.number()};  // braces: in this order
+    for (; parameters > 0; --parameters) in_.number();
+    const Vector3d at_m = unit_scale_m_ * file;
+    if (!at_m.cast<float>().allFinite()) in_.fail("node " + std::to_string(tag) + " is not finite in metres");
+    if (!node_of_tag_.try_emplace(tag, static_cast<uint32_t>(tags.size())).second)
+      in_.fail("node " + std::to_string(tag) + " stands twice");
+    tags.push_back(tag);
+    positions_m.push_back(at_m);
   }
 
-  void readElements() {
-    lines_.need("Elements");
-    lines_.needWords(1, 1);
-    for (uint64_t left = lines_.whole(0); left > 0; --left) {
-      lines_.need("Elements");
-      lines_.needWords(3, std::numeric_limits<size_t>::max());
-      const uint64_t type = lines_.whole(1);
-      const size_t corners = requireType(type), first = 3 + static_cast<size_t>(lines_.whole(2));
-      lines_.needWords(first + corners, first + corners);
-      addElement(type, first);
+  /// Of blocks, and of what is in them.
+  std::pair<uint64_t, uint64_t> readCounts() {
+    const uint64_t blocks = in_.count(8), count = in_.count(8);
+    for (int i = 0; version_ > 4 && i < 2; ++i) in_.count(8);  // least and greatest number
+    return {blocks, count};
+  }
+  /// Dimension and number of the entity that a block belongs to.
+  std::pair<int64_t, int64_t> readEntityOf() {
+    const int64_t first = in_.whole(4), second = in_.whole(4);
+    return version_ > 4 ? std::pair(first, second) : std::pair(second, first);
+  }
+
+  void readElements1() {
+    for (uint64_t left = in_.count(4); left > 0; --left) {
+      in_.count(4);
+      const MshType& type = readType();
+      const int64_t group = std::abs(in_.whole(4));
+      in_.whole(4);
+      if (in_.count(4) != type.nodes) in_.fail("the number of nodes is not that of the element's type");
+      addElement(type, group, 4);
     }
   }
-
+  void readElements2() {
+    uint64_t left = in_.count(4);
+    in_.setBinary(is_binary_);
+    while (left > 0) {
+      if (!is_binary_) in_.count(4);
+      const MshType& type = readType();
+      const uint64_t block = is_binary_ ? in_.count(4) : 1, marks = in_.count(4);
+      if (block > left) in_.fail("more elements than $Elements announces");
+      for (uint64_t n = 0; n < block; ++n) {
+        if (is_binary_) in_.count(4);
+        int64_t group = 0;
+        for (uint64_t m = 0; m < marks; ++m) {
+          const int64_t mark = in_.whole(4);
+          if (m == 0) group = std::abs(mark);
+        }
+        addElement(type, group, 4);
+      }
+      left -= block;
+    }
+  }
   void readElementBlocks() {
-    lines_.need("Elements");
-    lines_.needWords(4, 4);
-    const uint64_t blocks = lines_.whole(0), elements = lines_.whole(1);
+    in_.setBinary(is_binary_);
+    const auto [blocks, count] = readCounts();
+    uint64_t read = 0;
     for (uint64_t b = 0; b < blocks; ++b) {
-      lines_.need("Elements");
-      lines_.needWords(4, 4);
-      const uint64_t type = lines_.whole(2);
-      const size_t corners = requireType(type);
-      for (uint64_t left = lines_.whole(3); left > 0; --left) {
-        lines_.need("Elements");
-        lines_.needWords(1 + corners, 1 + corners);
-        addElement(type, 1);
+      const auto [dimension, entity] = readEntityOf();
+      const MshType& type = readType();
+      const auto group = group_of_volume_.find(dimension == 3 ? entity : 0);
+      const size_t bytes = version_ > 4 ? 8 : 4;
+      for (uint64_t left = in_.count(8); left > 0; --left, ++read) {
+        in_.count(bytes);
+        addElement(type, dimension == 3 && group != group_of_volume_.end() ? group->second : 0, bytes);
       }
     }
-    requireCount("elements", elements, mesh_.tetrahedra.size() + report_.other_elements);
+    requireCount("elements", count, read);
   }
 
-  void addNode(uint64_t tag, const Vector3d& position) {
-    const auto next = static_cast<uint32_t>(mesh_.positions_m.size());
-    if (!node_of_tag_.try_emplace(tag, next).second) lines_.fail("node " + std::to_string(tag) + " stands twice");
-    mesh_.positions_m.push_back(unit_scale_m_ * position);
+  const MshType& readType() {
+    const int64_t number = in_.whole(4);
+    const MshType* const type = mshType(number);
+    if (type == nullptr)
+      in_.fail("elements of type " + std::to_string(number) +
+               " are not read; accepted: those of first and second order");
+    return *type;
   }
-
-  size_t requireType(uint64_t type) const {
-    const size_t corners = cornersOf(type);
-    if (corners == 0) {
-      lines_.fail("elements of type " + std::to_string(type) +
-                  " are not read: only 4-node tetrahedra (type 4), beside points, lines, triangles and quadrangles of "
-                  "first order, which are passed over");
+  void addElement(const MshType& type, int64_t group, size_t bytes) {
+    Element element{&type, group, {}, false};
+    for (size_t n = 0; n < type.nodes; ++n) {
+      const uint64_t tag = in_.count(bytes);
+      const auto node = node_of_tag_.find(tag);
+      if (node == node_of_tag_.end()) in_.fail("node " + std::to_string(tag) + " is not known");
+      element.nodes.push_back(node->second);
     }
-    return corners;
-  }
-
-  /// @param first  word of the first corner
-  void addElement(uint64_t type, size_t first) {
-    if (type != kTetrahedron) {
-      ++report_.other_elements;
+    if (type.dimension < 3) {
+      ++passed_over_[type.name];
       return;
     }
-    std::array<uint32_t, 4> tetrahedron;
-    for (size_t c = 0; c < 4; ++c) {
-      const auto node = node_of_tag_.find(lines_.whole(first + c));
-      if (node == node_of_tag_.end()) lines_.fail("node " + lines_.word(first + c) + " is not known");
-      tetrahedron[c] = node->second;
+    element.inside_out = volumeOf(element) < 0;
+    elements.push_back(std::move(element));
+  }
+
+  double volumeOf(const Element& element) const {
+    constexpr double kFlat = 1e-12;  // volume over the cube of the longest distance: rounding of double precision
+    const Vector3d first = positions_m[element.nodes[0]];
+    double longest_m = 0, volume_m3 = 0;
+    for (const uint32_t n : element.nodes) longest_m = std::max(longest_m, (positions_m[n] - first).norm());
+    std::vector<std::array<uint32_t, 3>> triangles;
+    for (size_t f = 0; f < element.type->faces.size(); ++f) appendFace(*element.type, f, element.nodes, triangles);
+    for (const auto& t : triangles) {
+      const Vector3d a = positions_m[t[0]] - first, b = positions_m[t[1]] - first;
+      volume_m3 += a.cross(b).dot(positions_m[t[2]] - first) / 6;
     }
-    mesh_.tetrahedra.push_back(facingPositive(tetrahedron));
+    if (!(std::abs(volume_m3) > kFlat * longest_m * longest_m * longest_m)) in_.fail("the element is flat");
+    return volume_m3;
   }
 
-  std::array<uint32_t, 4> facingPositive(std::array<uint32_t, 4> tetrahedron) {
-    constexpr double kFlat = 1e-12;  // volume over the cube of the longest edge: rounding of double precision
-    double longest_m = 0;
-    for (size_t a = 0; a < 4; ++a) {
-      for (size_t b = 0; b < a; ++b) {
-        longest_m = std::max(longest_m, (mesh_.positions_m[tetrahedron[a]] - mesh_.positions_m[tetrahedron[b]]).norm());
-      }
-    }
-    const double volume_m3 = signedVolume(mesh_, tetrahedron);
-    if (!(std::abs(volume_m3) > kFlat * longest_m * longest_m * longest_m)) lines_.fail("the tetrahedron is flat");
-    if (volume_m3 > 0) return tetrahedron;
-    ++report_.turned;
-    std::swap(tetrahedron[2], tetrahedron[3]);
-    return tetrahedron;
+  void requireCount(const std::string& what, uint64_t announced, uint64_t read) const {
+    if (announced != read)
+      in_.fail(std::to_string(announced) + " " + what + " announced, " + std::to_string(read) + " there");
   }
 
-  void requireCount(const std::string& what, uint64_t announced, size_t read) const {
-    if (announced == read) return;
-    lines_.fail(std::to_string(announced) + " " + what + " announced, " + std::to_string(read) + " there");
-  }
-
-  MshLines lines_;
+  MshNumbers in_;
   double unit_scale_m_;
-  bool is_4_ = false;
-  TetrahedraMesh mesh_;
+  double version_ = 0;  ///< 0: not known yet
+  bool is_binary_ = false;
   std::unordered_map<uint64_t, uint32_t> node_of_tag_;
-  MshReport report_;
+  std::map<int64_t, std::string> names_;
+  std::map<int64_t, int64_t> group_of_volume_;
+  std::map<std::string, size_t> passed_over_;
+  size_t volumes_in_two_ = 0;
+  std::set<std::string> read_;  ///< sections
 };
+
+/// A face of an element, as others find it.
+struct Face {
+  std::array<uint32_t, 4> key;  ///< its corners, ascending
+  uint32_t next;                ///< after the lowest corner, seen from outside
+  uint32_t element, face;
+};
+
+Face faceOf(const std::vector<Element>& elements, size_t e, size_t f) {
+  const Element& element = elements[e];
+  const std::vector<size_t>& corners = element.type->faces[f];
+  Face out{{UINT32_MAX, UINT32_MAX, UINT32_MAX, UINT32_MAX}, 0, static_cast<uint32_t>(e), static_cast<uint32_t>(f)};
+  for (size_t c = 0; c < corners.size(); ++c) out.key[c] = element.nodes[corners[c]];
+  const auto first = static_cast<size_t>(std::min_element(out.key.begin(), out.key.end()) - out.key.begin());
+  out.next = out.key[(first + (element.inside_out ? corners.size() - 1 : 1)) % corners.size()];
+  std::sort(out.key.begin(), out.key.end());
+  return out;
+}
+
+/// Faces of all elements, equal ones side by side.
+std::vector<Face> sortedFaces(const std::vector<Element>& elements) {
+  std::vector<Face> faces;
+  for (size_t e = 0; e < elements.size(); ++e)
+    for (size_t f = 0; f < elements[e].type->faces.size(); ++f) faces.push_back(faceOf(elements, e, f));
+  std::sort(faces.begin(), faces.end(),
+            [](const Face& a, const Face& b) { return a.key != b.key ? a.key < b.key : a.element < b.element; });
+  return faces;
+}
+
+/// The mesh of the groups, without triangles yet. @param parts  gets the number of each group's part
+TriangleMesh partsOf(const MshReader& reader, std::map<int64_t, uint16_t>& parts) {
+  TriangleMesh mesh;
+  for (const Vector3d& at_m : reader.positions_m) mesh.positions_m.push_back(at_m.cast<float>());
+  for (const Element& element : reader.elements) parts[element.group] = 0;
+  if (parts.size() >= UINT16_MAX) throw MeshError("has more than " + std::to_string(UINT16_MAX - 1) + " groups");
+  std::set<std::string> known;
+  for (auto& [group, part] : parts) {
+    part = static_cast<uint16_t>(mesh.part_names.size());
+    std::string name = reader.nameOf(group);
+    for (int n = 2; !known.insert(name).second; ++n) name = reader.nameOf(group) + "_" + std::to_string(n);
+    mesh.part_names.push_back(name);
+  }
+  return mesh;
+}
 
 }  // namespace
 
-std::string MshReport::text() const {
-  TextOut out;
-  out << "MSH " << version << ", " << tetrahedra << " tetrahedra (" << turned
-      << " of them turned inside out, turned back), passed over " << other_elements << " other elements, "
-      << unused_nodes << " nodes";
-  return out.str();
+bool isMsh(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".msh";
 }
 
-TetrahedraMesh readMsh(const std::string& path, double unit_scale_m, MshReport* report, const ImportLimits& limits) {
-  if (!std::isfinite(unit_scale_m) || unit_scale_m <= 0) {
-    throw MeshError("mesh file '" + path + "': unit_scale_m must be a finite number > 0, not " +
-                    numberText(unit_scale_m));
-  }
-  requireWithinBounds(path);
-  MshReport own;
-  return memoryFor<MeshError>("reading mesh file '" + path + "'", [&] {
-    try {
-      requireFileSize(path, limits);
-    } catch (const MeshError& error) {
-      throw MeshError("mesh file '" + path + "': " + error.what());
+TriangleMesh readMsh(const std::string& path, double unit_scale_m, const ImportLimits& limits, std::string& note) {
+  MshReader reader(path, unit_scale_m);
+  reader.read();
+  note = reader.note();
+  std::map<int64_t, uint16_t> parts;
+  TriangleMesh mesh = partsOf(reader, parts);
+  const std::vector<Element>& elements = reader.elements;
+  const auto add = [&](const Face& face) {
+    const Element& element = elements[face.element];
+    const size_t before = mesh.triangles.size();
+    appendFace(*element.type, face.face, element.nodes, mesh.triangles);
+    for (size_t t = before; element.inside_out && t < mesh.triangles.size(); ++t)
+      std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+    mesh.parts.resize(mesh.triangles.size(), parts.at(element.group));
+  };
+  const std::vector<Face> faces = sortedFaces(elements);
+  for (size_t i = 0, end = 0; i < faces.size(); i = end) {
+    while (end < faces.size() && faces[end].key == faces[i].key) ++end;
+    if (end - i > 2 || (end - i == 2 && faces[i].next == faces[i + 1].next)) {
+      TextOut out;
+      for (size_t c = 0; c < 3; ++c) out << (c > 0 ? ", " : "") << reader.tags[faces[i].key[c]];
+      throw MeshError("elements overlap at the face of nodes " + out.str() +
+                      "; an element may be of one physical group only");
     }
-    MshReader reader(path, unit_scale_m);
-    reader.read();
-    return reader.used(report ? *report : own);
-  });
+    if (end - i == 2 && elements[faces[i].element].group == elements[faces[i + 1].element].group) continue;
+    for (size_t f = i; f < end; ++f) add(faces[f]);
+    requireAtMost(static_cast<double>(mesh.triangles.size()), limits.max_triangles, "triangles", "max_triangles");
+  }
+  return mesh;
 }
 
 }  // namespace viscera

@@ -4,29 +4,22 @@
 
 #include <string>
 
-#include "model/shape/solid/tetrahedra_mesh.h"
 #include "viscera/model/scene/body_config.h"
+#include "viscera/model/shape/triangle_mesh.h"
 
 namespace viscera {
 
-/// What was read, and what was passed over.
-struct MshReport {
-  std::string version;
-  size_t tetrahedra = 0;
-  size_t other_elements = 0;  ///< points, lines, triangles
-  size_t turned = 0;          ///< tetrahedra of negative volume, whose last two corners changed places
-  size_t unused_nodes = 0;    ///< nodes of no tetrahedron, left out
-  std::string text() const;   ///< one line for a person
-};
+bool isMsh(const std::string& path);
 
-/// Reads the tetrahedra of a Gmsh file, MSH 2.2 or 4.1, ASCII. Points, lines and triangles are passed over, physical
-/// groups ignored.
-/// @param unit_scale_m  metres per file unit, > 0
-/// @throws MeshError  with file and line: missing, binary or of another version; a number that is none, is not finite
-/// or
-///                    missing; counts that do not match; a node that is not there or stands twice; other elements of
-///                    three dimensions, or of higher order; a flat tetrahedron; no tetrahedron at all
-TetrahedraMesh readMsh(const std::string& path, double unit_scale_m, MshReport* report = nullptr,
-                       const ImportLimits& limits = {});
+/// Reads the solid of a Gmsh file: MSH 1, 2.0 to 2.2, 4.0 and 4.1, ASCII and binary; tetrahedra, hexahedra, prisms and
+/// pyramids of first and second order. Each physical group of volumes becomes a closed part, the faces that one of its
+/// elements alone has, facing outward; groups that touch have the same triangles, each facing outward of its own.
+/// Faces of second order are divided at their nodes.
+/// @param unit_scale_m  metres per file unit, > 0   @param note  gets a line on what was read and passed over
+/// @throws MeshError  with line or byte, without the file's name: no element of three dimensions; a number that is
+/// none,
+///                    is not finite or missing; counts that do not match; a node that is not there or stands twice;
+///                    a flat element; elements that overlap at a face, or of third order; more triangles than accepted
+TriangleMesh readMsh(const std::string& path, double unit_scale_m, const ImportLimits& limits, std::string& note);
 
 }  // namespace viscera

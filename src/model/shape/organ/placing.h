@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "model/shape/organ/tissue.h"
-#include "model/shape/solid/tetrahedra_mesh.h"
 #include "viscera/model/scene/body_config.h"
 
 namespace viscera {

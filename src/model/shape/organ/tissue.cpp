@@ -30,20 +30,21 @@ TriangleMesh refined(const TriangleMesh& mesh, double longest_edge_m) {
   return refine(mesh, longest_edge_m);
 }
 
-/// Of a mesh file, or of labels of a scan.
+/// Of a mesh file, or of labels of a scan. Labels and groups of volumes may touch: they have triangles in common.
 class MeshTissue : public Tissue {
  public:
-  MeshTissue(const BodyConfig& config, const std::string& folder) : labels_(config.source == TissueSource::kLabels) {
+  MeshTissue(const BodyConfig& config, const std::string& folder)
+      : labels_(config.source == TissueSource::kLabels), touch_(labels_ || isMsh(config.mesh_file)) {
     read(config, folder);
     const Pose placed = toBodyFrame(mesh_.positions_m, config);
     move(mesh_.positions_m, bodyPose(config));
     file_pose = bodyPose(config) * placed;
     moveDetail(mesh_, file_pose);
-    if (labels_) skin_ = withoutSharedBorders(mesh_);
+    if (touch_) skin_ = withoutSharedBorders(mesh_);
     moments_ = hasMoments(config);
     enclosed_ = config.fill == Fill::kEnclosed;
     gap_m_ = config.gap_m;
-    const bool is_whole = labels_ || enclosed_ || isNetwork(config.structure);
+    const bool is_whole = touch_ || enclosed_ || isNetwork(config.structure);
     bounds_ = is_whole ? boundsOf(mesh_.positions_m) : filledBounds(mesh_);
     planes_ = clampPlanes(config, bounds());
   }
@@ -53,7 +54,7 @@ class MeshTissue : public Tissue {
     try {
       if (enclosed_) {
         std::string note;
-        Solid solid = voxeliseEnclosed(mesh_, spacing_m, gap_m_, moments_, planes_, note, progress);
+        Solid solid = voxeliseEnclosed(touch_ ? skin_ : mesh_, spacing_m, gap_m_, moments_, planes_, note, progress);
         return {std::move(solid), note};
       }
       Solid solid = moments_ ? voxeliseByMoments(mesh_, spacing_m, planes_, &report, progress)
@@ -66,10 +67,10 @@ class MeshTissue : public Tissue {
 
   /// Closed where the solid is, but for gaps between patches: no look into it through a hole.
   TriangleMesh surface(const Solid&) const override {
-    if (labels_) return skin_;
+    if (touch_) return skin_;
     return enclosed_ ? mesh_ : withCaps(mesh_);
   }
-  TriangleMesh shell(double spacing_m) const override { return refined(labels_ ? skin_ : mesh_, spacing_m); }
+  TriangleMesh shell(double spacing_m) const override { return refined(touch_ ? skin_ : mesh_, spacing_m); }
   Eigen::AlignedBox3d bounds() const override { return bounds_; }
 
  private:
@@ -87,8 +88,8 @@ class MeshTissue : public Tissue {
 
   std::string path_;
   TriangleMesh mesh_;
-  TriangleMesh skin_;  ///< of labels: their outer border
-  bool labels_;
+  TriangleMesh skin_;  ///< of parts that may touch: their outer border
+  bool labels_, touch_;
   bool moments_ = false, enclosed_ = false;
   double gap_m_ = 0;
   Eigen::AlignedBox3d bounds_;  ///< of what is filled
@@ -153,28 +154,6 @@ class PhantomTissue : public Tissue {
   NodePlanes planes_;
 };
 
-/// A tetrahedral mesh: it is what it is, no surface and no solid is made of it.
-class TetrahedraTissue : public Tissue {
- public:
-  TetrahedraTissue(const BodyConfig& config, const std::string& folder) {
-    const std::string path = (std::filesystem::path(folder) / config.mesh_file).string();
-    MshReport report;
-    mesh_ = readMsh(path, config.unit_scale_m, &report, config.import_limits);
-    toBodyFrame(mesh_.positions_m, config);
-    move(mesh_.positions_m, bodyPose(config));
-    notes.push_back(path + ": " + report.text());
-  }
-
-  Filling fill(double, const Progress&) const override { throw LatticeError("a .msh file makes no lattice"); }
-  TriangleMesh surface(const Solid&) const override { throw LatticeError("a .msh file makes no lattice"); }
-  TriangleMesh shell(double) const override { throw LatticeError("a .msh file makes no membrane"); }
-  const TetrahedraMesh* tetrahedra() const override { return &mesh_; }
-  Eigen::AlignedBox3d bounds() const override { return boundsOf(mesh_.positions_m); }
-
- private:
-  TetrahedraMesh mesh_;
-};
-
 }  // namespace
 
 Pose bodyPose(const BodyConfig& config) {
@@ -186,8 +165,6 @@ namespace {
 std::unique_ptr<Tissue> tissueOf(const BodyConfig& config, const std::string& folder) {
   switch (config.source) {
     case TissueSource::kMesh:
-      if (config.structure == Structure::kTetrahedra) return std::make_unique<TetrahedraTissue>(config, folder);
-      return std::make_unique<MeshTissue>(config, folder);
     case TissueSource::kLabels:
       return std::make_unique<MeshTissue>(config, folder);
     case TissueSource::kPhantom:

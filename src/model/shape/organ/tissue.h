@@ -8,7 +8,6 @@
 
 #include "model/shape/detail/detail_paint.h"
 #include "model/shape/organ/phantom.h"
-#include "model/shape/solid/tetrahedra_mesh.h"
 #include "viscera/model/scene/body_config.h"
 #include "viscera/model/shape/solid.h"
 
@@ -32,8 +31,6 @@ class Tissue {
   /// The surface as a membrane, with edges of at most or about `spacing_m`.
   /// @throws LatticeError  spacing out of range
   virtual TriangleMesh shell(double spacing_m) const = 0;
-  /// The tetrahedra that the body was given as; none of a body that is divided into cells.
-  virtual const TetrahedraMesh* tetrahedra() const { return nullptr; }
   /// Box that the body lies in [m].
   virtual Eigen::AlignedBox3d bounds() const = 0;
 
