@@ -6,7 +6,6 @@
 #define VISCERA_LAYOUT_H
 #include "layout/awake_bricks.h"
 #include "layout/bindings.h"
-#include "layout/edge_forces.h"
 #include "layout/edge_nodes.h"
 #include "layout/moments.h"
 #include "layout/network_skin.h"

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/gw/gw_kernels.h"
 #include "bench/gw/gw_parts.h"
-#include "solver/tissue/edge_forces.h"
 
 namespace viscera::bench {
 
@@ -40,16 +39,8 @@ Counted countPoint(const GwKernels& kernels, const NetworkLinks& links, double n
 Counted countRuns(const GwKernels& kernels, const NetworkLinks& links, double nodes) {
   // Per spring its ends, then two texels and both u; per node two starts; per link its force.
   const auto springs = static_cast<double>(links.ends.size()), all = static_cast<double>(links.links.size());
-  return {static_cast<double>(kernels.edgeBytes(EdgeLayout::kRuns)), 5 * springs + 2 * nodes + all, 4 * springs + all,
+  return {static_cast<double>(kernels.edgeBytes()), 5 * springs + 2 * nodes + all, 4 * springs + all,
           2 * springs + nodes, (kForce + kNegation) * springs + kAddition * all};
-}
-
-Counted countOwned(const GwKernels& kernels, double owners, double springs, double nodes) {
-  // Per owner its entry and u; per own link two texels and u of the far end; then per node two starts, and per owner
-  // its own sum, per link of others its force.
-  return {static_cast<double>(kernels.edgeBytes(EdgeLayout::kOwned)), 3 * owners + 2 * nodes + 4 * springs,
-          2 * owners + 4 * springs, springs + owners + nodes,
-          (kForce + kNegation + kAddition) * springs + kAddition * (owners + springs)};
 }
 
 void addRow(Table& table, const GwNetwork& network, const std::string& way, const Counted& c, const Printed& p) {
@@ -86,13 +77,9 @@ void countCosts(Report& report) {
     const GwKernels kernels(network);
     const NetworkLinks links = linksOf(network.network());
     const auto nodes = static_cast<double>(network.nodes()), springs = static_cast<double>(network.springs());
-    const Printed edge_centric = printedEdge(nodes, springs);
     addRow(table, network, "point-centric", countPoint(kernels, links, nodes),
            printedPoint(valencesOf(network).most, nodes));
-    addRow(table, network, "edge-centric, runs", countRuns(kernels, links, nodes), edge_centric);
-    JoinedNetwork joined = joinNetworks(network.model);
-    const auto owners = static_cast<double>(orderByOwner(joined).owners.size());
-    addRow(table, network, "edge-centric, owned", countOwned(kernels, owners, springs, nodes), edge_centric);
+    addRow(table, network, "edge-centric, runs", countRuns(kernels, links, nodes), printedEdge(nodes, springs));
   }
   report.add(table, "costs");
 }

@@ -28,10 +28,10 @@ struct Way {
   Gather gather;
 };
 
-Way edgeWay(const std::string& name, EdgeLayout layout) {
-  return {name, StateFormat::kFloat32, [layout](GwKernels& kernels) -> const BlendTarget* {
-            kernels.springForces(layout);
-            kernels.sumForces(layout);
+Way edgeWay(const std::string& name) {
+  return {name, StateFormat::kFloat32, [](GwKernels& kernels) -> const BlendTarget* {
+            kernels.springForces();
+            kernels.sumForces();
             return nullptr;
           }};
 }
@@ -53,13 +53,12 @@ Way blendWay(BlendFormat format, size_t slots, double scale_n) {
           }};
 }
 
-enum { kPoint32, kPoint16, kRuns, kOwned, kBlend8, kBlend16, kBlend32 };
+enum { kPoint32, kPoint16, kRuns, kBlend8, kBlend16, kBlend32 };
 std::vector<Way> waysOf(size_t slots, double largest_sum_n) {
   const double scale_n = scaleOf(largest_sum_n);
   return {pointWay("point-centric, 32 bit state", StateFormat::kFloat32),
           pointWay("point-centric, 16 bit state", StateFormat::kFloat16),
-          edgeWay("edge-centric, runs", EdgeLayout::kRuns),
-          edgeWay("edge-centric, owned", EdgeLayout::kOwned),
+          edgeWay("edge-centric, runs"),
           blendWay(BlendFormat::kFixed8, slots, scale_n),
           blendWay(BlendFormat::kFloat16, slots, scale_n),
           blendWay(BlendFormat::kFloat32, slots, scale_n)};
@@ -90,10 +89,8 @@ void compareForces(Report& report, const GwNetwork& network, Table& table) {
     const Misfit error = errorOf(network, forces_n.back(), truth_n);
     table.add({network.name, static_cast<double>(network.nodes()), way.name, error.max, error.rms});
   }
-  for (size_t edge : {kRuns, kOwned}) {
-    report.checkAtMost(network.name + ": point- against " + ways[edge].name + ", largest difference of a force",
-                       errorOf(network, forces_n[edge], forces_n[kPoint32]).max, kAgreement);
-  }
+  report.checkAtMost(network.name + ": point- against " + ways[kRuns].name + ", largest difference of a force",
+                     errorOf(network, forces_n[kRuns], forces_n[kPoint32]).max, kAgreement);
   report.checkAtMost(network.name + ": blending into 32 bit floats, error of a force",
                      errorOf(network, forces_n[kBlend32], truth_n).max, kBlending32);
 }

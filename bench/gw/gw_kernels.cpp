@@ -10,8 +10,6 @@
 
 #include "bench/gw/gw_units.h"
 #include "layout/bindings.h"
-#include "layout/edge_forces.h"
-#include "solver/tissue/edge_forces.h"
 
 namespace viscera::bench {
 
@@ -76,7 +74,6 @@ GwKernels::GwKernels(const GwNetwork& network, StateFormat format)
       point_pass_(compile("gw_point.comp", {"ONE_NEIGHBOUR"})),
       edge_runs_(compile("gw_edge.comp", {"PER_LINK"})),
       edge_each_(compile("gw_edge.comp")),
-      owned_(compile("gw_owned.comp")),
       sum_(compile("gw_sum.comp")),
       inverse_mass_(inverseMasses(network)),
       forces_(network.slots()),
@@ -92,12 +89,6 @@ GwKernels::GwKernels(const GwNetwork& network, StateFormat format)
   links_ = gpu::Buffer<layout::Link>(links.links);
   starts_ = gpu::Buffer<uint32_t>(links.starts);
   springs_ = gpu::Buffer<layout::SpringEnds>(links.ends);
-  JoinedNetwork joined = joinNetworks(network.model);
-  const EdgeForces by_owner = orderByOwner(joined);
-  owned_links_ = gpu::Buffer<layout::Link>(joined.links);
-  owners_ = gpu::Buffer<layout::SpringOwner>(by_owner.owners);
-  owned_forces_ = gpu::Buffer<layout::vec4>(by_owner.places());
-  owned_starts_ = gpu::Buffer<uint32_t>(by_owner.starts);
   makeViews();
   makeOrder();
   for (State& state : states_) state = makeState();
@@ -107,13 +98,9 @@ void GwKernels::makeViews() {
   links_view_ = TexelArray(links_.id(), GL_RGBA32UI);
   starts_view_ = TexelArray(starts_.id(), GL_R32UI);
   springs_view_ = TexelArray(springs_.id(), GL_RGBA32UI);
-  owned_links_view_ = TexelArray(owned_links_.id(), GL_RGBA32UI);
-  owners_view_ = TexelArray(owners_.id(), GL_RGBA32UI);
-  owned_starts_view_ = TexelArray(owned_starts_.id(), GL_R32UI);
   mass_view_ = TexelArray(inverse_mass_.id(), GL_R32F);
   forces_view_ = TexelArray(forces_.id(), GL_RGBA32F);
   link_forces_view_ = TexelArray(link_forces_.id(), GL_RGBA32F);
-  owned_forces_view_ = TexelArray(owned_forces_.id(), GL_RGBA32F);
   spring_forces_view_ = TexelArray(spring_forces_.id(), GL_RGBA32F);
 }
 
@@ -166,28 +153,16 @@ void GwKernels::pointPasses() {
   }
 }
 
-void GwKernels::springForces(EdgeLayout layout) {
+void GwKernels::springForces() {
   bindMesh();
-  if (layout == EdgeLayout::kOwned) {
-    owned_links_view_.bind(layout::kUnitLinks);
-    owners_view_.bind(layout::kUnitSpringOwners);
-    owned_forces_.bindStorage(0);
-    run(owned_, owners_.size());
-  } else {
-    link_forces_.bindStorage(0);
-    run(edge_runs_, network_.springs());
-  }
+  link_forces_.bindStorage(0);
+  run(edge_runs_, network_.springs());
 }
 
-void GwKernels::sumForces(EdgeLayout layout) {
+void GwKernels::sumForces() {
   forces_.bindStorage(0);
-  if (layout == EdgeLayout::kOwned) {
-    owned_starts_view_.bind(layout::kUnitLinkStarts);
-    owned_forces_view_.bind(layout::kUnitLinkForces);
-  } else {
-    starts_view_.bind(layout::kUnitLinkStarts);
-    link_forces_view_.bind(layout::kUnitLinkForces);
-  }
+  starts_view_.bind(layout::kUnitLinkStarts);
+  link_forces_view_.bind(layout::kUnitLinkForces);
   run(sum_, network_.slots());
 }
 
@@ -251,11 +226,8 @@ size_t GwKernels::pointBytes() const {
   return bytesOf(links_) + bytesOf(starts_) + bytesOf(forces_) + states_[0].u.bytes() + bytesOf(inverse_mass_);
 }
 
-size_t GwKernels::edgeBytes(EdgeLayout layout) const {
+size_t GwKernels::edgeBytes() const {
   const size_t nodes = bytesOf(forces_) + states_[0].u.bytes() + bytesOf(inverse_mass_);
-  if (layout == EdgeLayout::kOwned) {
-    return nodes + bytesOf(owned_links_) + bytesOf(owners_) + bytesOf(owned_starts_) + bytesOf(owned_forces_);
-  }
   return nodes + bytesOf(springs_) + bytesOf(links_) + bytesOf(starts_) + bytesOf(link_forces_);
 }
 

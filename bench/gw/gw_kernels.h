@@ -7,15 +7,9 @@
 #include "bench/gw/gw_blend.h"
 #include "gpu/buffer.h"
 #include "gpu/program.h"
-#include "layout/edge_forces.h"
 
 namespace viscera::bench {
 
-/// Where the spring pass of the edge-centric way leaves its forces, and how they are summed.
-enum class EdgeLayout {
-  kRuns,  ///< a pass over springs; each force is stored twice, a node's lie one behind the other
-  kOwned  ///< as the solver: a pass over nodes, which own as many springs each (solver/tissue/edge_forces.h)
-};
 /// What components of displacements and velocities are stored in.
 enum class StateFormat { kFloat32, kFloat16 };
 
@@ -35,8 +29,8 @@ class GwKernels {
   /// @{
   void pointForces();                       ///< point-centric, one pass
   void pointPasses();                       ///< point-centric, a pass per neighbour: GW's way with varying valence
-  void springForces(EdgeLayout layout);     ///< edge-centric, first pass
-  void sumForces(EdgeLayout layout);        ///< edge-centric, second pass, as a gather
+  void springForces();                      ///< edge-centric, a pass over springs: each force is stored at both links
+  void sumForces();                         ///< edge-centric, second pass, as a gather over each node's links
   void forceTexture();                      ///< edge-centric as GW did it, first pass
   void scatterForces(BlendTarget& target);  ///< the second one, by blending
   /// @}
@@ -50,7 +44,7 @@ class GwKernels {
   Field displacements() const;  ///< [slots, m]
   /// Bytes of the buffers that one way needs.
   size_t pointBytes() const;
-  size_t edgeBytes(EdgeLayout layout) const;
+  size_t edgeBytes() const;
 
  private:
   struct State {
@@ -65,15 +59,13 @@ class GwKernels {
 
   const GwNetwork& network_;
   StateFormat format_;
-  gpu::Program point_, point_pass_, edge_runs_, edge_each_, owned_, sum_, integrate_, integrate_target_;
-  gpu::Buffer<layout::Link> links_, owned_links_;
-  gpu::Buffer<uint32_t> starts_, owned_starts_, order_;
-  gpu::Buffer<layout::SpringOwner> owners_;
+  gpu::Program point_, point_pass_, edge_runs_, edge_each_, sum_, integrate_, integrate_target_;
+  gpu::Buffer<layout::Link> links_;
+  gpu::Buffer<uint32_t> starts_, order_;
   gpu::Buffer<layout::SpringEnds> springs_;
   gpu::Buffer<float> inverse_mass_;
-  gpu::Buffer<layout::vec4> forces_, link_forces_, spring_forces_, owned_forces_;
-  TexelArray links_view_, owned_links_view_, starts_view_, owned_starts_view_, owners_view_, springs_view_, mass_view_,
-      forces_view_, link_forces_view_, spring_forces_view_, owned_forces_view_;
+  gpu::Buffer<layout::vec4> forces_, link_forces_, spring_forces_;
+  TexelArray links_view_, starts_view_, springs_view_, mass_view_, forces_view_, link_forces_view_, spring_forces_view_;
   State states_[2];
   int current_ = 0;
   bool first_ = true;

@@ -13,13 +13,11 @@ namespace viscera::bench {
 void countCosts(Report& report);
 /// GW Table 2 (valence 6, up to 512 x 512 nodes) and the comparison at valences 3 to 12: time of every stage.
 void measureStages(Report& report);
-/// Substeps per second of the solver in both of its ways (solver.spring_forces), on both backends.
-void measureSolver(Report& report);
 /// What GW had no column for: error of the forces of every way against float64.
 void measureForceErrors(Report& report);
 /// Error of the motion against float64 over time, hanging cloth and heart.
 void measureMotionErrors(Report& report);
-/// Share of the colliding pairs that the searches find, against brute force.
+/// Share of the colliding pairs that the search finds, against brute force.
 void collisionRecall(Report& report, bool brief);
 
 }  // namespace viscera::bench

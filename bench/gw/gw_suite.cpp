@@ -9,7 +9,6 @@ namespace viscera::bench {
 void gwSuite(Report& report) {
   countCosts(report);
   measureStages(report);
-  measureSolver(report);
   measureForceErrors(report);
   measureMotionErrors(report);
   collisionRecall(report, report.isShort());

@@ -4,7 +4,6 @@
 // gw_sum.comp - edge-centric forces (GW 4.2), accumulation as a gather over a node's run, in a fixed order.
 // Owner: bench/gw/gw_kernels.h
 // in  forces of springs, node by node     out  forces [nodes] N
-// After gw_owned.comp a run begins with the sum of the springs that the node owns.
 #include "gw_mesh.glsl"
 
 layout(binding = kUnitLinkForces) uniform samplerBuffer link_forces;

@@ -13,6 +13,7 @@ namespace viscera::layout {
 
 const uint kUnitInverseMass = 3u;  // r32f [nodes] 1/kg; 0 where fixed
 const uint kUnitForces = 5u;       // rgba32f [nodes] N, or the texture that was blended into
+const uint kUnitLinkForces = 12u;  // rgba32f [2 * springs or springs] N
 const uint kUnitSprings = 15u;     // rgba32ui, as kBindSprings
 
 #ifdef __cplusplus

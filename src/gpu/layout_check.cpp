@@ -6,7 +6,6 @@
 
 #include "layout/awake_bricks.h"
 #include "layout/bindings.h"
-#include "layout/edge_forces.h"
 #include "layout/network_skin.h"
 #include "layout/surface_node.h"
 #include "layout/wind.h"
@@ -57,11 +56,6 @@ SIZE(SpringEnds, 16);
 AT(SpringEnds, b, 4);
 AT(SpringEnds, link_a, 8);
 AT(SpringEnds, link_b, 12);
-
-SIZE(SpringOwner, 16);
-AT(SpringOwner, first, 4);
-AT(SpringOwner, end, 8);
-AT(SpringOwner, place, 12);
 
 SIZE(ToolMotion, 128);
 AT(ToolMotion, to, 16);
@@ -145,10 +139,9 @@ AT(AwakeList, bricks, 16);
 #undef AT
 #undef SIZE
 
-constexpr uint kUnits[] = {kUnitDisplacement, kUnitVelocity, kUnitBricks,      kUnitSpringStiffness,
-                           kUnitNodeMass,     kUnitCellBulk, kUnitCellForces,  kUnitIncrement,
-                           kUnitPositions,    kUnitLinks,    kUnitLinkStarts,  kUnitSpringOwners,
-                           kUnitLinkForces,   kUnitRest,     kUnitForceStarts, kUnitCellMoments};
+constexpr uint kUnits[] = {kUnitDisplacement, kUnitVelocity,   kUnitBricks,     kUnitSpringStiffness, kUnitNodeMass,
+                           kUnitCellBulk,     kUnitCellForces, kUnitIncrement,  kUnitPositions,       kUnitLinks,
+                           kUnitLinkStarts,   kUnitRest,       kUnitCellMoments};
 constexpr uint kDrawingUnits[] = {kUnitShownCharts, kUnitCharts, kUnitMaterials, kUnitColors, kUnitReliefs, kUnitGrain};
 
 /// OpenGL promises 16 units to a stage, and 80 to all stages together.

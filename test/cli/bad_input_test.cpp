@@ -54,10 +54,14 @@ TEST_F(BadInput, SceneThatIsNotThere) {
                 {folder_.file("none.yaml")});
 }
 
-TEST_F(BadInput, IntegratorsThatWereRemoved) {
-  for (const std::string integrator : {"multigrid", "auto"})
+TEST_F(BadInput, KeysAndValuesThatWereRemoved) {
+  for (const std::string integrator : {"multigrid", "auto", "verlet_paper"})
     expectRunRefusal({"--set", "solver.integrator=" + integrator},
                      {"'solver.integrator: " + integrator + "' was removed", "use leapfrog"});
+  expectRunRefusal({"--set", "bodies[0].structure=tetrahedra"}, {"was removed", "use lattice", "Gmsh"});
+  expectRunRefusal({"--set", "solver.spring_forces=edge"}, {"'solver.spring_forces' was removed", "leave it out"});
+  for (const std::string key : {"search=grid", "partitions=2", "window=8"})
+    expectRunRefusal({"--set", "collision." + key}, {"was removed", "the search for contacts is complete"});
   expectRefusal({"settle", folder_.file("none.yaml")}, {folder_.file("none.yaml")});
 }
 

@@ -90,10 +90,10 @@ TEST_P(GpuErrorsOfBlocks, CountAsTheDriverDoes) {
   Limits limits = driverLimits();
   limits.loads = GetParam();
   pretendDriverLimits(limits);
-  std::vector<std::string> tabulated = kAhead, texels = kAhead, staggered = {"GROUP_SIZE 64", "LATTICE", "STAGGERED"};
+  std::vector<std::string> tabulated = kAhead, texels = kAhead;
   tabulated.insert(tabulated.end(), {"NETWORK", "PARTS", "MOMENTS", "VOLUME"});
   texels.push_back("TEXELS");
-  for (const auto& features : {kAhead, tabulated, texels, staggered}) {
+  for (const auto& features : {kAhead, tabulated, texels}) {
     for (const char* kernel : {"collision_meet.comp", "measure.comp"}) {
       const Program program = Program::compute(kernel, features);
       const std::vector<std::string> defines = withLoads(kernel, features);

@@ -116,7 +116,7 @@ environment:
   tissue_rotation_deg: [17, 18, 19]
   scan_origin_m: [0.71, 0.72, 0.73]
   wind: {velocity_m_per_s: [2.1, 2.2, 2.3], gust_ratio: 0.24, gust_period_s: 2.5, air_density_kg_per_m3: 1.26, drag_coefficient: 0.27}
-collision: {enabled: true, search: staggered, distance_m: 0.028, friction: 0.29, restitution: 0.301, partitions: 5, window: 9}
+collision: {enabled: true, distance_m: 0.028, friction: 0.29, restitution: 0.301}
 obstacles:
   - name: table
     shape: capsule
@@ -132,7 +132,7 @@ obstacles:
     restitution: 0.411
 solver: {tick_hz: 90, integrator: pd, dt_fraction: 0.91, dt_fraction_strained: 0.41, measured_limit: false, start: equilibrium, substeps: 93, iterations: 94,
          compensated: true, governor: false, recovery_s: 0.95, sleep_distance_m: 0.96, sleep_speed_m_per_s: 0.0097, max_substeps: 92,
-         device: 3, backend: cpu, threads: 2, real_time_factor: 1.97, spring_forces: edge}
+         device: 3, backend: cpu, threads: 2, real_time_factor: 1.97}
 threads:
   - {name: suture, material: silk, usp: 5-0, radius_m: 0.00012, young_modulus_pa: 1.3e9, density_kg_per_m3: 1400, bending_share: 0.15, drag_per_s: 1.6,
      length_m: 0.17, spacing_m: 0.0018, position_m: [0.19, 0.21, 0.22], path: [{position_m: [0.23, 0.24, 0.25]}], start: free, end: fixed,
@@ -346,7 +346,6 @@ TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   EXPECT_EQ(scene.solver.max_substeps, 92);
   EXPECT_EQ(scene.solver.device, 3);
   EXPECT_EQ(scene.solver.real_time_factor, 1.97);
-  EXPECT_EQ(scene.solver.spring_forces, SpringForces::kEdge);
 }
 
 TEST(SceneKeys, EveryKeyOfTheSurroundingsReachesItsField) {
@@ -359,12 +358,9 @@ TEST(SceneKeys, EveryKeyOfTheSurroundingsReachesItsField) {
   EXPECT_EQ(wind.drag_coefficient, 0.27);
   const CollisionConfig& collision = scene.collision;
   EXPECT_TRUE(collision.enabled);
-  EXPECT_EQ(collision.search, CollisionSearch::kStaggered);
   EXPECT_EQ(collision.distance_m, 0.028);
   EXPECT_EQ(collision.friction, 0.29);
   EXPECT_EQ(collision.restitution, 0.301);
-  EXPECT_EQ(collision.partitions, 5);
-  EXPECT_EQ(collision.window, 9);
   const ObstacleConfig& obstacle = scene.obstacles.at(0);
   EXPECT_EQ(obstacle.name, "table");
   EXPECT_EQ(obstacle.shape, ObstacleShape::kCapsule);

@@ -270,18 +270,5 @@ TEST_P(GrasperSession, HoldsAndLetsGoAsAHandClosesAndOpensIt) {
 }
 VISCERA_ON_EVERY_BACKEND(GrasperSession);
 
-TEST(ClipScenes, AreRefusedWhereSubstepsCannotBeToldAfterwards) {
-  const std::string text = "name: one\nbodies: [{name: block, source: box}]\nstyluses: [{name: hand, button1: clip}]\n";
-  parseScene(text, "clip.yaml", {});
-  try {
-    parseScene(text, "clip.yaml", {"solver.integrator=verlet_paper"});
-    FAIL() << "verlet_paper knows no clips";
-  } catch (const SceneError& error) {
-    EXPECT_NE(std::string(error.what()).find("mode clip needs solver.integrator leapfrog or pd, not verlet_paper"),
-              std::string::npos)
-        << error.what();
-  }
-}
-
 }  // namespace
 }  // namespace viscera

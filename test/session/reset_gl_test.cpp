@@ -89,10 +89,8 @@ Scene coarseBlock() {
   return scene;
 }
 
-Scene withCollisions(Scene scene, CollisionSearch search = CollisionSearch::kGrid) {
+Scene withCollisions(Scene scene) {
   scene.collision.enabled = true;
-  scene.collision.search = search;
-  scene.collision.partitions = 2;
   return scene;
 }
 
@@ -155,10 +153,9 @@ Scene blockOf(Integrator integrator, double poisson_ratio = 0.4) {
   return scene;
 }
 
-Scene explicitBlock(SpringForces forces, double poisson_ratio) {
+Scene explicitBlock(double poisson_ratio) {
   Scene scene = blockOf(Integrator::kLeapfrog, poisson_ratio);
   scene.bodies[0].structure = Structure::kExplicit;
-  scene.solver.spring_forces = forces;
   return scene;
 }
 
@@ -216,7 +213,7 @@ std::vector<Disturbance> integratorDisturbances() {
 }
 
 std::vector<Disturbance> surroundingDisturbances() {
-  const auto wound = [](CollisionSearch search) { return [search] { return withCollisions(blockScene(), search); }; };
+  const auto wound = [] { return withCollisions(blockScene()); };
   const auto carried = [] {
     Scene scene = withPlough();
     scene.obstacles[0].frame = "arm";
@@ -226,11 +223,9 @@ std::vector<Disturbance> surroundingDisturbances() {
   const auto carry = [](Session& session, int tick) {
     session.setObstacleFrame(0, {Vector3d(0.001 * tick, 0, 0), Quaterniond::Identity()});
   };
-  const auto staggeredCloth = [] { return withCollisions(clothScene(), CollisionSearch::kStaggered); };
   return {
-      {"wound_that_touches", wound(CollisionSearch::kGrid), cutAndClose, 30, wasCut},
-      {"wound_that_touches_staggered", wound(CollisionSearch::kStaggered), cutAndClose, 30, wasCut},
-      {"wound_and_trip", wound(CollisionSearch::kGrid), cutAndTrip, 30, tripped},
+      {"wound_that_touches", wound, cutAndClose, 30, wasCut},
+      {"wound_and_trip", wound, cutAndTrip, 30, tripped},
       {"bodies_that_meet", meetingBlocks, noHands, 25, moves},
       {"bodies_that_meet_and_are_cut", meetingBlocks, cutAndClose, 30, wasCut},
       {"obstacle", withPlough, noHands, 25, moves},
@@ -238,19 +233,11 @@ std::vector<Disturbance> surroundingDisturbances() {
       {"carried_obstacle", carried, noHands, 25, moves, carry},
       {"cloth_in_wind", [] { return clothScene(); }, noHands, 25, moves},
       {"cloth_is_cut", [] { return clothScene(); }, cutAndClose, 30, wasCut},
-      {"cloth_staggered", staggeredCloth, bothHands, 30, wasCut},
   };
 }
 
 std::vector<Disturbance> networkDisturbances() {
-  const auto block = [](SpringForces forces, double poisson_ratio) {
-    return [forces, poisson_ratio] { return explicitBlock(forces, poisson_ratio); };
-  };
-  const auto edgeCloth = [] {
-    Scene scene = clothScene();
-    scene.solver.spring_forces = SpringForces::kEdge;
-    return scene;
-  };
+  const auto block = [](double poisson_ratio) { return [poisson_ratio] { return explicitBlock(poisson_ratio); }; };
   const auto clothUnder = [](Integrator integrator) {
     return [integrator] {
       Scene scene = clothScene();
@@ -260,12 +247,10 @@ std::vector<Disturbance> networkDisturbances() {
     };
   };
   return {
-      {"explicit", block(SpringForces::kPoint, 0.25), bothHands, 30, holds},
-      {"explicit_edges", block(SpringForces::kEdge, 0.25), bothHands, 30, holds},
-      {"explicit_volumes", block(SpringForces::kPoint, 0.4), cutAndClose, 30, wasCut},
-      {"explicit_edges_volumes", block(SpringForces::kEdge, 0.4), cutAndClose, 30, wasCut},
-      {"explicit_trip", block(SpringForces::kPoint, 0.25), swingToNoPlace, 14, tripped},
-      {"cloth_edges", edgeCloth, bothHands, 30, wasCut},
+      {"explicit", block(0.25), bothHands, 30, holds},
+      {"explicit_volumes", block(0.4), cutAndClose, 30, wasCut},
+      {"explicit_trip", block(0.25), swingToNoPlace, 14, tripped},
+      {"cloth_is_held", [] { return clothScene(); }, bothHands, 30, wasCut},
       {"cloth_pd", clothUnder(Integrator::kPd), bothHands, 30, wasCut},
   };
 }

@@ -26,12 +26,8 @@ class NetworkForces : public OnBackend {
  protected:
   void expectTrueForces(const Model& model, const HostState& state) {
     const std::vector<Vector3d> truth = trueForces(model, state);
-    const auto point = forcesOf(GetParam(), model, state, SpringForces::kPoint);
-    const auto edge = forcesOf(GetParam(), model, state, SpringForces::kEdge);
     const double limit = GetParam() == "gpu" && !gpu::isSoftware() ? kForceOnGpus : kForce;
-    EXPECT_LT(forceDifference(point, truth), limit);
-    EXPECT_LT(forceDifference(edge, truth), limit);
-    EXPECT_LT(forceDifference(edge, point), limit) << "the two schemes";
+    EXPECT_LT(forceDifference(forcesOf(GetParam(), model, state), truth), limit);
   }
   void expectLikeReference(const Model& model, const Scene& scene, double displacement = kDisplacement) {
     const auto solver = make(model, scene);
@@ -70,11 +66,9 @@ TEST_P(NetworkForces, OfSmallStrainsHaveAllTheirDigits) {
 
 TEST_P(NetworkForces, VanishAtRest) {
   const Model model = modelOf({undamped(clothBody(12, 9, 0.01, 0.1)), undamped(graphBody(200, 500, 2))});
-  for (SpringForces scheme : kSchemes) {
-    for (const Vector3d& force : forcesOf(GetParam(), model, restState(model), scheme)) {
-      // Rest lengths are roundings of the distances: a prestrain of 1e-16 of l0^2 in springs of 20 N/m and 0.1 m.
-      EXPECT_LT(force.norm(), 1e-13);
-    }
+  for (const Vector3d& force : forcesOf(GetParam(), model, restState(model))) {
+    // Rest lengths are roundings of the distances: a prestrain of 1e-16 of l0^2 in springs of 20 N/m and 0.1 m.
+    EXPECT_LT(force.norm(), 1e-13);
   }
 }
 
@@ -86,10 +80,8 @@ TEST_P(NetworkForces, OfALatticeOfLinksAreTheImplicitOnes) {
     const HostState state = scatteredState(implicit, 1e-3, 0, 11);
     HostState of_links = restState(links);
     of_links.displacement_m = state.displacement_m;
-    const std::vector<Vector3d> truth = forcesOf(GetParam(), implicit, state, SpringForces::kPoint);
-    for (SpringForces scheme : kSchemes) {
-      EXPECT_LT(forceDifference(forcesOf(GetParam(), links, of_links, scheme), truth), kForce) << nameOf(scheme);
-    }
+    const std::vector<Vector3d> truth = forcesOf(GetParam(), implicit, state);
+    EXPECT_LT(forceDifference(forcesOf(GetParam(), links, of_links), truth), kForce);
   }
 }
 
@@ -103,22 +95,18 @@ TEST_P(NetworkForces, OfAPairAreAntisymmetricToTheBitAndAllOfThemSumToNothing) {
     Body body;
     adoptNetwork(pair, body);
     const Model model = modelOf({undamped(body)});
-    for (SpringForces scheme : kSchemes) {
-      const auto forces = forcesOf(GetParam(), model, scatteredState(model, 0.01, 0, 12), scheme);
-      ASSERT_NE(forces[0], Vector3d::Zero().eval());
-      EXPECT_EQ(forces[0], (-forces[1]).eval());
-    }
+    const auto forces = forcesOf(GetParam(), model, scatteredState(model, 0.01, 0, 12));
+    ASSERT_NE(forces[0], Vector3d::Zero().eval());
+    EXPECT_EQ(forces[0], (-forces[1]).eval());
   }
   const Model model = modelOf({undamped(graphBody(500, 2000, 4, strained()))});
-  for (SpringForces scheme : kSchemes) {
-    Vector3d sum = Vector3d::Zero();
-    double sizes = 0;
-    for (const Vector3d& force : forcesOf(GetParam(), model, scatteredState(model, 0.01, 0, 13), scheme)) {
-      sum += force;
-      sizes += force.norm();
-    }
-    EXPECT_LT(sum.norm() / sizes, kSum) << nameOf(scheme);
+  Vector3d sum = Vector3d::Zero();
+  double sizes = 0;
+  for (const Vector3d& force : forcesOf(GetParam(), model, scatteredState(model, 0.01, 0, 13))) {
+    sum += force;
+    sizes += force.norm();
   }
+  EXPECT_LT(sum.norm() / sizes, kSum);
 }
 
 /// A lattice beside networks: none feels another, whatever the kernels have to tell apart.
@@ -130,16 +118,12 @@ TEST_P(NetworkForces, OfBodiesOfEveryKindAtOnceAreThoseOfTheReference) {
 
 TEST_P(NetworkForces, MoveNodesLikeTheReferenceWithDragDashpotAndGravity) {
   const Vector3d gravity(0.3, -0.2, -9.81);
-  for (SpringForces scheme : kSchemes) {
-    SCOPED_TRACE(nameOf(scheme));
-    for (const Model& model : {mixedModel(), modelOf({graphBody(65, 200, 3, strained())}),
-                               modelOf({clothBody(17, 13, 0.01, 0.3)}), modelOf({graphBody(1, 0, 1)})}) {
-      Scene scene = sceneFor(model, kNetworkForcesSubsteps, {}, gravity);
-      scene.solver.spring_forces = scheme;
-      expectLikeReference(model, scene);
-      scene.solver.compensated = true;
-      expectLikeReference(model, scene, kCompensatedSum);
-    }
+  for (const Model& model : {mixedModel(), modelOf({graphBody(65, 200, 3, strained())}),
+                             modelOf({clothBody(17, 13, 0.01, 0.3)}), modelOf({graphBody(1, 0, 1)})}) {
+    Scene scene = sceneFor(model, kNetworkForcesSubsteps, {}, gravity);
+    expectLikeReference(model, scene);
+    scene.solver.compensated = true;
+    expectLikeReference(model, scene, kCompensatedSum);
   }
 }
 
@@ -160,15 +144,9 @@ TEST_P(NetworkForces, ResetRestoresTheHash) {
 TEST_P(NetworkForces, AreMeasuredLikeTheReferences) {
   constexpr double kSums = 1e-5;  // float32 sums over nodes
   const std::vector<Model> models = {modelOf({graphBody(300, 900, 6, strained())}), mixedModel()};
-  for (const auto& [of, scheme] : {std::pair(0, SpringForces::kPoint),
-                                   {1, SpringForces::kPoint},
-                                   {0, SpringForces::kEdge},
-                                   {1, SpringForces::kEdge}}) {
-    SCOPED_TRACE(nameOf(scheme));
-    const Model& model = models[of];
+  for (const Model& model : models) {
     Scene scene = sceneFor(model, 1);
     scene.solver.governor = true;
-    scene.solver.spring_forces = scheme;
     const auto solver = make(model, scene);
     const HostState start = scatteredState(model, 1e-3, 0.5, 8);
     solver->writeState(start);
@@ -215,13 +193,9 @@ class NetworkHash : public GpuTest {};
 TEST_F(NetworkHash, IsTheSameForEveryGroupSizeAndEveryRun) {
   const Model model = mixedModel();
   for (Integrator integrator : {Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kPd}) {
-    for (SpringForces scheme : kSchemes) {
-      if (scheme == SpringForces::kEdge && integrator != Integrator::kLeapfrog) continue;
-      SCOPED_TRACE(::testing::Message() << "integrator " << static_cast<int>(integrator) << ", " << nameOf(scheme));
-      Scene scene = sceneWith(integrator, model, 4, 0.5, 6, {}, Vector3d(0, 0, -9.81));
-      scene.solver.spring_forces = scheme;
-      expectSameHashForEveryGroupSize(model, scene, scatteredState(model, 1e-3, 0.5, 11), std::vector<ToolMotions>(2));
-    }
+    SCOPED_TRACE(::testing::Message() << "integrator " << static_cast<int>(integrator) << ", ");
+    Scene scene = sceneWith(integrator, model, 4, 0.5, 6, {}, Vector3d(0, 0, -9.81));
+    expectSameHashForEveryGroupSize(model, scene, scatteredState(model, 1e-3, 0.5, 11), std::vector<ToolMotions>(2));
   }
 }
 

@@ -12,11 +12,6 @@
 
 namespace viscera::test {
 
-constexpr SpringForces kSchemes[] = {SpringForces::kPoint, SpringForces::kEdge};
-inline const char* nameOf(SpringForces scheme) {
-  return scheme == SpringForces::kPoint ? "point-centric" : "edge-centric";
-}
-
 /// The nodes of all bodies displaced and moving at random, but for those that are fixed.
 inline HostState scatteredState(const Model& model, double size_m, double speed_m_per_s, uint32_t seed) {
   std::mt19937 random(seed);
@@ -57,11 +52,8 @@ inline Model mixedModel() {
 
 /// Forces [N] on every node in a state at rest, from the velocity that leapfrog's first half kick gives; without drag
 /// and gravity.
-inline std::vector<Vector3d> forcesOf(const std::string& backend, const Model& model, const HostState& state,
-                                      SpringForces scheme) {
-  Scene scene = sceneFor(model, 1);
-  scene.solver.spring_forces = scheme;
-  const auto solver = makeBackend(backend, model, scene);
+inline std::vector<Vector3d> forcesOf(const std::string& backend, const Model& model, const HostState& state) {
+  const auto solver = makeBackend(backend, model, sceneFor(model, 1));
   solver->writeState(state);
   solver->step({});
   const HostState after = solver->readState();

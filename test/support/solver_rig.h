@@ -168,11 +168,9 @@ inline StylusConfig wideTools() {
 class BesideReference : public OnBackend {
  protected:
   BesideReference(size_t substeps, const StylusConfig& both) : substeps_(substeps), styluses_{both, both} {}
-  void use(Model model, SpringForces scheme = SpringForces::kPoint) {
+  void use(Model model) {
     model_ = std::move(model);
-    Scene scene = sceneFor(model_, static_cast<int>(substeps_), styluses_);
-    scene.solver.spring_forces = scheme;
-    solver_ = make(model_, scene);
+    solver_ = make(model_, sceneFor(model_, static_cast<int>(substeps_), styluses_));
     renewReference();
   }
   void renewReference() {

@@ -63,19 +63,15 @@ TEST_P(NetworkOracle, HangingChainSagsExactly) {
   // 2 omega_1 settles fastest.
   body.material.drag_per_s = 4 * std::sqrt(kStiffness_n_per_m / kMass_kg) * std::sin(M_PI / (4.0 * kMasses + 2));
   const Model model = modelOf({body});
-  for (SpringForces scheme : kSchemes) {
-    Scene scene = sceneFor(model, 100, {}, Vector3d(0, 0, kGravity));
-    scene.solver.spring_forces = scheme;
-    const auto solver = make(model, scene);
-    for (int t = 0; t < 60; ++t) solver->step({});
-    const HostState state = solver->readState();
-    const double unit = kMass_kg * kGravity / kStiffness_n_per_m;
-    const double deepest = unit * (kMasses * kMasses - kMasses * (kMasses - 1) / 2.0);
-    for (uint32_t slot : body.lattice.active_slots) {
-      const int j = placeOf(body, slot);
-      EXPECT_NEAR(state.displacement_m[slot].z, unit * (kMasses * j - j * (j - 1) / 2.0), 1e-5 * deepest)
-          << "mass " << j;
-    }
+  Scene scene = sceneFor(model, 100, {}, Vector3d(0, 0, kGravity));
+  const auto solver = make(model, scene);
+  for (int t = 0; t < 60; ++t) solver->step({});
+  const HostState state = solver->readState();
+  const double unit = kMass_kg * kGravity / kStiffness_n_per_m;
+  const double deepest = unit * (kMasses * kMasses - kMasses * (kMasses - 1) / 2.0);
+  for (uint32_t slot : body.lattice.active_slots) {
+    const int j = placeOf(body, slot);
+    EXPECT_NEAR(state.displacement_m[slot].z, unit * (kMasses * j - j * (j - 1) / 2.0), 1e-5 * deepest) << "mass " << j;
   }
 }
 
@@ -86,35 +82,32 @@ TEST_P(NetworkOracle, ModesOfAChainSwingAtTheirExactFrequencies) {
   constexpr double kAmplitude_m = 1e-3;
   const Body body = chain(kMasses + 2, true);
   const Model model = modelOf({body});
-  for (SpringForces scheme : kSchemes) {
-    Scene scene = sceneFor(model, 1);
-    scene.solver.spring_forces = scheme;
-    const auto solver = make(model, scene);
-    const double dt = solver->dt_s();
-    for (int p : {1, 4, kMasses}) {
-      const double omega = 2 * std::sqrt(kStiffness_n_per_m / kMass_kg) * std::sin(p * M_PI / (2.0 * (kMasses + 1)));
-      const double theta = std::acos(1 - 0.5 * omega * omega * dt * dt);
-      const auto exact = [&](uint32_t slot, int n) {
-        return kAmplitude_m * std::sin(p * M_PI * placeOf(body, slot) / (kMasses + 1)) * std::cos(n * theta);
-      };
-      HostState state = restState(model);
-      for (uint32_t slot : body.lattice.active_slots) {
-        if (isFixed(body.lattice.nodes[slot])) continue;
-        state.displacement_m[slot].z = static_cast<float>(exact(slot, 0));
-        state.velocity_m_per_s[slot].z = static_cast<float>((exact(slot, 0) - exact(slot, -1)) / dt);
-      }
-      solver->writeState(state, true);
-      double worst = 0;
-      for (int n = 1; n <= kSteps; ++n) {
-        solver->step({});
-        state = solver->readState();
-        for (uint32_t slot : body.lattice.active_slots) {
-          worst = std::max(worst, std::abs(state.displacement_m[slot].z - exact(slot, n)));
-        }
-      }
-      // Roundings of 300 substeps, and k, m and dt as float32 numbers: a phase error of 1e-7 per radian.
-      EXPECT_LT(worst / kAmplitude_m, 3e-5) << "mode " << p << ", " << nameOf(scheme);
+  Scene scene = sceneFor(model, 1);
+  const auto solver = make(model, scene);
+  const double dt = solver->dt_s();
+  for (int p : {1, 4, kMasses}) {
+    const double omega = 2 * std::sqrt(kStiffness_n_per_m / kMass_kg) * std::sin(p * M_PI / (2.0 * (kMasses + 1)));
+    const double theta = std::acos(1 - 0.5 * omega * omega * dt * dt);
+    const auto exact = [&](uint32_t slot, int n) {
+      return kAmplitude_m * std::sin(p * M_PI * placeOf(body, slot) / (kMasses + 1)) * std::cos(n * theta);
+    };
+    HostState state = restState(model);
+    for (uint32_t slot : body.lattice.active_slots) {
+      if (isFixed(body.lattice.nodes[slot])) continue;
+      state.displacement_m[slot].z = static_cast<float>(exact(slot, 0));
+      state.velocity_m_per_s[slot].z = static_cast<float>((exact(slot, 0) - exact(slot, -1)) / dt);
     }
+    solver->writeState(state, true);
+    double worst = 0;
+    for (int n = 1; n <= kSteps; ++n) {
+      solver->step({});
+      state = solver->readState();
+      for (uint32_t slot : body.lattice.active_slots) {
+        worst = std::max(worst, std::abs(state.displacement_m[slot].z - exact(slot, n)));
+      }
+    }
+    // Roundings of 300 substeps, and k, m and dt as float32 numbers: a phase error of 1e-7 per radian.
+    EXPECT_LT(worst / kAmplitude_m, 3e-5) << "mode " << p << ", ";
   }
 }
 
@@ -132,17 +125,15 @@ TEST_P(NetworkOracle, StretchedSheetPullsWithItsModulusAndIsFreeOfForceInside) {
     state.displacement_m[slot] = vec4(kStrain * Vector3d(x.x(), -x.y() / 3, 0));
   }
   const double load_n = body.material.young_modulus_pa * kThickness_m * box.sizes().y() * kStrain;
-  for (SpringForces scheme : kSchemes) {
-    const std::vector<Vector3d> force_n = forcesOf(GetParam(), model, state, scheme);
-    double pull_n = 0;
-    for (uint32_t slot : body.lattice.active_slots) {
-      const double x = restPosition(body, slot).x();
-      if (x < 0) pull_n += force_n[slot].x();
-      if (x < box.min().x() + 0.6 * kSpacing_m || x > box.max().x() - 0.6 * kSpacing_m) continue;
-      EXPECT_LT(force_n[slot].norm(), kSecondOrder * load_n) << nameOf(scheme);
-    }
-    EXPECT_NEAR(pull_n, load_n, kSecondOrder * load_n) << nameOf(scheme);
+  const std::vector<Vector3d> force_n = forcesOf(GetParam(), model, state);
+  double pull_n = 0;
+  for (uint32_t slot : body.lattice.active_slots) {
+    const double x = restPosition(body, slot).x();
+    if (x < 0) pull_n += force_n[slot].x();
+    if (x < box.min().x() + 0.6 * kSpacing_m || x > box.max().x() - 0.6 * kSpacing_m) continue;
+    EXPECT_LT(force_n[slot].norm(), kSecondOrder * load_n);
   }
+  EXPECT_NEAR(pull_n, load_n, kSecondOrder * load_n);
 }
 
 /// Issue 5: cloth on four points sags as the static solution of the reference does.
@@ -154,29 +145,24 @@ TEST_P(NetworkOracle, ClothOnFourPointsSagsLikeTheStaticSolution) {
   const Model model = modelOf({cloth});
   const Vector3d gravity(0, 0, -9.81);
   ReferenceSolver reference(model, gravity, 1);
-  for (SpringForces scheme : kSchemes) {
-    Scene scene = sceneFor(model, 500, {}, gravity);
-    scene.solver.spring_forces = scheme;
-    const auto solver = make(model, scene);
-    for (int t = 0; t < 20; ++t) solver->step({});
-    const HostState state = solver->readState();
-    if (scheme == SpringForces::kPoint) {
-      // A sheet in compression may buckle either way. Start from a hollow that is nothing like the solution.
-      for (uint32_t slot : reference.active) {
-        if (!isFixed(reference.nodes[slot])) reference.u_m[slot] = Vector3d(0, 0, -1e-3);
-      }
-      solveStatics(reference, {});
-    }
-    double sag_m = 0, true_sag_m = 0, error_m = 0;
-    for (uint32_t slot : reference.active) {
-      sag_m = std::max(sag_m, -static_cast<double>(state.displacement_m[slot].z));
-      true_sag_m = std::max(true_sag_m, -reference.u_m[slot].z());
-      error_m = std::max(error_m, (xyz(state.displacement_m[slot]) - reference.u_m[slot]).norm());
-    }
-    EXPECT_GT(true_sag_m, 0.01) << "it hangs";
-    EXPECT_NEAR(sag_m, true_sag_m, kSag * true_sag_m) << nameOf(scheme);
-    EXPECT_LT(error_m, kSag * true_sag_m) << nameOf(scheme);
+  Scene scene = sceneFor(model, 500, {}, gravity);
+  const auto solver = make(model, scene);
+  for (int t = 0; t < 20; ++t) solver->step({});
+  const HostState state = solver->readState();
+  // A sheet in compression may buckle either way. Start from a hollow that is nothing like the solution.
+  for (uint32_t slot : reference.active) {
+    if (!isFixed(reference.nodes[slot])) reference.u_m[slot] = Vector3d(0, 0, -1e-3);
   }
+  solveStatics(reference, {});
+  double sag_m = 0, true_sag_m = 0, error_m = 0;
+  for (uint32_t slot : reference.active) {
+    sag_m = std::max(sag_m, -static_cast<double>(state.displacement_m[slot].z));
+    true_sag_m = std::max(true_sag_m, -reference.u_m[slot].z());
+    error_m = std::max(error_m, (xyz(state.displacement_m[slot]) - reference.u_m[slot]).norm());
+  }
+  EXPECT_GT(true_sag_m, 0.01) << "it hangs";
+  EXPECT_NEAR(sag_m, true_sag_m, kSag * true_sag_m);
+  EXPECT_LT(error_m, kSag * true_sag_m);
 }
 
 /// A drum: cloth that is stretched over a rim. (A slack one lies flat without stiffness; there leapfrog's own energy,
@@ -216,19 +202,16 @@ TEST_P(NetworkOracle, FreeNetworkKeepsItsMomentum) {
   GraphOptions options;
   options.prestrain = 0.05;
   const Model model = modelOf({undamped(graphBody(200, 700, 8, options))});
-  for (SpringForces scheme : kSchemes) {
-    Scene scene = sceneFor(model, 200);
-    scene.solver.spring_forces = scheme;
-    const auto solver = make(model, scene);
-    const HostState start = scatteredState(model, 1e-3, 0.1, 3);
-    solver->writeState(start);
-    ReferenceSolver reference(model, Vector3d::Zero(), 1);
-    load(reference, start);
-    const Vector3d before = reference.momentum();
-    for (int t = 0; t < 5; ++t) solver->step({});
-    load(reference, solver->readState());
-    double sizes = 0;
-    for (uint32_t slot : reference.active) sizes += reference.mass(slot) * reference.v_m_per_s[slot].norm();
-    EXPECT_LT((reference.momentum() - before).norm(), kMomentum * sizes) << nameOf(scheme);
-  }
+  Scene scene = sceneFor(model, 200);
+  const auto solver = make(model, scene);
+  const HostState start = scatteredState(model, 1e-3, 0.1, 3);
+  solver->writeState(start);
+  ReferenceSolver reference(model, Vector3d::Zero(), 1);
+  load(reference, start);
+  const Vector3d before = reference.momentum();
+  for (int t = 0; t < 5; ++t) solver->step({});
+  load(reference, solver->readState());
+  double sizes = 0;
+  for (uint32_t slot : reference.active) sizes += reference.mass(slot) * reference.v_m_per_s[slot].norm();
+  EXPECT_LT((reference.momentum() - before).norm(), kMomentum * sizes);
 }

@@ -3,7 +3,7 @@
 //
 // Contacts between nodes: which may touch, which are near, and which way they push each other (solver/contact/collision.h,
 // physics.md 8). After lattice.glsl and elastic.glsl.
-// Features: STAGGERED (GW's partitions instead of the complete grid); AHEAD (within an implicit substep: before it is now, its end is
+// Feature: AHEAD (within an implicit substep: before it is now, its end is
 // where the increments lead).
 #ifndef __cplusplus
 uniform uint active_count;
@@ -15,10 +15,6 @@ uniform float widened;        // of D_ij: how near two touch
 uniform uint bucket_count;    // power of 2
 uniform float friction;
 uniform float restitution;
-uniform uint partitions;
-uniform uint window;
-uniform uint sorted_count;   // items per partition, power of 2
-uniform uint slot_count;
 layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
 layout(std430, binding = kBindDisplacementOut) readonly buffer DisplacementOut { vec4 next_displacement[]; };  // before the substep
@@ -26,15 +22,10 @@ layout(std430, binding = kBindTouchDepths) readonly buffer TouchDepthsBuffer { f
 layout(std140, binding = kBindBodyInfluences) uniform BodyInfluencesBlock { vec4 body_influences[kMaxBodies]; };  // w distance [m]
 layout(std430, binding = kBindContacts) buffer ContactsBuffer { vec4 contacts[]; };
 layout(std430, binding = kBindCorrections) buffer CorrectionsBuffer { vec4 corrections[]; };
-#ifdef STAGGERED
-layout(std430, binding = kBindSortItems) buffer SortItemsBuffer { uvec2 items[]; };
-layout(std430, binding = kBindRanks) buffer RanksBuffer { uint ranks[]; };
-#else
 layout(std430, binding = kBindBuckets) buffer BucketsBuffer { uint buckets[]; };
 layout(std430, binding = kBindUnsorted) buffer UnsortedBuffer { uint unsorted[]; };
 layout(std430, binding = kBindEntries) buffer EntriesBuffer { uvec4 entries[]; };
 layout(std430, binding = kBindEntriesBefore) buffer EntriesBeforeBuffer { vec4 entries_before[]; };
-#endif
 #endif
 
 /// A node that may touch others.
@@ -61,7 +52,7 @@ bool collides(uint slot, NodeBits bits, vec3 x) {
   return all(lessThanEqual(floatBitsToUint(abs(x)), uvec3(floatBitsToUint(most_cells * cell_m))));
 }
 
-ivec3 cellOf(vec3 x, float shift) { return ivec3(floor(x / cell_m + shift)); }
+ivec3 cellOf(vec3 x) { return ivec3(floor(x / cell_m)); }
 
 uint hashOf(ivec3 cell) {
   uint h = uint(cell.x) * 73856093u ^ uint(cell.y) * 19349663u ^ uint(cell.z) * 83492791u;

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// collision_meet.comp - sums each node's contacts, whichever search found them.
+// collision_meet.comp - sums each node's contacts.
 // Owner: solver/gpu/contact/collision_pass.h   physics.md 8
 // out  contacts [slots]     Feature AHEAD: also room for the pairs of each node
 #include "solver/collision/collision_search.glsl"

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// collision_place.comp - complete search, second: where each bucket begins.
+// collision_place.comp - the search, second: where each bucket begins.
 // Owner: solver/gpu/contact/collision_pass.h   physics.md 8
 // in, out  buckets     A bucket of more than most_in_bucket nodes is left empty: what collapsed into one place would otherwise be compared
 // each with all in one dispatch. A node in it touches nothing until it has spread; how many that are is noted.

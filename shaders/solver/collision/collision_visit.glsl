@@ -9,7 +9,6 @@ void consider(Entry me, Entry other) {
   if (wanted > 0.0f) visit(me, other, wanted);
 }
 
-#ifndef STAGGERED
 /// Different cells may share a bucket: an entry in one says which cell it is in.
 void visitCell(Entry me, ivec3 cell) {
   uint b = hashOf(cell) & (bucket_count - 1u);
@@ -18,12 +17,12 @@ void visitCell(Entry me, ivec3 cell) {
     uvec4 at = entries[e];
     vec3 x = uintBitsToFloat(uvec3(at.x, at.y, at.z)), apart = me.x - x;
     if (at.w == me.slot || dot(apart, apart) >= cell_m * cell_m) continue;  // most of them
-    if (cellOf(x, 0.0f) == cell) consider(me, entryAt(e));
+    if (cellOf(x) == cell) consider(me, entryAt(e));
   }
 }
 
 void visitCells(Entry me) {
-  ivec3 cell = cellOf(me.x, 0.0f);
+  ivec3 cell = cellOf(me.x);
   for (int z = -1; z <= 1; ++z) {
     for (int y = -1; y <= 1; ++y) {
       for (int x = -1; x <= 1; ++x) visitCell(me, cell + ivec3(x, y, z));
@@ -39,23 +38,3 @@ void main() {
   if (!isAlone(me.slot)) visitCells(me);
   end(me.slot);
 }
-#else
-void main() {
-  uint e = globalIndex();
-  if (e >= sorted_count) return;
-  if (items[e].y == 0xffffffffu) return;
-  Entry me = entryOf(items[e].y);
-  begin();
-  uint searched = isAlone(me.slot) ? 0u : partitions;
-  for (uint p = 0u; p < searched; ++p) {
-    int rank = int(ranks[p * slot_count + me.slot]), last = int(sorted_count) - 1;
-    for (int r = max(rank - int(window), 0); r <= min(rank + int(window), last); ++r) {
-      uint slot = items[p * sorted_count + uint(r)].y;
-      if (slot == 0xffffffffu || slot == me.slot) continue;
-      Entry other = entryOf(slot);
-      if (near(p, me.slot, me.x, slot, other.x) && !foundBefore(p, me, other)) consider(me, other);
-    }
-  }
-  end(me.slot);
-}
-#endif

@@ -3,9 +3,9 @@
 //
 // leapfrog.comp - advance every active node by one leapfrog substep.   Owner: solver/gpu/steps/leapfrog_pass.h   physics.md 2, 5
 // in  displacement, velocity [slots]     out  displacement, velocity [slots]; impulses [kMaxStyluses * slots]; nodes for edges.comp
-// Features: LATTICE, NETWORK, PARTS, VOLUME (elastic.glsl), EDGE_FORCES (of explicit connections: as spring_forces.comp found
-// them), DASHPOT (axial dashpot), PREDICTED (of lattices, mild springs pull where their ends will be instead), TOOLS (probe and held nodes), COMPENSATED (Kahan's sums of u and v), AWAKE (only nodes of
-// bricks that are awake, as awake_bricks.comp lists them).
+// Features: LATTICE, NETWORK, PARTS, VOLUME (elastic.glsl), DASHPOT (axial dashpot), PREDICTED (of lattices, mild springs pull where
+// their ends will be instead), TOOLS (probe and held nodes), COMPENSATED (Kahan's sums of u and v), AWAKE (only nodes of bricks that
+// are awake, as awake_bricks.comp lists them).
 #ifdef LOADS
 #define DEAD_LINKS
 #endif
@@ -30,11 +30,6 @@ layout(std430, binding = kBindVelocityOut) writeonly buffer VelocityOut { vec4 n
 #ifdef COMPENSATED
 layout(std430, binding = kBindCompensation) buffer CompensationBuffer { vec4 compensation[]; };
 #endif
-#ifdef EDGE_FORCES
-layout(binding = kUnitLinkForces) uniform samplerBuffer link_forces;
-layout(binding = kUnitForceStarts) uniform usamplerBuffer force_starts;  // [slots + 1]
-uint forceStart(uint slot) { return texelFetch(force_starts, int(slot)).x; }
-#endif
 #endif
 
 #include "solver/tissue/step.glsl"
@@ -45,20 +40,6 @@ layout(std430, binding = kBindEdgeNodes) buffer EdgeNodesBuffer {
   uint edge_count;
   uint edge_nodes[kMostEdgeNodes];
 };
-#endif
-
-#ifdef EDGE_FORCES
-/// Sum of what the springs of a node with explicit connections do to it [N].
-vec3 sumOfLinks(uint slot) {
-  vec3 force = vec3(0.0f);
-  uint end = forceStart(slot + 1u);
-  for (uint place = forceStart(slot); place < end; place += 2u) {  // two at a time: loops cost more than fetches
-    vec3 next = xyz(texelFetch(link_forces, int(place + 1u)));     // there is one place more than forces
-    force += xyz(texelFetch(link_forces, int(place)));
-    if (place + 1u < end) force += next;
-  }
-  return force;
-}
 #endif
 
 /// Sum of the forces of springs, dashpots and volumes on a node [N].
@@ -82,17 +63,7 @@ vec3 elasticForce(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 v) {
   force += (k * s.extension) * s.direction;                                         \
   DASHPOT_FORCE(k, n, s)
 #endif
-#if defined(EDGE_FORCES) && defined(LATTICE)
-  if (body.connections != kImplicit) {
-    force = sumOfLinks(slot);
-  } else {
-    FOR_EACH_SPRING(LATTICE_LINK)
-  }
-#elif defined(EDGE_FORCES)
-  force = sumOfLinks(slot);
-#else
   FOR_EACH_LINK
-#endif
 #undef VISIT_LINK
 #ifdef VOLUME
   force += xyz(volumeForce(slot));

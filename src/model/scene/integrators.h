@@ -21,16 +21,15 @@ struct IntegratorTraits {
   bool iterates;           ///< solver.iterations says how often a substep goes over the nodes
   bool lets_bricks_sleep;  ///< steps only bricks that move
   bool compensates;        ///< can sum u and v with Kahan's compensation
-  bool takes_edge_forces;  ///< can take forces of explicit connections edge by edge (solver.spring_forces)
 };
 
 /// By the value of the enum.
 // clang-format off
 constexpr std::array<IntegratorTraits, 3> kIntegrators = {{
-    //                                        explicit dashpot stagger shorten own_pos iterate sleep  compens edges
-    {Integrator::kLeapfrog, "leapfrog",         true,  true,  true,  true,  false, false, true,  true,  true},
-    {Integrator::kVerletPaper, "verlet_paper",  true,  false, false, false, true,  false, false, false, false},
-    {Integrator::kPd, "pd",                     false, false, false, false, false, true,  false, false, false},
+    //                                        explicit dashpot stagger shorten own_pos iterate sleep  compens
+    {Integrator::kLeapfrog, "leapfrog",         true,  true,  true,  true,  false, false, true,  true},
+    {Integrator::kVerletPaper, "verlet_paper",  true,  false, false, false, true,  false, false, false},
+    {Integrator::kPd, "pd",                     false, false, false, false, false, true,  false, false},
 }};
 // clang-format on
 

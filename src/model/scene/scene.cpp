@@ -164,14 +164,6 @@ void requireNeedles(const std::string& file, const Scene& scene) {
   }
 }
 
-/// Clips are on tissue whose substeps can be told afterwards.
-void requireClips(const std::string& file, const Scene& scene) {
-  const Integrator integrator = scene.solver.integrator;
-  if (mayClip(scene.styluses) && integrator == Integrator::kVerletPaper)
-    throw SceneError(file + ": a stylus with mode clip needs solver.integrator leapfrog or pd, not " +
-                     traitsOf(integrator).name);
-}
-
 /// Burnt tissue pulls after substeps: beside an implicit one it would be too strong.
 void requireBurns(const std::string& file, const Scene& scene) {
   const Integrator integrator = scene.solver.integrator;
@@ -203,15 +195,9 @@ void requireConsistent(const std::string& file, const Scene& scene) {
   }
   for (const ThreadConfig& thread : scene.threads) {
     requireThread(file, thread);
-    const Integrator integrator = scene.solver.integrator;
-    if (thread.feelsTissue() && integrator == Integrator::kVerletPaper)
-      throw SceneError(file + ": thread '" + thread.name +
-                       "': 'channels' and 'needle' need solver.integrator leapfrog or pd, not " +
-                       traitsOf(integrator).name);
     requireNeedle(file, thread);
   }
   requireNeedles(file, scene);
-  requireClips(file, scene);
   requireBurns(file, scene);
   for (const BodyConfig& body : scene.bodies) requireStableSubstep(file, scene.solver, body);
   for (const CameraConfig& camera : scene.cameras) {

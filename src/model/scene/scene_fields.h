@@ -203,16 +203,11 @@ void visitFields(V& v, EnvironmentConfig& c) {
 template <class V>
 void visitFields(V& v, CollisionConfig& c) {
   v.boolean("enabled", c.enabled, "bodies collide with themselves, each other and the flaps of cuts");
-  v.choice(
-      "search", c.search, {{"grid", CollisionSearch::kGrid}, {"staggered", CollisionSearch::kStaggered}},
-      "how pairs are found: a uniform grid, complete; or GW's staggered partitions with a sort, which misses some");
   v.number("distance_m", c.distance_m, {0, 1}, "m",
            "nodes, or the surfaces of cells that are tissue in part, are kept this far apart; 0: the mean length of "
            "springs");
   v.number("friction", c.friction, {0, 10}, "1", "Coulomb's coefficient");
   v.number("restitution", c.restitution, {0, 1}, "1", "speed after over speed before a collision");
-  v.integer("partitions", c.partitions, {1, 8}, "staggered: space partitions, each shifted");
-  v.integer("window", c.window, {1, 64}, "staggered: nodes looked at on either side in sorted order");
 }
 
 template <class V>
@@ -331,17 +326,18 @@ void visitFields(V& v, ThreadConfig& c) {
   v.list("ties", c.ties, 16, "knots that no hand throws, in the order of their times (docs/thread.md 4)");
 }
 
+/// Those of scenes: verlet_paper is for the benchmarks of the papers' integrator alone (bench/suites/accuracy).
 inline Choices<Integrator> namesOfIntegrators() {
   Choices<Integrator> out;
-  for (const IntegratorTraits& traits : kIntegrators) out.push_back({traits.name, traits.integrator});
+  for (const IntegratorTraits& traits : kIntegrators)
+    if (traits.integrator != Integrator::kVerletPaper) out.push_back({traits.name, traits.integrator});
   return out;
 }
 
 template <class V>
 void visitFields(V& v, SolverConfig& c) {
   v.number("tick_hz", c.tick_hz, {1, 1000}, "Hz", "ticks per second: tools, forces and surface follow at this rate");
-  v.choice("integrator", c.integrator, namesOfIntegrators(),
-           "leapfrog: explicit, order 2; verlet_paper: as VR05 and GW print it; pd: implicit Euler");
+  v.choice("integrator", c.integrator, namesOfIntegrators(), "leapfrog: explicit, order 2; pd: implicit Euler");
   v.choice(
       "start", c.start, {{"rest", SolverStart::kRest}, {"equilibrium", SolverStart::kEquilibrium}},
       "the state that it begins in: all at rest, or in equilibrium with its weight and the forces on bodies, without "
@@ -360,9 +356,6 @@ void visitFields(V& v, SolverConfig& c) {
   v.integer("iterations", c.iterations, {1, 10000}, "pd: sweeps over all nodes per substep");
   v.boolean("compensated", c.compensated,
             "leapfrog: sum displacement and velocity with compensation (Kahan); always where substeps are below 50 us");
-  v.choice("spring_forces", c.spring_forces, {{"point", SpringForces::kPoint}, {"edge", SpringForces::kEdge}},
-           "leapfrog, explicit connections (GW 4): each node sums over its springs; or each spring's force once, then "
-           "each node sums them");
   v.boolean("governor", c.governor, "watch every tick, roll an explosion back and recover from it");
   v.number("recovery_s", c.recovery_s, {0, 10}, "s", "governor: simulated time for which pd goes on after a roll-back");
   v.number("sleep_distance_m", c.sleep_distance_m, {0.01, 100}, "m",

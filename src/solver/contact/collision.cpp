@@ -113,7 +113,7 @@ double collisionReach(const Model& model, const CollisionConfig& config) {
 }
 
 double collisionCell(const Model& model, const CollisionConfig& config) {
-  return (config.search == CollisionSearch::kGrid ? kCellMargin : 2.0) * collisionReach(model, config);
+  return kCellMargin * collisionReach(model, config);
 }
 
 std::vector<float> touchDepths(const Model& model, const CollisionConfig& config) {
@@ -137,10 +137,6 @@ std::vector<float> touchDepths(const Model& model, const CollisionConfig& config
 
 uint32_t bucketCount(size_t nodes) {
   return powerOf2(2 * nodes);
-}
-
-uint32_t sortedCount(size_t nodes) {
-  return powerOf2(std::max<size_t>(nodes, 2));
 }
 
 }  // namespace viscera

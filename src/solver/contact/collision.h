@@ -22,7 +22,7 @@ namespace viscera {
 // way.)
 //
 // What passes through what: a sheet whose nodes are no farther apart than D has no hole that a node could slip through
-// within one substep as long as the two move less than D/2 relative to each other in it. The cell of the complete
+// within one substep as long as the two move less than D/2 relative to each other in it. The cell of the
 // search is the largest D, so that is half a cell. Contact is found at the end of the substep and undoes the approach
 // that led to it, so nodes come no nearer than where they were before; they are then pushed apart to D slowly, which
 // makes no velocity.
@@ -34,7 +34,7 @@ using CollisionPair = std::array<uint32_t, 2>;
 double collisionDistance(const Body& body, const CollisionConfig& config);
 /// Largest distance of two nodes that touch [m].
 double collisionReach(const Model& model, const CollisionConfig& config);
-/// Edge of a cell [m]: the reach in the complete search, twice that in GW's staggered partitions.
+/// Edge of a cell of the search [m].
 double collisionCell(const Model& model, const CollisionConfig& config);
 
 /// [slots] how deep the nodes lie that may touch others [m], or kTouchesOnceCut, or kNeverTouches
@@ -42,13 +42,11 @@ double collisionCell(const Model& model, const CollisionConfig& config);
 /// cells are tissue in part, those less than a cell below the surface, and outside of it where these leave it bare.
 std::vector<float> touchDepths(const Model& model, const CollisionConfig& config);
 
-/// Nodes of a bucket of the complete search's hashed grid that may be compared each with all: ten times as many as lie
+/// Nodes of a bucket of the search's hashed grid that may be compared each with all: ten times as many as lie
 /// in the reach of the coarsest of two bodies whose spacings differ tenfold. Larger crowds have collapsed into one
 /// place: nodes in one touch nothing until it has spread, and are counted (TickStats::crowded), on any backend.
 constexpr uint32_t kMostInBucket = 4096;
 /// Buckets of the hashed grid: the power of 2 that is at least twice the nodes.
 uint32_t bucketCount(size_t nodes);
-/// Items of a staggered partition: the power of 2 that is at least the nodes.
-uint32_t sortedCount(size_t nodes);
 
 }  // namespace viscera

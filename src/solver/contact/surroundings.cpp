@@ -11,7 +11,6 @@
 #include "layout/wind.h"
 #include "math/archive.h"
 #include "math/number_text.h"
-#include "model/scene/integrators.h"
 #include "solver/contact/collision.h"
 #include "viscera/math/error.h"
 #include "viscera/model/scene/scene.h"
@@ -74,18 +73,6 @@ RigidMotion resting(const RigidMotion& before) {
 
 }  // namespace
 
-std::string surroundingKeys(const SurroundingsFeatures& features) {
-  std::string out;
-  const auto add = [&out](bool there, const char* key) {
-    if (there) out += (out.empty() ? "" : ", ") + std::string(key);
-  };
-  add(features.wind, "environment.wind");
-  add(features.forces, "bodies[].force_n");
-  add(features.obstacles, "obstacles");
-  add(features.collisions, "collision.enabled");
-  return out;
-}
-
 SurroundingsFeatures surroundingsOf(const Model& model, const Scene& scene) {
   const WindConfig& wind = scene.environment.wind;
   SurroundingsFeatures out;
@@ -94,7 +81,6 @@ SurroundingsFeatures surroundingsOf(const Model& model, const Scene& scene) {
   out.forces = std::any_of(model.bodies.begin(), model.bodies.end(), isPushed);
   out.obstacles = !scene.obstacles.empty();
   out.collisions = scene.collision.enabled;
-  out.search = scene.collision.search;
   return out;
 }
 
@@ -104,14 +90,7 @@ Surroundings::Surroundings(const Model& model, const Scene& scene)
       obstacles_(scene.obstacles),
       at_start_(Obstacles(scene.obstacles).motions()),
       tick_motions_(at_start_),
-      places_(obstacles_.size(), Vector3f::Zero()) {
-  const IntegratorTraits& traits = traitsOf(scene.solver.integrator);
-  if (features_.any() && traits.own_positions) {
-    throw SceneError("solver.integrator: " + std::string(traits.name) +
-                     " keeps positions of its own and knows nothing of " + surroundingKeys(features_) +
-                     ": use leapfrog or pd");
-  }
-}
+      places_(obstacles_.size(), Vector3f::Zero()) {}
 
 void Surroundings::beginTick(double tick_s, int substeps, const ObstacleMotions& obstacles) {
   assert(obstacles.empty() || obstacles.size() == obstacles_.size());

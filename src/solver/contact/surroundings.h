@@ -25,12 +25,9 @@ struct SurroundingsFeatures {
   bool forces = false;  ///< some body has a force_n
   bool obstacles = false;
   bool collisions = false;
-  CollisionSearch search = CollisionSearch::kGrid;
   bool any() const { return wind || forces || obstacles || collisions; }
 };
 SurroundingsFeatures surroundingsOf(const Model& model, const Scene& scene);
-/// The scene keys that ask for them, as in "obstacles, collision.enabled": for messages.
-std::string surroundingKeys(const SurroundingsFeatures& features);
 
 /// The surroundings in one substep.
 struct SubstepSurroundings {
@@ -42,7 +39,6 @@ struct SubstepSurroundings {
 /// Host side, the same for every backend: keeps the time, tells substeps where the obstacles are.
 class Surroundings {
  public:
-  /// @throws SceneError  verlet_paper, which keeps positions of its own
   Surroundings(const Model& model, const Scene& scene);
 
   const SurroundingsFeatures& features() const { return features_; }

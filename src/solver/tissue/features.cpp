@@ -21,7 +21,6 @@ std::vector<std::string> FeatureSet::defines() const {
   std::vector<std::string> out = {"GROUP_SIZE " + std::to_string(group_size), "TEXELS"};
   if (lattice) out.push_back("LATTICE");
   if (network) out.push_back("NETWORK");
-  if (edge_forces) out.push_back("EDGE_FORCES");
   if (dashpot) out.push_back("DASHPOT");
   if (predicted) out.push_back("PREDICTED");
   if (volume) out.push_back("VOLUME");
@@ -40,8 +39,6 @@ FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint3
   features.single_body = model.bodies.size() == 1;
   features.lattice = model.hasLattice();
   features.network = model.hasNetwork();
-  features.edge_forces = features.network && scene.solver.spring_forces == SpringForces::kEdge &&
-                         traitsOf(scene.solver.integrator).takes_edge_forces;
   features.moments = hasMoments(model);
   features.thin_walls = features.moments && hasBends(model);
   features.volume = features.moments || hasVolumeEnergy(model);

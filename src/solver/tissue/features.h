@@ -17,9 +17,8 @@ struct Scene;
 /// What a scene has that the kernels of either backend must know of. The rest costs nothing: on the GPU it is compiled
 /// out, and nowhere does it have an array.
 struct FeatureSet {
-  bool lattice = true;       ///< some body has implicit connections
-  bool network = false;      ///< some body has explicit ones
-  bool edge_forces = false;  ///< of explicit connections, edge by edge
+  bool lattice = true;   ///< some body has implicit connections
+  bool network = false;  ///< some body has explicit ones
   bool dashpot = false;
   bool predicted = false;    ///< lattices have dashpots, and springs alone: leapfrog has those pull where nodes will be
   bool volume = false;       ///< cells have energies of their own: of volume (nu other than 1/4), by moments

@@ -14,10 +14,9 @@ constexpr double kCollisionSearchSpacing_m = 0.01;
 // Positions are float32 sums of numbers up to 1 m; pairs this near to their distance may go either way.
 constexpr double kTolerance_m = 5e-7;
 
-Scene collisionSearchCollidingScene(const Model& model, CollisionSearch search = CollisionSearch::kGrid) {
+Scene collisionSearchCollidingScene(const Model& model) {
   Scene scene = sceneFor(model, 1);
   scene.collision.enabled = true;
-  scene.collision.search = search;
   return scene;
 }
 
@@ -130,46 +129,16 @@ TEST_P(Search, PassesOverNodesThatAreNowhere) {
   EXPECT_EQ(recall.found, recall.there);
 }
 
-TEST_P(Search, StaggeredPartitionsFindNothingTwiceAndMoreTheMoreTheyAre) {
-  const Model model = modelOf({clothBody(25, 25, kCollisionSearchSpacing_m)});
-  const HostState state = cloudState(model, 0.1, 5);
-  double last = 0;
-  for (const int partitions : {1, 2, 4}) {
-    Scene scene = collisionSearchCollidingScene(model, CollisionSearch::kStaggered);
-    scene.collision.partitions = partitions;
-    scene.collision.window = 16;
-    const Recall recall = this->recall(model, scene, state);
-    EXPECT_EQ(recall.wrong, 0u);
-    EXPECT_GT(recall.share(), last) << partitions;
-    EXPECT_LT(recall.share(), 1.0);
-    last = recall.share();
-  }
-  EXPECT_GT(last, 0.9);  // one partition of cells twice the distance wide holds about half of the pairs
-}
-
-TEST_P(Search, StaggeredPartitionsFindFewerInACrowdThanTheirWindowHolds) {
-  const Model model = modelOf({clothBody(25, 25, kCollisionSearchSpacing_m)});
-  Scene scene = collisionSearchCollidingScene(model, CollisionSearch::kStaggered);
-  double last = 1;
-  for (const double cube_m : {0.12, 0.06, 0.03}) {
-    const double share = recall(model, scene, cloudState(model, cube_m, 6)).share();
-    EXPECT_LT(share, last) << cube_m;
-    last = share;
-  }
-}
-
 TEST(SearchOnBothBackends, GivesTheSamePairsForEverySizeOfWorkGroup) {
   const gpu::Context context;
   const Model model =
       modelOf({boxBody({6, 6, 6}, kCollisionSearchSpacing_m), clothBody(20, 15, kCollisionSearchSpacing_m)});
   const HostState state = cloudState(model, 0.08, 4);
-  for (const CollisionSearch search : {CollisionSearch::kGrid, CollisionSearch::kStaggered}) {
-    const Scene scene = collisionSearchCollidingScene(model, search);
-    const std::vector<CollisionPair> pairs = pairsOf("gpu", model, scene, state, 32);
-    EXPECT_GT(pairs.size(), 100u);
-    EXPECT_EQ(pairsOf("gpu", model, scene, state, 256), pairs);
-    EXPECT_EQ(pairsOf("cpu", model, scene, state), pairs);
-  }
+  const Scene scene = collisionSearchCollidingScene(model);
+  const std::vector<CollisionPair> pairs = pairsOf("gpu", model, scene, state, 32);
+  EXPECT_GT(pairs.size(), 100u);
+  EXPECT_EQ(pairsOf("gpu", model, scene, state, 256), pairs);
+  EXPECT_EQ(pairsOf("cpu", model, scene, state), pairs);
 }
 
 /// A body that has collapsed into one point, another that is as it was, and a sheet beside that.

@@ -339,16 +339,6 @@ TEST_P(Surround, ATornTriangleCatchesNoWind) {
   EXPECT_EQ(xyz(solver_->readState().velocity_m_per_s[kept]), Vector3d::Zero());
 }
 
-TEST_P(Surround, VerletPaperIsRefusedWithTheKeysItCannotServe) {
-  const Model model = modelOf({boxBody({2, 2, 2}, kSurroundingsSpacing_m)});
-  Scene scene = sceneFor(model, 1);
-  scene.solver.integrator = Integrator::kVerletPaper;
-  make(model, scene);
-  scene.obstacles = {obstacle(ObstacleShape::kPlane)};
-  scene.collision.enabled = true;
-  EXPECT_TRUE(says(messageOf<SceneError>([&] { make(model, scene); }), {"obstacles, collision.enabled"}));
-}
-
 TEST_P(Surround, PdMeetsObstaclesToo) {
   const Model model = modelOf({looseCloth(4, 4, kSurroundingsSpacing_m)});
   Scene scene = sceneFor(model, 4, {}, kSurroundingsGravity);

@@ -8,7 +8,6 @@
 
 namespace viscera {
 
-enum class CollisionSearch { kGrid, kStaggered };
 enum class ObstacleShape { kPlane, kSphere, kCapsule, kBox };
 
 /// Moving air. Speed at time t: velocity (1 + gust_ratio sin(2 pi t / gust_period)).
@@ -33,12 +32,9 @@ struct EnvironmentConfig {
 /// Bodies against themselves and each other.
 struct CollisionConfig {
   bool enabled = false;
-  CollisionSearch search = CollisionSearch::kGrid;
   double distance_m = 0;  ///< 0: from the springs
   double friction = 0.3;
   double restitution = 0;
-  int partitions = 4;  ///< of the staggered search
-  int window = 8;      ///< of the staggered search: neighbours in sorted order that are looked at on either side
 };
 
 /// A rigid thing that nodes do not enter.

@@ -4,7 +4,6 @@
 
 namespace viscera {
 
-enum class SpringForces { kPoint, kEdge };
 enum class Integrator { kLeapfrog, kVerletPaper, kPd };
 /// What a simulation begins with: everything at rest, or hanging in its weight.
 enum class SolverStart { kRest, kEquilibrium };
@@ -19,7 +18,6 @@ struct SolverConfig {
   bool measured_limit = true;
   int substeps = 0;     ///< 0: from dt_fraction
   int iterations = 20;  ///< of pd
-  SpringForces spring_forces = SpringForces::kPoint;
   bool governor = true;
   double recovery_s = 0.25;
   double sleep_distance_m = 1;

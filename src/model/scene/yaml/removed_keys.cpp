@@ -16,7 +16,13 @@ constexpr Removed kRemoved[] = {
     {"solver.integrator", "multigrid",
      "use leapfrog; solver.start: equilibrium settles stiff tissue before it is stepped"},
     {"solver.integrator", "auto", "use leapfrog, the default"},
+    {"solver.integrator", "verlet_paper",
+     "use leapfrog; viscera bench accuracy compares the papers' integrator with it"},
     {"bodies.structure", "tetrahedra", "use lattice; a Gmsh .msh file of volumes is a shape for it"},
+    {"collision.search", "", "leave it out; the search for contacts is complete"},
+    {"collision.partitions", "", "leave it out; the search for contacts is complete"},
+    {"collision.window", "", "leave it out; the search for contacts is complete"},
+    {"solver.spring_forces", "", "leave it out; each node sums the forces of its springs"},
 };
 
 std::string withoutIndices(const std::string& key) {

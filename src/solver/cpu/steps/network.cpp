@@ -16,50 +16,12 @@ namespace glsl {
 namespace {
 
 struct NetworkKernel : Kernel {
-  explicit NetworkKernel(CpuLattice& lattice)
-      : Kernel(lattice),
-        compensation(none_),
-        owners(lattice.links.edge_forces.owners.data()),
-        force_starts(lattice.links.edge_forces.starts.data()),
-        owner_count(static_cast<uint>(lattice.links.edge_forces.owners.size())) {}
-  uint forceStart(uint slot) const { return force_starts[slot]; }
+  explicit NetworkKernel(CpuLattice& lattice) : Kernel(lattice), compensation(none_) {}
   std::vector<layout::vec4> none_;
   Vectors compensation;
-  const SpringOwner* owners;
-  const uint* force_starts;
-  uint owner_count, cell_count = 0;
-  vec4 *link_forces = nullptr, *cell_forces_out = nullptr;
+  uint cell_count = 0;
+  vec4* cell_forces_out = nullptr;
 };
-
-#define VARIANT_NAME SpringForces
-#define VARIANT_BASE NetworkKernel
-#define VARIANT_TEXT "shaders/solver/tissue/spring_forces.comp"
-#define VARIANT_FEATURES WITH_DASHPOT
-#include "solver/cpu/text/glsl_variant.inc"
-
-#define VARIANT_NAME Step
-#define VARIANT_BASE NetworkKernel
-#define VARIANT_TEXT "shaders/solver/step/leapfrog.comp"
-#define VARIANT_FEATURES WITH_DASHPOT
-#include "solver/cpu/text/glsl_variant.inc"
-
-#define VARIANT_NAME StepCompensated
-#define VARIANT_BASE NetworkKernel
-#define VARIANT_TEXT "shaders/solver/step/leapfrog.comp"
-#define VARIANT_FEATURES WITH_DASHPOT | WITH_COMPENSATED
-#include "solver/cpu/text/glsl_variant.inc"
-
-#define VARIANT_NAME StepEdges
-#define VARIANT_BASE NetworkKernel
-#define VARIANT_TEXT "shaders/solver/step/leapfrog.comp"
-#define VARIANT_FEATURES WITH_DASHPOT | WITH_EDGE_FORCES
-#include "solver/cpu/text/glsl_variant.inc"
-
-#define VARIANT_NAME StepEdgesCompensated
-#define VARIANT_BASE NetworkKernel
-#define VARIANT_TEXT "shaders/solver/step/leapfrog.comp"
-#define VARIANT_FEATURES WITH_DASHPOT | WITH_EDGE_FORCES | WITH_COMPENSATED
-#include "solver/cpu/text/glsl_variant.inc"
 
 #define VARIANT_NAME StepVolumes
 #define VARIANT_BASE NetworkKernel
@@ -71,18 +33,6 @@ struct NetworkKernel : Kernel {
 #define VARIANT_BASE NetworkKernel
 #define VARIANT_TEXT "shaders/solver/step/leapfrog.comp"
 #define VARIANT_FEATURES WITH_DASHPOT | WITH_VOLUME | WITH_COMPENSATED
-#include "solver/cpu/text/glsl_variant.inc"
-
-#define VARIANT_NAME StepEdgesVolumes
-#define VARIANT_BASE NetworkKernel
-#define VARIANT_TEXT "shaders/solver/step/leapfrog.comp"
-#define VARIANT_FEATURES WITH_DASHPOT | WITH_EDGE_FORCES | WITH_VOLUME
-#include "solver/cpu/text/glsl_variant.inc"
-
-#define VARIANT_NAME StepEdgesVolumesCompensated
-#define VARIANT_BASE NetworkKernel
-#define VARIANT_TEXT "shaders/solver/step/leapfrog.comp"
-#define VARIANT_FEATURES WITH_DASHPOT | WITH_EDGE_FORCES | WITH_VOLUME | WITH_COMPENSATED
 #include "solver/cpu/text/glsl_variant.inc"
 
 #define VARIANT_NAME Volumes
@@ -211,7 +161,6 @@ CpuNetwork::CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, cons
     : parallel_(parallel),
       spread_rows_(kernels.spread_network),
       step_rows_(kernels.leapfrog_network),
-      edge_forces_(features.edge_forces),
       dashpot_(features.dashpot),
       near_(parallel) {
   if (lattice.links.network.starts.empty()) return;
@@ -222,15 +171,14 @@ CpuNetwork::CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, cons
   for (const uint32_t cell : lattice.store.cells) {
     if (features.volume && lattice.connections(cell) == layout::kExplicitLattice) cells_.push_back(cell);
   }
-  if (!edge_forces_ && cells_.empty()) {
+  if (cells_.empty()) {
     rows_ = simd::LinkRows(lattice.links.network, groupsOf(slots_));
     places_.resize(4 * lattice.slotCount());
     if (dashpot_) speeds_.resize(4 * lattice.slotCount());
     return;
   }
   if (features.compensated) compensation_.resize(2 * lattice.slotCount());
-  link_forces_.resize(lattice.links.edge_forces.places());
-  if (!cells_.empty()) cell_forces_.assign(lattice.strengths.cellVectors() * lattice.slotCount(), glsl::vec4(0));
+  cell_forces_.assign(lattice.strengths.cellVectors() * lattice.slotCount(), glsl::vec4(0));
 }
 
 void CpuNetwork::restart(const CpuLattice& lattice) {
@@ -251,25 +199,8 @@ Kernel CpuNetwork::kernel(CpuLattice& lattice, const Substep& step) {
   out.active_nodes = slots_.data();
   out.active_count = static_cast<uint32_t>(slots_.size());
   out.compensation = glsl::Vectors(compensation_);
-  out.link_forces = link_forces_.data();
   out.cell_forces = out.cell_forces_out = cell_forces_.data();
   return out;
-}
-
-template <class Plain, class Compensated>
-void CpuNetwork::stepWith(CpuLattice& lattice, const Substep& step) {
-  if (compensation_.empty()) {
-    runCount(parallel_, slots_.size(), kernel<Plain>(lattice, step));
-  } else {
-    runCount(parallel_, slots_.size(), kernel<Compensated>(lattice, step));
-  }
-}
-
-void CpuNetwork::findVolumes(CpuLattice& lattice) {
-  auto volumes = kernel<glsl::Volumes>(lattice, {});
-  volumes.cells = cells_.data();
-  volumes.cell_count = static_cast<uint32_t>(cells_.size());
-  runCount(parallel_, cells_.size(), volumes);
 }
 
 void CpuNetwork::step(CpuLattice& lattice, const Substep& step, AlignedVector<float>& compensation) {
@@ -304,21 +235,15 @@ void CpuNetwork::stepInRows(CpuLattice& lattice, const Substep& step, AlignedVec
 }
 
 void CpuNetwork::stepInText(CpuLattice& lattice, const Substep& step) {
-  if (edge_forces_)
-    runCount(parallel_, lattice.links.edge_forces.owners.size(), kernel<glsl::SpringForces>(lattice, step));
-  if (cells_.empty()) {
-    if (edge_forces_) {
-      stepWith<glsl::StepEdges, glsl::StepEdgesCompensated>(lattice, step);
-    } else {
-      stepWith<glsl::Step, glsl::StepCompensated>(lattice, step);
-    }
-    return;
-  }
-  findVolumes(lattice);
-  if (edge_forces_) {
-    stepWith<glsl::StepEdgesVolumes, glsl::StepEdgesVolumesCompensated>(lattice, step);
+  if (cells_.empty()) return;
+  auto volumes = kernel<glsl::Volumes>(lattice, {});
+  volumes.cells = cells_.data();
+  volumes.cell_count = static_cast<uint32_t>(cells_.size());
+  runCount(parallel_, cells_.size(), volumes);
+  if (compensation_.empty()) {
+    runCount(parallel_, slots_.size(), kernel<glsl::StepVolumes>(lattice, step));
   } else {
-    stepWith<glsl::StepVolumes, glsl::StepVolumesCompensated>(lattice, step);
+    runCount(parallel_, slots_.size(), kernel<glsl::StepVolumesCompensated>(lattice, step));
   }
 }
 

@@ -21,11 +21,10 @@ struct NodeReach {
 };
 
 /// Leapfrog, measurements and cuts of bodies with explicit connections: shaders/solver/step/leapfrog.comp,
-/// spring_forces.comp, measure.comp and cut_links.comp on the CPU. Leapfrog node by node and without energies of volume
+/// measure.comp and cut_links.comp on the CPU. Leapfrog without energies of volume
 /// is a SIMD kernel (network_kernels.h), the rest the shaders' text.
 class CpuNetwork {
  public:
-  /// @param features  edge_forces: edge-centric (GW 4), where the lattice has them too
   CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, const FeatureSet& features,
              const simd::Kernels& kernels);
 
@@ -47,22 +46,18 @@ class CpuNetwork {
  private:
   template <class Kernel>
   Kernel kernel(CpuLattice& lattice, const Substep& step);
-  template <class Plain, class Compensated>
-  void stepWith(CpuLattice& lattice, const Substep& step);
-  void findVolumes(CpuLattice& lattice);
   void stepInText(CpuLattice& lattice, const Substep& step);
   void stepInRows(CpuLattice& lattice, const Substep& step, AlignedVector<float>& compensation);
 
   const Parallel& parallel_;
   simd::NetworkGroups spread_rows_, step_rows_;
-  bool edge_forces_, dashpot_;
+  bool dashpot_;
   NearLinks near_;
   simd::LinkRows rows_;                   ///< empty where the shaders' text steps, as are
   AlignedVector<float> places_, speeds_;  ///< of NetworkJob
   std::vector<uint32_t> slots_, touched_;
   std::vector<uint32_t> cells_;             ///< of explicit lattices with energy of volume
   std::vector<layout::vec4> compensation_;  ///< [2 * slots] m, m/s; empty without compensation
-  std::vector<glsl::vec4> link_forces_;     ///< [springs + owners] N, see EdgeForces; empty unless edge by edge
   std::vector<glsl::vec4> cell_forces_;  ///< [cellVectors() * slots] N, see shaders/solver/tissue/volume.comp; or empty
 };
 

@@ -17,8 +17,6 @@ namespace glsl {
 
 namespace {
 
-constexpr uint kNobody = 0xffffffffu;
-
 #define VARIANT_NAME MeetListed
 #define VARIANT_BASE ListedKernel
 #define VARIANT_TEXT "shaders/solver/collision/collision_meet.comp"
@@ -29,30 +27,6 @@ constexpr uint kNobody = 0xffffffffu;
 #define VARIANT_BASE ListedKernel
 #define VARIANT_TEXT "shaders/solver/collision/collision_push.comp"
 #define VARIANT_MEMBERS VISIT_LISTED
-#include "solver/cpu/text/glsl_variant.inc"
-
-#define VARIANT_NAME MeetStaggered
-#define VARIANT_BASE CollisionKernel
-#define VARIANT_TEXT "shaders/solver/collision/collision_meet.comp"
-#define VARIANT_FEATURES WITH_STAGGERED
-#include "solver/cpu/text/glsl_variant.inc"
-
-#define VARIANT_NAME PushStaggered
-#define VARIANT_BASE CollisionKernel
-#define VARIANT_TEXT "shaders/solver/collision/collision_push.comp"
-#define VARIANT_FEATURES WITH_STAGGERED
-#include "solver/cpu/text/glsl_variant.inc"
-
-struct PairsKernel : CollisionKernel {
-  using CollisionKernel::CollisionKernel;
-  std::vector<CollisionPair>* found = nullptr;
-  void addPair(uint a, uint b) { found->push_back({a, b}); }
-};
-
-#define VARIANT_NAME PairsStaggered
-#define VARIANT_BASE PairsKernel
-#define VARIANT_TEXT "shaders/solver/collision/collision_pairs.comp"
-#define VARIANT_FEATURES WITH_STAGGERED
 #include "solver/cpu/text/glsl_variant.inc"
 
 struct SurroundingsKernel : Kernel {
@@ -102,12 +76,7 @@ struct CpuSurroundings::Work {
   Rings rings;
   std::vector<float> touch_depths;  ///< touchDepths()
   std::vector<glsl::vec4> contacts, corrections;
-  std::optional<ContactLists> lists;  ///< of the complete search
-  std::vector<glsl::Item> items;      ///< of GW's search, as ranks
-  std::vector<uint32_t> ranks;
-  uint32_t sorted = 0;
-
-  bool staggered() const { return collision.search == CollisionSearch::kStaggered; }
+  std::optional<ContactLists> lists;  ///< where there are collisions
 
   template <class Kernel>
   Kernel kernel(CpuLattice& lattice, const Substep& step) {
@@ -117,19 +86,14 @@ struct CpuSurroundings::Work {
     out.widened = widened;
     out.friction = static_cast<float>(collision.friction);
     out.restitution = static_cast<float>(collision.restitution);
-    out.partitions = static_cast<uint32_t>(collision.partitions);
-    out.window = static_cast<uint32_t>(collision.window);
-    out.sorted_count = sorted;
     out.touch_depths = touch_depths.data();
     out.body_influences = influences.data();
     out.contacts = contacts.data();
     out.corrections = corrections.data();
-    out.ranks = ranks.data();
     if (lists) {
       out.entries = lists->entries();
       out.entries_before = lists->before();
     }
-    out.items = items.data();
     return out;
   }
 };
@@ -151,45 +115,13 @@ CpuSurroundings::CpuSurroundings(const Model& model, const Scene& scene, const C
   work_->touch_depths = touchDepths(model, scene.collision);
   work_->contacts.assign(lattice.slotCount(), glsl::vec4(0));
   work_->corrections.assign(2 * lattice.slotCount(), glsl::vec4(0));
-  if (!work_->staggered()) {
-    const double reach_m = collisionReach(model, scene.collision);
-    work_->lists.emplace(lattice, reach_m, list_margin * reach_m, most_in_bucket);
-    return;
-  }
-  work_->sorted = sortedCount(lattice.store.active.size());
-  work_->items.resize(static_cast<size_t>(scene.collision.partitions) * work_->sorted);
-  work_->ranks.resize(static_cast<size_t>(scene.collision.partitions) * lattice.slotCount());
+  const double reach_m = collisionReach(model, scene.collision);
+  work_->lists.emplace(lattice, reach_m, list_margin * reach_m, most_in_bucket);
 }
 
 CpuSurroundings::~CpuSurroundings() = default;
 
-void CpuSurroundings::searchStaggered(CpuLattice& lattice) {
-  Work& w = *work_;
-  const auto sortPartition = [&](size_t p) {
-    glsl::MeetStaggered kernel = w.kernel<glsl::MeetStaggered>(lattice, {});
-    const auto first = w.items.begin() + static_cast<std::ptrdiff_t>(p * w.sorted);
-    std::fill(first, first + w.sorted, glsl::Item{glsl::kNobody, glsl::kNobody});
-    auto next = first;
-    for (const uint32_t slot : lattice.store.active) {
-      const glsl::vec3 x = kernel.positionOf(slot);
-      if (!kernel.collides(slot, lattice.store.nodes[slot], x)) continue;
-      *next++ = {kernel.hashOf(kernel.cellIn(static_cast<uint32_t>(p), x)), slot};
-    }
-    std::sort(first, next);
-    for (auto it = first; it != next; ++it) {
-      w.ranks[p * lattice.slotCount() + it->y] = static_cast<uint32_t>(it - first);
-    }
-  };
-  parallel_(static_cast<size_t>(w.collision.partitions), sortPartition);
-}
-
-void CpuSurroundings::collideStaggered(CpuLattice& lattice, const Substep& step) {
-  searchStaggered(lattice);
-  runCount(parallel_, work_->sorted, work_->kernel<glsl::MeetStaggered>(lattice, step));
-  runCount(parallel_, work_->sorted, work_->kernel<glsl::PushStaggered>(lattice, step));
-}
-
-void CpuSurroundings::collideListed(CpuLattice& lattice, const Substep& step) {
+void CpuSurroundings::collide(CpuLattice& lattice, const Substep& step) {
   ContactLists& lists = *work_->lists;
   auto rules = work_->kernel<glsl::CollisionRules>(lattice, step);
   lists.update(rules, parallel_);
@@ -200,10 +132,6 @@ void CpuSurroundings::collideListed(CpuLattice& lattice, const Substep& step) {
   });
   const auto push = work_->kernel<glsl::PushListed>(lattice, step);
   parallel_(lists.jobs(), [&](size_t job) { glsl::visitListed(push, lists, job); });
-}
-
-void CpuSurroundings::collide(CpuLattice& lattice, const Substep& step) {
-  work_->staggered() ? collideStaggered(lattice, step) : collideListed(lattice, step);
 }
 
 template <class Kernel>
@@ -251,21 +179,14 @@ void CpuSurroundings::restart() {
 
 std::vector<CollisionPair> CpuSurroundings::findPairs(CpuLattice& lattice) {
   std::vector<CollisionPair> out;
-  if (work_->staggered()) {
-    searchStaggered(lattice);
-    auto kernel = work_->kernel<glsl::PairsStaggered>(lattice, {});
-    kernel.found = &out;
-    runRange(kernel, 0, work_->sorted);
-  } else {
-    ContactLists& lists = *work_->lists;
-    auto rules = work_->kernel<glsl::CollisionRules>(lattice, {});
-    lists.update(rules, parallel_);
-    parallel_(lists.jobs(), [&lists](size_t job) { lists.findContacts(job); });
-    for (uint32_t e = 0; e < lists.count(); ++e) {
-      const auto slotOf = [&lists](uint32_t entry) { return lists.entries()[entry].w; };
-      for (const ListedContact* c = lists.begin(e); c != lists.end(e); ++c) {
-        if (e < c->other) out.push_back({slotOf(e), slotOf(c->other)});
-      }
+  ContactLists& lists = *work_->lists;
+  auto rules = work_->kernel<glsl::CollisionRules>(lattice, {});
+  lists.update(rules, parallel_);
+  parallel_(lists.jobs(), [&lists](size_t job) { lists.findContacts(job); });
+  for (uint32_t e = 0; e < lists.count(); ++e) {
+    const auto slotOf = [&lists](uint32_t entry) { return lists.entries()[entry].w; };
+    for (const ListedContact* c = lists.begin(e); c != lists.end(e); ++c) {
+      if (e < c->other) out.push_back({slotOf(e), slotOf(c->other)});
     }
   }
   std::sort(out.begin(), out.end());

@@ -21,7 +21,7 @@ class Archive;
 /// and collision_*.comp, compiled as C++. See solver/gpu/contact/surroundings_pass.h.
 class CpuSurroundings {
  public:
-  /// Of collision.h's reach: how far two nodes may move relative to each other before the complete search begins again.
+  /// Of collision.h's reach: how far two nodes may move relative to each other before the search begins again.
   static constexpr double kListMargin = 0.4;
 
   /// @param parallel  must outlive it   @param list_margin  0: searches in every substep; changes no bit
@@ -40,16 +40,13 @@ class CpuSurroundings {
   void persist(Archive& archive);
   /// For tests: slots a < b of all pairs that the search finds in the current state, ascending.
   std::vector<CollisionPair> findPairs(CpuLattice& lattice);
-  size_t searches() const;   ///< complete ones for candidates so far
+  size_t searches() const;   ///< for candidates so far
   size_t compared() const;   ///< pairs that the last of these looked at
   uint32_t crowded() const;  ///< nodes that it passed over, as they lie in crowds (TickStats::crowded)
 
  private:
   struct Work;
-  void searchStaggered(CpuLattice& lattice);
   void collide(CpuLattice& lattice, const Substep& step);
-  void collideStaggered(CpuLattice& lattice, const Substep& step);
-  void collideListed(CpuLattice& lattice, const Substep& step);
   template <class Kernel>
   void apply(CpuLattice& lattice, const Substep& step, const Surroundings& surroundings);
 

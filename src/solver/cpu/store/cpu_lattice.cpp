@@ -56,11 +56,8 @@ CpuHands::CpuHands(const CpuStore& store, const FeatureSet& features) {
   held.resize(store.brickCount());
 }
 
-CpuLinks::CpuLinks(const Model& model, const FeatureSet& features)
-    : network(joinNetworks(model)),
-      edge_forces(features.edge_forces ? orderByOwner(network) : EdgeForces{}),
-      spring_cut(network.springs.size()),
-      whole_links_(network.links) {}
+CpuLinks::CpuLinks(const Model& model)
+    : network(joinNetworks(model)), spring_cut(network.springs.size()), whole_links_(network.links) {}
 
 void CpuLinks::writeSpringCut(const std::vector<float>& cut) {
   if (network.springs.empty()) return;
@@ -72,7 +69,7 @@ void CpuLinks::writeSpringCut(const std::vector<float>& cut) {
 
 CpuLattice::CpuLattice(const Model& model, const std::vector<layout::BodyParams>& params, const FeatureSet& features)
     : store(model, params),
-      links(model, features),
+      links(model),
       strengths(model, store, features, links.network.masses_kg),
       state(store.slotCount()),
       hands(store, features),

@@ -4,7 +4,6 @@
 
 #include "solver/cpu/store/cpu_strengths.h"
 #include "solver/tissue/cut_record.h"
-#include "solver/tissue/edge_forces.h"
 #include "solver/tissue/joined_network.h"
 #include "viscera/math/types.h"
 #include "viscera/solver/material.h"
@@ -40,12 +39,11 @@ struct CpuHands {
 
 /// Explicit connections; all empty without any.
 struct CpuLinks {
-  CpuLinks(const Model& model, const FeatureSet& features);
+  explicit CpuLinks(const Model& model);
   /// Whole but for those that are cut. @param cut  [springs] as in CutSprings
   void writeSpringCut(const std::vector<float>& cut);
 
   JoinedNetwork network;          ///< without stiffness where springs are cut; masses are in CpuStrengths
-  EdgeForces edge_forces;         ///< empty unless edge by edge
   std::vector<float> spring_cut;  ///< [springs] as in CutSprings
 
  private:

@@ -8,12 +8,6 @@ namespace viscera::glsl {
 
 using glm::floor;
 
-/// A key of GW's search, as uvec2 on the GPU.
-struct Item {
-  uint x = 0, y = 0;
-  bool operator<(const Item& other) const { return x != other.x ? x < other.x : y < other.y; }
-};
-
 /// What texts that know contacts between nodes in implicit substeps find (shaders/solver/implicit/implicit_pairs.glsl).
 struct PairBuffers {
   uint* pair_words = nullptr;
@@ -33,14 +27,13 @@ struct CollisionKernel : Kernel, PairBuffers {
   const vec4* increment = nullptr;  // within an implicit substep: contacts are where it leads
   vec4* increments = nullptr;       // the same, to write
   float widened = 1, cell_m = 1, friction = 0, restitution = 0;
-  uint bucket_count = 1, partitions = 1, window = 0, sorted_count = 0;
+  uint bucket_count = 1;
   const float* touch_depths = nullptr;
   const layout::vec4* body_influences = nullptr;
   vec4 *contacts = nullptr, *corrections = nullptr;
-  const uint *buckets = nullptr, *ranks = nullptr;
+  const uint* buckets = nullptr;
   const uvec4* entries = nullptr;
   const vec4* entries_before = nullptr;
-  const Item* items = nullptr;
 };
 
 /// Which nodes may touch others, and how near: no stage, only what all of them know.

@@ -66,7 +66,7 @@ void ContactLists::follow(glsl::CollisionRules& rules, size_t job) {
     const uint32_t slot = rules.active_nodes[i], entry = entry_of_[i];
     const glsl::vec3 x = positionOf(rules, i);
     const bool collides = rules.collides(slot, rules.nodes[slot], x);
-    moveTo(i, collides ? rules.hashOf(rules.cellOf(x, 0)) & mask : kNobody, motion);
+    moveTo(i, collides ? rules.hashOf(rules.cellOf(x)) & mask : kNobody, motion);
     if (entry == kNobody) continue;
     enter(rules, i, entry, x);
     const glsl::vec3 moved = x - searched_at_[entry];
@@ -118,7 +118,7 @@ void ContactLists::enter(glsl::CollisionRules& rules, size_t node, size_t entry,
   entries_[entry] = glsl::uvec4(glsl::floatBitsToUint(x), slot);
   before_[entry] = rest_[node] + glsl::vec4(rules.increment ? rules.displacement[slot] : rules.next_displacement[slot]);
   position_[entry] = x;
-  shader_cell_[entry] = rules.cellOf(x, 0);
+  shader_cell_[entry] = rules.cellOf(x);
 }
 
 /// The diagonal of the box of all displacements is the farthest that two nodes can have moved relative to each other.

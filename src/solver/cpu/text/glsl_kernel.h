@@ -43,11 +43,6 @@ inline vec4 texelFetch(const vec4* buffer, int index) {
   return buffer[index];
 }
 
-inline uvec4 texelFetch(const SpringOwner* owners, int index) {
-  const SpringOwner& owner = owners[index];
-  return {owner.slot, owner.first, owner.end, owner.place};
-}
-
 /// layout::vec4 in memory, as a shader's buffer of vec4.
 class Vectors {
  public:
@@ -100,7 +95,6 @@ struct Kernel {
         moments_(&lattice.strengths.moments),
         rest_(lattice.links.network.rest_m.data()),
         link_starts_(lattice.links.network.starts.data()),
-        link_runs_(lattice.links.edge_forces.links.data()),
         links_(lattice.links.network.links.data()) {}
 
   void tell(const Substep& step) {
@@ -141,11 +135,7 @@ struct Kernel {
   }
   uint brickBody(uint slot) const { return bricks_[slot >> 6].body; }
   vec3 tabulatedRest(uint slot) const { return xyz(rest_[slot]); }
-  uvec4 linkRuns(uint slot) const {
-    if (link_runs_) return {link_runs_[slot].x, link_runs_[slot].y, link_runs_[slot].z, link_runs_[slot].w};
-    const uint end = link_starts_[slot + 1];
-    return {link_starts_[slot], end, end, end};
-  }
+  uint linkStart(uint slot) const { return link_starts_[slot]; }
   const Link& linkAt(uint link) const { return links_[link]; }
   float nodeMass(uint slot, const NodeBits&, const BodyParams&) const { return mass_[slot]; }
   float surfaceDepth(uint slot) const { return depth_ ? depth_[slot] : 0; }
@@ -187,7 +177,6 @@ struct Kernel {
   const JoinedMoments* moments_;
   const layout::vec4* rest_;
   const uint* link_starts_;
-  const layout::uvec4* link_runs_;  ///< null where a node's links are in one run
   const Link* links_;
 };
 

@@ -38,17 +38,11 @@ namespace {
 
 constexpr double kListMargin = 0.4;  // as CpuSurroundings::kListMargin
 
-/// Within a substep the search is complete, whatever that after it is.
-CollisionConfig completeSearch(CollisionConfig config) {
-  config.search = CollisionSearch::kGrid;
-  return config;
-}
-
 }  // namespace
 
 CpuNodePairs::CpuNodePairs(const Model& model, const Scene& scene, const CpuLattice& lattice, const Parallel& parallel)
     : parallel_(parallel),
-      config_(completeSearch(scene.collision)),
+      config_(scene.collision),
       cell_m_(static_cast<float>(static_cast<double>(kPairReach) * collisionCell(model, config_))),
       influences_(bodyInfluences(model, scene)),
       touch_depths_(touchDepths(model, scene.collision)),

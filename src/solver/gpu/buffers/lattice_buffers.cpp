@@ -5,7 +5,6 @@
 #include "gpu/archive.h"
 #include "gpu/limits.h"
 #include "layout/bindings.h"
-#include "layout/edge_forces.h"
 #include "solver/tissue/joined_lattice.h"
 #include "solver/tissue/restored_nodes.h"
 

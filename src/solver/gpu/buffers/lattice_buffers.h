@@ -3,9 +3,7 @@
 #pragma once
 
 #include "gpu/buffer.h"
-#include "layout/edge_forces.h"
 #include "solver/tissue/cut_record.h"
-#include "solver/tissue/edge_forces.h"
 #include "solver/tissue/features.h"
 #include "solver/tissue/joined_network.h"
 #include "viscera/layout/tick_stats.h"
@@ -94,22 +92,15 @@ struct LinkBuffers {
   /// Whole but for those that are cut. @param cut  [springs] as in CutSprings
   void writeSpringCut(const std::vector<float>& cut);
 
-  JoinedNetwork network;                           ///< whole, as on the host; empty without
-  EdgeForces edge_forces;                          ///< feature edge_forces
-  gpu::Buffer<layout::vec4> rest;                  ///< [slots] m
-  gpu::Buffer<uint32_t> link_starts;               ///< [slots + 1]
-  gpu::Buffer<layout::Link> links;                 ///< [2 * springs]
-  gpu::Buffer<layout::SpringEnds> springs;         ///< [springs]
-  gpu::Buffer<float> spring_cut;                   ///< [springs]
-  gpu::Buffer<layout::uvec4> link_runs;            ///< [slots] in place of link_starts; this and below: edge_forces
-  gpu::Buffer<layout::SpringOwner> spring_owners;  ///< [owners]
-  gpu::Buffer<uint32_t> force_starts;              ///< [slots + 1]
-  gpu::Buffer<layout::vec4> link_forces;           ///< [springs + owners] N, see EdgeForces
+  JoinedNetwork network;                    ///< whole, as on the host; empty without
+  gpu::Buffer<layout::vec4> rest;           ///< [slots] m
+  gpu::Buffer<uint32_t> link_starts;        ///< [slots + 1]
+  gpu::Buffer<layout::Link> links;          ///< [2 * springs]
+  gpu::Buffer<layout::SpringEnds> springs;  ///< [springs]
+  gpu::Buffer<float> spring_cut;            ///< [springs]
 
  private:
-  void allocateEdgeForces();
   gpu::TexelView rest_texels_, start_texels_, link_texels_;
-  gpu::TexelView owner_texels_, force_start_texels_, link_force_texels_;
 };
 
 /// The nodes of all bodies in GPU memory, with all that is known of them: what every kernel of the solver works on.

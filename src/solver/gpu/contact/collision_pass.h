@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <functional>
 #include <vector>
 
@@ -22,7 +21,7 @@ class Archive;
 /// Owner of shaders/solver/collision/*.comp.
 class CollisionPass {
  public:
-  /// @param ahead  within an implicit substep: note() instead of run(), from the complete search
+  /// @param ahead  within an implicit substep: note() instead of run()
   CollisionPass(const Model& model, const Scene& scene, const FeatureSet& features, const LatticeBuffers& buffers,
                 bool ahead = false);
   /// Pairs of the current state and their impulses, into `corrections`. The other state is that before the substep.
@@ -46,23 +45,19 @@ class CollisionPass {
  private:
   void tell(const gpu::Program& program, const LatticeBuffers& buffers, const Substep& step) const;
   void dispatch(size_t count) const;
-  size_t search(const LatticeBuffers& buffers, const Substep& step) const;
-  void searchGrid(const LatticeBuffers& buffers, const Substep& step) const;
-  void searchStaggered(const LatticeBuffers& buffers, const Substep& step) const;
+  void search(const LatticeBuffers& buffers, const Substep& step) const;
 
   CollisionConfig config_;
   float widened_;  ///< of D_ij: how near two touch
   float cell_m_;
-  gpu::Program count_, place_, scatter_, order_;  ///< grid
-  gpu::Program list_, exchange_, rank_;           ///< staggered
+  gpu::Program count_, place_, scatter_, order_;
   gpu::Program meet_, push_, pairs_, note_;
   gpu::Buffer<float> touch_depths_;        ///< touchDepths()
   mutable gpu::Buffer<uint32_t> buckets_;  ///< see layout::kBindBuckets, and so on
-  gpu::Buffer<uint32_t> unsorted_, ranks_;
+  gpu::Buffer<uint32_t> unsorted_;
   gpu::Buffer<layout::uvec4> entries_;
   gpu::Buffer<layout::vec4> before_, contacts_, corrections_;
-  gpu::Buffer<std::array<uint32_t, 2>> items_;
-  uint32_t bucket_count_ = 0, sorted_ = 0;
+  uint32_t bucket_count_ = 0;
   uint32_t group_size_;
 };
 

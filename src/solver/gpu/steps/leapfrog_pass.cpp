@@ -8,7 +8,6 @@ LeapfrogPass::LeapfrogPass(const FeatureSet& features, AwakeBricks* awake)
     : awake_(awake), group_size_(features.group_size) {
   std::vector<std::string> defines = features.defines();
   if (awake) defines.push_back("AWAKE");
-  if (features.edge_forces) spring_forces_.emplace(features);
   plain_ = gpu::Program::compute("leapfrog.comp", defines);
   if (features.volume) volume_.emplace(features, awake);
   if (!features.tools) return;
@@ -20,7 +19,6 @@ LeapfrogPass::LeapfrogPass(const FeatureSet& features, AwakeBricks* awake)
 void LeapfrogPass::run(LatticeBuffers& buffers, const Substep& step) {
   if (awake_) awake_->list();
   if (volume_) volume_->run(buffers);
-  if (spring_forces_) spring_forces_->run(buffers);
   const gpu::Program& program = step.tools ? with_tools_ : plain_;
   program.use();
   setSubstep(program, buffers, step);

@@ -6,7 +6,6 @@
 
 #include "solver/gpu/buffers/awake_bricks.h"
 #include "solver/gpu/contact/edges_pass.h"
-#include "solver/gpu/forces/spring_force_pass.h"
 #include "solver/gpu/forces/volume_pass.h"
 #include "solver/gpu/steps/stepper.h"
 
@@ -24,7 +23,6 @@ class LeapfrogPass : public Stepper {
   gpu::Program plain_, with_tools_;
   std::optional<EdgesPass> edges_;
   std::optional<VolumePass> volume_;
-  std::optional<SpringForcePass> spring_forces_;
   AwakeBricks* awake_;
   uint32_t group_size_;
 };
