@@ -4,7 +4,6 @@
 #include <iostream>
 
 #include "bench/command/reference.h"
-#include "bench/command/step.h"
 #include "bench/suites/suites.h"
 #include "cli/fault.h"
 #include "math/memory_for.h"
@@ -21,6 +20,21 @@ struct SuiteOptions {
   int device = -1;
   bool strict = false;  ///< a missed limit is exit status 1
 };
+
+/// What of a suite is measured on bodies of any size, or on a scene.
+void addSizes(CLI::App& command, bench::SuiteOptions& options) {
+  command.add_option("--nodes", options.nodes, "sizes of cube and heart in parts sizes, ticks and stages")
+      ->check(CLI::Range(8, 20000000));
+  command.add_option("--scene", options.scene, "in their place in ticks, the part that is then measured, and stages");
+  command
+      .add_option("--set", options.overrides,
+                  "key=value: replaces one value of the scene, as in bodies[0].spacing_m=0.003")
+      ->allow_extra_args(false);
+  command.add_option("--threads", options.threads, "of the CPU backend in ticks; 0, the default: one per processor")
+      ->check(CLI::Range(0, 1024));
+  command.get_option("--scene")->excludes("--nodes");
+  command.get_option("--set")->needs("--scene");
+}
 
 /// One command per suite; `chosen` is the one that is given.
 void addSuites(CLI::App& bench, SuiteOptions& options, const bench::Suite*& chosen) {
@@ -44,29 +58,9 @@ void addSuites(CLI::App& bench, SuiteOptions& options, const bench::Suite*& chos
                        "CSV of measured compression: column strain, 0 to 0.5 at least, and columns NAME_mean_kpa")
           ->check(CLI::ExistingFile);
     }
+    if (suite.takes_sizes) addSizes(*command, options.suite);
     command->callback([&suite, &chosen] { chosen = &suite; });
   }
-}
-
-CLI::App* addStep(CLI::App& bench, bench::StepOptions& options) {
-  CLI::App* step = bench.add_subcommand("step", "time per substep of a cube and a heart");
-  step->add_option("--nodes", options.nodes, "node counts; default 10000 42745 100000")->check(CLI::Range(8, 20000000));
-  step->add_option("--scene", options.scene, "measure this scene instead");
-  step->add_option("--backend", options.backend, "cpu (without EGL), gpu, the default, or both")
-      ->check(CLI::IsMember({"cpu", "gpu", "both"}));
-  step->add_option("--threads", options.threads, "of the CPU backend; 0, the default: as many as there are processors")
-      ->check(CLI::Range(0, 1024));
-  step->add_option("--device", options.device, "EGL device, as `viscera check` lists them");
-  step->add_option("--csv", options.csv, "file to write; - is standard output");
-  step->add_flag("--stages", options.stages, "time of each stage on the GPU, by its own clock");
-  step->add_option("--set", options.overrides,
-                   "key=value: replaces one value of the scene, as in bodies[0].spacing_m=0.003")
-      ->allow_extra_args(false);
-  step->get_option("--scene")->excludes("--nodes");
-  step->get_option("--set")->needs("--scene");
-  step->get_option("--stages")->excludes("--backend");
-  step->get_option("--threads")->needs("--backend");
-  return step;
 }
 
 CLI::App* addReference(CLI::App& bench, bench::ReferenceRunOptions& options) {
@@ -88,18 +82,16 @@ CLI::App* addReference(CLI::App& bench, bench::ReferenceRunOptions& options) {
 int dispatch(int argc, char** argv) {
   CLI::App app("measure", "viscera bench");
   app.require_subcommand(1);
-  bench::StepOptions step_options;
   bench::ReferenceRunOptions reference_options;
   SuiteOptions suite_options;
   const bench::Suite* suite = nullptr;
-  addStep(app, step_options);
   const CLI::App* reference = addReference(app, reference_options);
   addSuites(app, suite_options, suite);
   if (const std::optional<int> ended = cli::parse(app, argc, argv)) return *ended;
   if (*reference)
     return memoryFor("running scene '" + reference_options.run.scene + "'",
                      [&] { return bench::referenceRun(reference_options); });
-  if (!suite) return bench::step(step_options);
+  if (!suite_options.suite.scene.empty() && suite_options.suite.only.empty()) suite_options.suite.only = "ticks";
   const int missed =
       bench::runSuite(*suite, suite_options.suite, suite_options.backend, suite_options.device, std::cout);
   return suite_options.strict && missed > 0 ? 1 : 0;

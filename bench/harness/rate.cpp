@@ -81,9 +81,4 @@ std::shared_ptr<Ticks> onGpu(const Specimen& specimen) {
   return solver;
 }
 
-std::vector<Candidate> bothBackends(const Specimen& specimen, const ToolMotions& motions) {
-  return {candidate("cpu", onCpu(specimen), specimen.nodes(), motions),
-          candidate("gpu", onGpu(specimen), specimen.nodes(), motions)};
-}
-
 }  // namespace viscera::bench

@@ -45,7 +45,4 @@ std::shared_ptr<Ticks> onCpu(const Specimen& specimen, int threads = 0, const st
 /// The specimen on the GPU backend, at its start.
 std::shared_ptr<Ticks> onGpu(const Specimen& specimen);
 
-/// Both backends side by side, all threads: "cpu" and "gpu".
-std::vector<Candidate> bothBackends(const Specimen& specimen, const ToolMotions& motions = {});
-
 }  // namespace viscera::bench

@@ -8,6 +8,7 @@
 
 #include "bench/harness/plot.h"
 #include "bench/harness/table.h"
+#include "viscera/model/scene/overrides.h"
 #include "viscera/model/scene/solver_config.h"
 
 namespace viscera::gpu {
@@ -24,6 +25,10 @@ struct SuiteOptions {
   gpu::Context* context = nullptr;  ///< that one
   std::string only;                 ///< the part to measure, of suites that have parts; empty: all
   std::string data;                 ///< file of measured values, of suites that take one; empty: none
+  std::vector<int> nodes;           ///< sizes of bodies, of suites that take them; empty: the suite's own
+  std::string scene;                ///< in place of those bodies; empty: none
+  Overrides overrides;              ///< of that scene
+  int threads = 0;                  ///< of the CPU backend there; 0: as many as there are processors
 };
 
 /// One number that must be reached.
@@ -44,6 +49,10 @@ class Report {
   bool isShort() const { return options_.short_form; }
   const std::string& only() const { return options_.only; }
   const std::string& data() const { return options_.data; }
+  const std::vector<int>& nodes() const { return options_.nodes; }
+  const std::string& scene() const { return options_.scene; }
+  const Overrides& overrides() const { return options_.overrides; }
+  int threads() const { return options_.threads; }
   const std::vector<Backend>& backends() const { return options_.backends; }
   gpu::Context* context() const { return options_.context; }  ///< null: no GPU backend
   const std::string& suite() const { return suite_; }

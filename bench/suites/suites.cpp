@@ -13,6 +13,7 @@
 #include "bench/suites/material/material_suite.h"
 #include "bench/suites/pace/haptics_suite.h"
 #include "bench/suites/pace/performance_suites.h"
+#include "bench/suites/speed/speed_suite.h"
 #include "bench/suites/stability/stability_suite.h"
 #include "bench/suites/thread/thread_suite.h"
 #include "bench/suites/validate/validate_suite.h"
@@ -41,10 +42,9 @@ const std::vector<Suite>& suites() {
       {"material", "does the lattice have the elasticity that was asked for?", run<materialSuite>, true},
       {"accuracy", "what do substeps and float32 cost in error, and error in time?", run<accuracySuite>, true},
       {"stability", "does tissue stay finite and bounded whatever is done to it?", run<stabilitySuite>, true},
-      {"table1", "substeps per second by number of nodes, beside VR05 Table 1", run<table1Suite>},
+      {"speed", "substeps per second by size, instruction set and connections, beside VR05 Table 1; what is left out",
+       run<speedSuite>, true, true, false, true},
       {"gw", "Georgii & Westermann's tables, and the errors of their ways", run<gwSuite>},
-      {"scale", "time and memory per node, from a thousand to ten million nodes", run<scaleSuite>},
-      {"skip", "what does not doing what a scene does not need save?", run<skipSuite>},
       {"egve", "what do the mappings of the skin cost, and how far off are they (EGVE 3.4)?", run<egveSuite>, true},
       {"cut", "pictures per second by length of an incision (VR05 figure 11), rate by share of springs cut",
        run<cutSuite>},
@@ -59,7 +59,6 @@ const std::vector<Suite>& suites() {
       {"latency", "from a pose to its force and its picture; how even ticks are", run<latencySuite>},
       {"picture", "what does a picture cost, stage by stage, and does the quick one look the same?", run<pictureSuite>},
       {"busy", "what do threads gain beside other busy processes, which the suite starts itself?", run<busySuite>},
-      {"limit", "copies and multiply-adds of this machine, and the fraction that is reached", run<limitSuite>},
       {"gpu", "work groups, ways to read neighbours, shares of this GPU's limits, large skins, read-back, memory",
        run<gpuSuite>, false, true},
   };

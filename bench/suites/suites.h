@@ -19,6 +19,7 @@ struct Suite {
   bool takes_backend = false;      ///< measures on the report's backends; the context is null where the GPU is not one
   bool has_parts = takes_backend;  ///< measureParts()
   bool takes_data = false;         ///< Report::data()
+  bool takes_sizes = false;        ///< Report::nodes(), scene(), overrides(), threads()
   bool needs_gpu = !takes_data;    ///< where it does not take a backend; else it is measured on the processor alone
 };
 

@@ -190,7 +190,6 @@ bodies:
     fixed: [{shape: plane, point_m: [0, 0, 0.015], normal: [0, 0, -1]}]
 '''
 SCENE = BLOCK + 'styluses: [{name: left}]\n'
-MSH_SCENE = 'bodies: [{name: organ, source: mesh, mesh_file: mesh.msh}]\n'
 RICH_SCENE = BLOCK + '''    color: [0.7, 0.2, 0.2]
     material: {young_modulus_pa: 20000, poisson_ratio: 0.3, density_kg_per_m3: 1060, drag_per_s: 4, dashpot_ratio: 0.2}
     force_n: [0, 0, 0.01]

@@ -11,7 +11,7 @@
 
 #include "bench/harness/rate.h"
 #include "bench/harness/specimens/scalar_lattice.h"
-#include "bench/suites/skip/skip_parts.h"
+#include "bench/suites/speed/speed_parts.h"
 #include "solver/cpu/cpu_solver.h"
 
 // Ratios of speed within one run, of one thread's fastest rounds in turn, which the noise of a machine hardly touches:

@@ -45,13 +45,5 @@ TEST(Machine, HasRatesThatAreNumbers) {
   EXPECT_FALSE(fmaTarget().empty());
 }
 
-TEST(Machine, SaysOfCachesWhatTheSystemSays) {
-  double last = 0;
-  for (const Cache& cache : caches()) {
-    EXPECT_GE(cache.bytes, last);
-    last = cache.bytes;
-  }
-}
-
 }  // namespace
 }  // namespace viscera::bench

@@ -49,7 +49,8 @@ TEST_F(BadInput, SceneThatIsNotThere) {
   expectRefusal({"run", "no_such_scene"}, {"'no_such_scene'", "shipped scene"});
   expectRefusal({"run", folder_.file("none.yaml")}, {folder_.file("none.yaml")});
   expectRefusal({"run", folder_.path()}, {folder_.path(), "folder"});
-  expectRefusal({"bench", "step", "--scene", folder_.file("none.yaml")}, {folder_.file("none.yaml")});
+  expectRefusal({"bench", "speed", "--scene", folder_.file("none.yaml"), "--out", folder_.path()},
+                {folder_.file("none.yaml")});
   expectRefusal({"anchor", folder_.file("none.yaml"), "--strokes", strokes("left"), "--out", folder_.file("out.yaml")},
                 {folder_.file("none.yaml")});
 }
@@ -122,7 +123,7 @@ TEST_F(BadInput, Strokes) {
 
 TEST_F(BadInput, PlaceToWriteTo) {
   expectRunRefusal({"--out", scene_ + "/pictures"}, {scene_ + "/pictures"});
-  expectRefusal({"bench", "step", "--nodes", "8", "--csv", folder_.file("none/x.csv")}, {folder_.file("none/x.csv")});
+  expectRefusal({"bench", "speed", "--nodes", "8", "--out", scene_ + "/tables"}, {scene_ + "/tables"});
   expectRefusal({"anchor", scene_, "--strokes", strokes("left"), "--out", folder_.file("none/x.yaml")},
                 {folder_.file("none/x.yaml")});
 }
@@ -143,11 +144,11 @@ TEST_F(BadInput, CommandLineIsExplainedNotCrashedOn) {
                                                        {"run", scene_, "--seconds", "nan"},
                                                        {"bench"},
                                                        {"bench", "reference"},
-                                                       {"bench", "step", "--nodes", "0"},
-                                                       {"bench", "step", "--backend", "fpga"},
-                                                       {"bench", "step", "--backend", "cpu", "--threads", "-1"},
-                                                       {"bench", "step", "--threads", "1"},
-                                                       {"bench", "step", "--backend", "cpu", "--stages"},
+                                                       {"bench", "speed", "--nodes", "0"},
+                                                       {"bench", "speed", "--backend", "fpga"},
+                                                       {"bench", "speed", "--threads", "-1"},
+                                                       {"bench", "speed", "--set", "name=x"},
+                                                       {"bench", "speed", "--only", "everything"},
                                                        {"check", "--device", "x"}};
   for (const auto& arguments : wrong) {
     const Ending ending = viscera(arguments);

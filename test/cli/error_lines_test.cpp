@@ -59,7 +59,7 @@ TEST_F(ErrorLines, CommandLineIsRefusedInOneLineToo) {
   EXPECT_TRUE(says(lineOfRun({"--fl\ny"}, false), {"command line", "--fl\\ny", "`viscera run --help`"}));
   EXPECT_TRUE(says(lineOfRun({"--seconds", "soon"}, false), {"--seconds", "soon"}));
   EXPECT_TRUE(
-      says(lineOf(viscera({"bench", "step", "--nodes", "0"}), false), {"--nodes", "viscera bench step --help`"}));
+      says(lineOf(viscera({"bench", "speed", "--nodes", "0"}), false), {"--nodes", "viscera bench speed --help`"}));
 }
 
 TEST_F(ErrorLines, VersionIsNoError) {

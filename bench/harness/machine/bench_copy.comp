@@ -4,8 +4,12 @@
 // bench_copy.comp - how fast the renderer's kernels copy memory.   Owner: bench/harness/machine/machine_gpu.cpp
 // in  from [count]     out  to [count]
 layout(local_size_x = GROUP_SIZE) in;
-layout(std430, binding = 0) restrict readonly buffer From { vec4 from[]; };
-layout(std430, binding = 1) restrict writeonly buffer To { vec4 to[]; };
+layout(std430, binding = 0) restrict readonly buffer From {
+  vec4 from[];
+};
+layout(std430, binding = 1) restrict writeonly buffer To {
+  vec4 to[];
+};
 
 void main() {
   uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;

@@ -1,10 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// bench_fma.comp - how many multiply-adds the renderer does in registers.   Owner: bench/harness/machine/machine_gpu.cpp
-// out  results [invocations]
+// bench_fma.comp - how many multiply-adds the renderer does in registers.   Owner:
+// bench/harness/machine/machine_gpu.cpp out  results [invocations]
 layout(local_size_x = GROUP_SIZE) in;
-layout(std430, binding = 0) writeonly buffer Results { vec4 results[]; };
+layout(std430, binding = 0) writeonly buffer Results {
+  vec4 results[];
+};
 uniform int rounds;
 
 void main() {

@@ -21,20 +21,6 @@ namespace {
 
 constexpr int kCopies = 5;
 
-/// "48K" -> 49152
-double bytesOf(const std::string& text) {
-  const double number = std::strtod(text.c_str(), nullptr);
-  const char unit = text.empty() ? ' ' : text.back();
-  return number * (unit == 'K' ? 1024 : unit == 'M' ? 1024 * 1024 : 1);
-}
-
-std::string wordIn(const std::string& file) {
-  std::ifstream stream(file);
-  std::string word;
-  stream >> word;
-  return word;
-}
-
 /// Of one thread: its own arrays, the best of some copies.
 double copyAlone(size_t bytes) {
   AlignedVector<char> from(bytes, 1), to(bytes);
@@ -63,17 +49,6 @@ double sumOverThreads(int threads, const std::function<double()>& measure) {
 
 double copyRate(int threads, size_t mebibytes) {
   return sumOverThreads(threads, [&] { return copyAlone(mebibytes << 20); });
-}
-
-std::vector<Cache> caches() {
-  std::vector<Cache> out;
-  for (int i = 0; i < 8; ++i) {
-    const std::string folder = "/sys/devices/system/cpu/cpu0/cache/index" + std::to_string(i) + "/";
-    const std::string type = wordIn(folder + "type");
-    if (type == "Data" || type == "Unified")
-      out.push_back({std::atoi(wordIn(folder + "level").c_str()), bytesOf(wordIn(folder + "size"))});
-  }
-  return out;
 }
 
 double residentBytes() {

@@ -9,7 +9,7 @@
 
 namespace viscera::bench {
 
-// What this machine can do at most, measured (docs/benchmarks.md, limit).
+// What this machine can do at most, measured (docs/benchmarks.md, speed).
 
 /// Bytes read plus bytes written per second by memcpy between arrays far larger than caches.
 /// @param threads  at once, each with arrays of its own   @param mebibytes  of each array
@@ -25,13 +25,6 @@ void warmUpGpu(const std::function<void()>& work);
 /// The same on the renderer of the current context: copies between buffers, multiply-adds in a compute shader.
 double gpuCopyRate(size_t mebibytes);  ///< of each buffer, or as much as the driver lets a storage block be
 double gpuFmaRate(double seconds);
-
-struct Cache {
-  int level;
-  double bytes;  ///< as the system tells; 0 where it does not
-};
-/// Data and unified caches of the first processor, smallest first; empty where the system does not tell.
-std::vector<Cache> caches();
 
 /// Memory of this process that is resident [bytes].
 double residentBytes();

@@ -9,12 +9,6 @@ namespace viscera::bench {
 
 // The suites about speed (docs/benchmarks.md), backends side by side in one run.
 
-/// VR05 Table 1: substeps per second by number of nodes, scalar, SIMD, GPU, beside the paper's.
-void table1Suite(Report& report, gpu::Context& context);
-/// Cost and memory of a node update by number of nodes.
-void scaleSuite(Report& report, gpu::Context& context);
-/// What is skipped where a scene does not need it: what that saves, and that the result is the same.
-void skipSuite(Report& report, gpu::Context& context);
 /// VR05 figure 11: pictures per second by length of an incision; rate by share of springs cut at random.
 void cutSuite(Report& report, gpu::Context& context);
 /// From a stylus pose to its force and to its picture; how even ticks are.
@@ -23,7 +17,5 @@ void latencySuite(Report& report, gpu::Context& context);
 void pictureSuite(Report& report, gpu::Context& context);
 /// How fast the demo's heart is stepped beside processes that want the processors too, by threads.
 void busySuite(Report& report);
-/// Copy and multiply-add rates of this machine, and the fraction of them that the solver reaches.
-void limitSuite(Report& report, gpu::Context& context);
 
 }  // namespace viscera::bench

@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-
 #include "model/body/network_builder.h"
 #include "solver/reference/derivatives.h"
 #include "solver/reference/reference_bodies.h"
-#include "solver/reference/statics.h"
 #include "tools/motion_packing.h"
 
 namespace viscera {
@@ -43,21 +40,6 @@ Body oddBody() {
                          {1, 4, 1.5, 0},
                          {2, 3, 1, length(2, 3)},
                          {3, 4, 4, 0}});
-}
-
-/// Chain of unit masses along z, `count` of them, hanging from its fixed last one; springs of 3 N/m and 0.5 m.
-Body hangingLinks(int count) {
-  std::vector<Vector3d> positions_m;
-  std::vector<NetworkSpring> springs;
-  for (int i = 0; i < count; ++i) {
-    positions_m.emplace_back(0, 0, 0.5 * i);
-    if (i > 0) springs.push_back({static_cast<uint32_t>(i - 1), static_cast<uint32_t>(i), 3, 0.5});
-  }
-  Body body = linkedBody(positions_m, springs);
-  for (uint32_t slot : body.lattice.active_slots) {
-    if (restPosition(body, slot).z() == 0.5 * (count - 1)) body.lattice.nodes[slot].lo |= layout::kFixedBit;
-  }
-  return body;
 }
 
 uint32_t slotNear(const Body& body, const Vector3d& at) {
@@ -201,38 +183,6 @@ TEST(ReferenceNetwork, CutTakesASpringFromBothEndsAndSaysWhere) {
   EXPECT_EQ(solver.force(right), Vector3d::Zero().eval());
   solver.substep(sweepAt(0.25f));
   EXPECT_EQ(solver.springs_cut, 2u) << "what is cut is not cut again";
-}
-
-/// Oracle 3 of physics.md 6.
-TEST(ReferenceNetwork, ChainOfLinksHangsExactly) {
-  constexpr int kMasses = 10;
-  constexpr double kGravity = 0.01;
-  const Body body = hangingLinks(kMasses + 1);
-  const Model model = modelOf({body});
-  ReferenceSolver solver(model, Vector3d(0, 0, -kGravity), 1e-3);
-  solveStatics(solver, {});
-  for (int j = 1; j <= kMasses; ++j) {
-    const double exact = kGravity / 3 * (kMasses * j - j * (j - 1) / 2.0);
-    EXPECT_NEAR(-solver.u_m[slotNear(body, {0, 0, 0.5 * (kMasses - j)})].z(), exact, 1e-9) << "mass " << j;
-  }
-}
-
-/// Oracle 2: fixed at one end, free at the other; its end mass is a whole one here, so 2 N + 1 stands for 2 N.
-TEST(ReferenceNetwork, ChainOfLinksSwingsAtItsExactFrequencies) {
-  constexpr int kMasses = 6;
-  const Body body = hangingLinks(kMasses + 1);
-  const Model model = modelOf({body});
-  ReferenceSolver solver(model, Vector3d::Zero(), 1e-3);
-  const Eigen::MatrixXd k = solver.stiffnessMatrix();
-  Eigen::MatrixXd axial(kMasses, kMasses);  // masses are 1 kg: eigenvalues are squares of frequencies
-  const auto dof = [&](int i) { return solver.dof(slotNear(body, {0, 0, 0.5 * i}), 2); };
-  for (int i = 0; i < kMasses; ++i)
-    for (int j = 0; j < kMasses; ++j) axial(i, j) = k(dof(i), dof(j));
-  const Eigen::VectorXd squares = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(axial).eigenvalues();
-  for (int p = 1; p <= kMasses; ++p) {
-    const double exact = 2 * std::sqrt(3.0) * std::sin((2 * p - 1) * M_PI / (2 * (2 * kMasses + 1)));
-    EXPECT_NEAR(std::sqrt(squares[p - 1]), exact, 1e-12) << "mode " << p;
-  }
 }
 
 TEST(ReferenceNetwork, EveryIntegratorMovesItAlikeInShortSubsteps) {

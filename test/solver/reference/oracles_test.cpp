@@ -186,19 +186,6 @@ TEST(ReferenceOracle, CantileversConvergeAtLeastLikeTheSpacing) {
   }
 }
 
-TEST(ReferenceStatics, HangingChainSagsExactly) {
-  constexpr int kMasses = 10;
-  const Body body = standing(unitChain(kMasses + 1));
-  const Model model = modelOf({body});
-  ReferenceSolver solver(model, Vector3d(0, 0, 0.01), 1);  // from z = 0 "down" along +z
-  const StaticsReport report = solveStatics(solver, {});
-  for (int j = 1; j <= kMasses; ++j) {
-    const double exact = 0.01 * (kMasses * j - j * (j - 1) / 2.0);
-    EXPECT_NEAR(solver.u_m[slotAt(body, 0, 0, j)].z(), exact, 1e-9);  // of 0.55: the tolerance of the residual
-  }
-  EXPECT_LE(report.residual, 1e-10);
-}
-
 TEST(ReferenceStatics, SaysSoWhenAMotionIsLeftFree) {
   const Body body = unitBody({2, 1, 1});
   const Model model = modelOf({body});

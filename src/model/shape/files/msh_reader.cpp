@@ -191,7 +191,7 @@ class MshReader {
     for (uint64_t left = in_.count(4); left > 0; --left) {
       in_.count(4);
       const MshType& type = readType();
-      const int64_t group = in_.whole(4);
+      const int64_t group = std::abs(in_.whole(4));
       in_.whole(4);
       if (in_.count(4) != type.nodes) in_.fail("the number of nodes is not that of the element's type");
       addElement(type, group, 4);

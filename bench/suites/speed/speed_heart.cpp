@@ -4,7 +4,7 @@
 
 #include "bench/harness/rate.h"
 #include "bench/harness/session_speed.h"
-#include "bench/suites/table1/table1_parts.h"
+#include "bench/suites/speed/speed_parts.h"
 
 namespace viscera::bench {
 
@@ -106,17 +106,17 @@ void measurePressedHeart(Report& report) {
     report.checkAtMost("heart with a probe: nodes touched, cpu over gpu - 1",
                        static_cast<double>(ways[0].touched) / ways[1].touched - 1, kTouchedApart);
   }
-  report.add(table, "pig_heart");
+  report.add(table, "heart");
 }
 
-void measureHeartSessions(Report& report, gpu::Context& context) {
+void measureHeartSessions(Report& report) {
   Table table("the same heart in a session, a probe moving in it, pictures of 640 x 480 at 30 Hz",
               {{"backend"}, {"wanted"}, {"ticks"}, {"tick", "ms"}, {"real-time factor", "", 3}, {"images"}});
   for (Backend backend : {Backend::kCpu, Backend::kGpu}) {
     Scene scene = pigHeartScene(report.isShort() ? 3000 : kNodes, 0.2);
     scene.solver.backend = backend;
     report.stage("sessions, " + nameOf(backend));
-    Session session(scene, context);
+    Session session(scene, *report.context());
     const Pressing pressing(session);
     for (Wanted wanted : {Wanted::kNothing, Wanted::kSurface, Wanted::kSurfaceAndImages}) {
       const SessionSpeed speed =

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/harness/session_speed.h"
-#include "bench/suites/skip/skip_parts.h"
+#include "bench/suites/speed/speed_parts.h"
 
 namespace viscera::bench {
 
@@ -45,10 +45,10 @@ uint64_t work(const ViewCounters& done) {
 }
 
 /// Frames that are not seen are those between two images at 30 Hz: kEveryImage draws them.
-void measureBackend(Report& report, gpu::Context& context, Backend backend, Table& table) {
+void measureBackend(Report& report, Backend backend, Table& table) {
   report.stage("views, " + nameOf(backend));
   const double seconds = report.isShort() ? 0.2 : 2;
-  Session session(viewedScene(backend, report.isShort()), context);
+  Session session(viewedScene(backend, report.isShort()), *report.context());
   const Pressing pressing(session);
   const auto moving = [&] { return pressing.now(); };
   for (Wanted wanted : {Wanted::kNothing, Wanted::kSurface, Wanted::kImages, Wanted::kEveryImage}) {
@@ -71,9 +71,9 @@ void measureBackend(Report& report, gpu::Context& context, Backend backend, Tabl
 
 }  // namespace
 
-void measureViews(Report& report, gpu::Context& context) {
+void measureViews(Report& report) {
   Table table = viewTable(report.isShort() ? 1500 : 10000);
-  for (Backend backend : {Backend::kCpu, Backend::kGpu}) measureBackend(report, context, backend, table);
+  for (Backend backend : {Backend::kCpu, Backend::kGpu}) measureBackend(report, backend, table);
   report.add(table, "views");
 }
 

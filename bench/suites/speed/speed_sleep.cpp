@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bench/harness/rate.h"
-#include "bench/suites/skip/skip_parts.h"
+#include "bench/suites/speed/speed_parts.h"
 #include "solver/cpu/cpu_solver.h"
 #include "solver/gpu/gpu_solver.h"
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/harness/rate.h"
-#include "bench/suites/skip/skip_parts.h"
+#include "bench/suites/speed/speed_parts.h"
 
 namespace viscera::bench {
 

@@ -1,10 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/command/stages.h"
-
-#include <ostream>
-
 #include "bench/harness/machine/machine.h"
+#include "bench/suites/speed/speed_parts.h"
+#include "calibration/timed_ticks.h"
 #include "gpu/stage_clock.h"
 #include "session/inline_view.h"
 #include "solver/gpu/gpu_solver.h"
@@ -42,13 +40,8 @@ ToolMotions probeAndBlade(const Model& model) {
   return motions;
 }
 
-}  // namespace
-
-void printStageNames(std::ostream& out) {
-  out << "scene,nodes,stage,times_per_tick,ms_per_tick,ns_per_node_update\n";
-}
-
-void printStages(std::ostream& out, const Model& model, Scene scene) {
+/// Steps the scene on the GPU with a probe and a blade, maps its skin and draws it.
+void addStages(Table& table, const Model& model, Scene scene) {
   scene.styluses.resize(layout::kMaxStyluses);
   if (scene.cameras.empty()) scene.cameras.emplace_back();
   GpuSolver solver(model, scene);
@@ -74,10 +67,24 @@ void printStages(std::ostream& out, const Model& model, Scene scene) {
   for (size_t s = 0; s < gpu::kStages; ++s) {
     if (times[s].count == 0) continue;
     const double per_tick_s = times[s].seconds / kStageTicks;
-    out << scene.name << ',' << model.activeNodes() << ',' << gpu::stageName(static_cast<gpu::Stage>(s)) << ','
-        << static_cast<double>(times[s].count) / kStageTicks << ',' << 1e3 * per_tick_s << ','
-        << 1e9 * per_tick_s / updates << std::endl;
+    table.add({scene.name, static_cast<double>(model.activeNodes()), gpu::stageName(static_cast<gpu::Stage>(s)),
+               static_cast<double>(times[s].count) / kStageTicks, 1e3 * per_tick_s, 1e9 * per_tick_s / updates});
   }
+}
+
+}  // namespace
+
+void measureStages(Report& report) {
+  Table table(
+      "stages of a tick by the GPU's own clock",
+      {{"scene"}, {"nodes", "", 8}, {"stage"}, {"times per tick"}, {"per tick", "ms"}, {"per node update", "ns"}});
+  for (Scene scene : tickScenes(report)) {
+    report.stage("stages of " + scene.name);
+    const Model model = buildModel(scene);
+    fitTick(scene.solver, model, kSpecimenSubsteps);
+    addStages(table, model, scene);
+  }
+  report.add(table, "stages");
 }
 
 }  // namespace viscera::bench

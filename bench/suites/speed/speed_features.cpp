@@ -4,16 +4,16 @@
 #include <cmath>
 
 #include "bench/harness/rate.h"
-#include "bench/suites/skip/skip_parts.h"
+#include "bench/suites/speed/speed_parts.h"
 
 namespace viscera::bench {
 
 namespace {
 
 constexpr int kComparedTicks = 3;
-constexpr double kSameWithin = 1e-5;        // spacings: float32 rounding of sixty substeps
-constexpr double kSkipFeaturesWave = 0.02;  // spacings
-constexpr double kNothing = 1e-9;           // a feature of this size is there and does nothing that float32 can hold
+constexpr double kSameWithin = 1e-5;         // spacings: float32 rounding of sixty substeps
+constexpr double kSpeedFeaturesWave = 0.02;  // spacings
+constexpr double kNothing = 1e-9;            // a feature of this size is there and does nothing that float32 can hold
 
 Specimen specimen(int edge, double dashpot_ratio = 0, double poisson_ratio = 0.25) {
   MaterialConfig material = specimenMaterial(dashpot_ratio);
@@ -62,7 +62,7 @@ Feature fixedHalf(int edge) {
     if (2 * lattice.nodeAt(slot).z() < edge) lattice.nodes[slot].lo |= layout::kFixedBit;
   }
   for (Specimen* specimen : {&out.with, &out.without})
-    specimen->start = wobbling(specimen->model, kSkipFeaturesWave * lattice.spacing_m, 0);
+    specimen->start = wobbling(specimen->model, kSpeedFeaturesWave * lattice.spacing_m, 0);
   return out;
 }
 
@@ -130,15 +130,6 @@ double addRow(Table& table, const Feature& feature, const std::string& backend, 
   return differs;
 }
 
-/// Nodes over places in the 4x4 planes of bricks that hold a node: what SIMD lanes can be used for.
-double planeShare(const Model& model) {
-  constexpr uint32_t kPlane = 16;
-  const std::vector<uint32_t>& slots = model.bodies[0].lattice.active_slots;
-  size_t planes = 0;
-  for (size_t i = 0; i < slots.size(); ++i) planes += i == 0 || slots[i] / kPlane != slots[i - 1] / kPlane ? 1 : 0;
-  return static_cast<double>(slots.size()) / static_cast<double>(kPlane * planes);
-}
-
 }  // namespace
 
 void measureFeatures(Report& report) {
@@ -167,32 +158,6 @@ void measureFeatures(Report& report) {
   report.add(table, "features");
   report.checkAtMost("features: largest difference between on without effect and left out, spacings", worst,
                      kSameWithin);
-}
-
-void measureEmptySpace(Report& report) {
-  constexpr double kDearer = 1.3;
-  const double size = report.isShort() ? 5000 : 42745;
-  const Specimen cube = cubeOf(edgeOf(size)), heart = heartOf(static_cast<int>(size));
-  report.stage("empty space");
-  std::vector<Candidate> candidates = bothBackends(cube);
-  for (const Candidate& of_heart : bothBackends(heart)) candidates.push_back(of_heart);
-  const std::vector<Rate> rates = measureRates(candidates, report.isShort() ? 0.02 : 0.3);
-  Table table("inactive space", {{"backend"},
-                                 {"cube", "nodes", 8},
-                                 {"heart", "nodes", 8},
-                                 {"heart fills of its box", "", 2},
-                                 {"of brick planes with a node", "", 2},
-                                 {"cube", "ns/update"},
-                                 {"heart", "ns/update"},
-                                 {"heart over cube", "", 3}});
-  for (size_t b = 0; b < 2; ++b) {
-    const double ratio = rates[2 + b].ns_per_update() / rates[b].ns_per_update();
-    table.add({candidates[b].name, candidates[b].nodes, candidates[2 + b].nodes, filledShare(heart.model),
-               planeShare(heart.model), rates[b].ns_per_update(), rates[2 + b].ns_per_update(), ratio});
-    report.checkAtMost("inactive space: active node of the heart over one of the cube, " + candidates[b].name, ratio,
-                       kDearer);
-  }
-  report.add(table, "space");
 }
 
 }  // namespace viscera::bench

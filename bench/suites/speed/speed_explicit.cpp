@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "bench/harness/rate.h"
-#include "bench/suites/table1/table1_parts.h"
+#include "bench/suites/speed/speed_parts.h"
 #include "model/body/network_builder.h"
 
 namespace viscera::bench {
