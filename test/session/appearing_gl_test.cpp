@@ -11,7 +11,7 @@ namespace {
 using namespace test;
 
 constexpr double kForceN = 0.1;  ///< well below what millimetres of tissue of 20 kPa give, well above rounding
-constexpr int kGapTicks = 100;   ///< tissue comes back meanwhile
+constexpr int kGapTicks = 60;    ///< tissue comes back meanwhile
 constexpr int kHeldTicks = 20;
 
 class Appearing : public OnSceneBackend {
@@ -68,6 +68,7 @@ TEST_P(Appearing, AfterAGapAtDepthDoesNothingUntilItWasOutside) {
 TEST_P(AppearingAbove, InTheAirWithinACellOfTheSkinPushesAtOnce) {
   Scene low = scene();
   BodyConfig& body = low.bodies[0];
+  body.spacing_m = 0.005;                       // the probe is no finer
   body.box_size_m.z() -= 0.9 * body.spacing_m;  // the lowest cells and the highest are tissue to 0.55
   body.material.cells = Cells::kMoments;
   body.fixed[0].point_m.z() = -0.5 * body.box_size_m.z();

@@ -23,7 +23,7 @@ inline CameraConfig cameraOf(const std::string& name, double rate_hz = 30) {
   return camera;
 }
 
-/// A soft block that stands on its bottom, without gravity, with two styluses and one camera.
+/// A soft block of 125 nodes that stands on its bottom, without gravity, with two styluses and one camera.
 inline Scene blockScene() {
   Scene scene;
   scene.environment.gravity_m_per_s2 = Vector3d::Zero();
@@ -31,7 +31,7 @@ inline Scene blockScene() {
   body.name = "block";
   body.source = TissueSource::kBox;
   body.box_size_m = Vector3d::Constant(2 * kHalfM);
-  body.spacing_m = 0.005;
+  body.spacing_m = 0.01;
   FixedConfig bottom;
   bottom.shape = FixedShape::kPlane;
   bottom.point_m = Vector3d(0, 0, -kHalfM);

@@ -21,6 +21,7 @@ constexpr double kCauteryBalance = 1e-9;  // of all heat, sums of float64
 constexpr double kTime = 1e-6;            // of the heat of a number of ticks
 constexpr double kAlike = 0.02;           // of heat and of forces, backend beside backend: places differ by float32
 constexpr double kFelt = 1.2;             // a burn is felt: at least so many times the fresh force
+constexpr int kHeats = 20;                // ticks, until tissue is warm
 constexpr double kShrunk_m = 1.5e-4;      // a free corner of coagulated tissue is drawn in by so much at least
 
 class Cautery : public OnSceneBackend {
@@ -87,19 +88,19 @@ TEST_P(Cautery, HeatIsPowerTimesTimeInTouchAndAllOfItIsAccountedFor) {
     SCOPED_TRACE(static_cast<int>(structure));
     Session session(burning(4, structure), context_);
     const double top_m = structure == Structure::kSurface ? 0 : 0.006;
-    for (int t = 0; t < 10; ++t) session.step(leftAt({0, 0, 0.03}, true), {});
+    for (int t = 0; t < 3; ++t) session.step(leftAt({0, 0, 0.03}, true), {});
     EXPECT_EQ(seenBurns(session).given_j, 0) << "nothing is touched";
-    burn(session, 60, top_m);
+    burn(session, kHeats, top_m);
     const SeenBurns seen = seenBurns(session);
-    EXPECT_NEAR(seen.given_j, 60 * 4 * session.tick_s(), kTime * seen.given_j);
+    EXPECT_NEAR(seen.given_j, kHeats * 4 * session.tick_s(), kTime * seen.given_j);
     EXPECT_NEAR(seen.stored_j + seen.steam_j + seen.perfused_j + seen.surface_j, seen.given_j,
                 kCauteryBalance * seen.given_j);
     EXPECT_GT(seen.hottest_c, 45);
-    for (int t = 0; t < 30; ++t) session.step(on(false, false, top_m), {});
+    for (int t = 0; t < 5; ++t) session.step(on(false, false, top_m), {});
     EXPECT_EQ(seenBurns(session).given_j, seen.given_j) << "not pressed";
     EXPECT_LT(seenBurns(session).hottest_c, seen.hottest_c);
     session.step(on(true, false, top_m), {});
-    EXPECT_NEAR(seenBurns(session).given_j, 61 * 4 * session.tick_s(), kTime * seen.given_j)
+    EXPECT_NEAR(seenBurns(session).given_j, (kHeats + 1) * 4 * session.tick_s(), kTime * seen.given_j)
         << "also where it was in tissue before, and pushes nothing";
     EXPECT_EQ(session.drain().stats.nonfinite, 0U);
     EXPECT_EQ(session.drain().health.trips, 0U);
@@ -120,12 +121,12 @@ TEST_P(Cautery, CoagulatedTissueIsStifferToAProbeAndDrawnIn) {
 }
 
 TEST_P(Cautery, WhatBoilsDryPartsAndLooksBurnt) {
-  Session session(burning(60), context_);
+  Session session(burning(240), context_);
   const ImageFrame before = picture(session);
-  burn(session, 30);
+  burn(session, 8);
   const ImageFrame during = picture(session);
   EXPECT_NE(before.rgb, during.rgb);
-  burn(session, 240);
+  burn(session, 60);
   const SeenBurns seen = seenBurns(session);
   EXPECT_GT(seen.parted, 0U);
   EXPECT_GT(seen.steam_j, 0);
@@ -134,14 +135,14 @@ TEST_P(Cautery, WhatBoilsDryPartsAndLooksBurnt) {
 }
 
 TEST_P(Cautery, SurfacesHaveTheColoursOfBurnsAndOfStrainWhereThereAreSome) {
-  Session session(burning(3), context_);
+  Session session(burning(24), context_);
   Wants wants;
   wants.surface = true;
   session.step({}, {});
   const Pictures plain = session.show(wants);
   EXPECT_TRUE(plain.surface->colors.empty());
   EXPECT_TRUE(plain.surface->strain_colors.empty());
-  burn(session, 360);
+  burn(session, 45);
   wants.strain = true;
   const Pictures seen = session.show(wants);
   const SurfaceFrame& surface = *seen.surface;
@@ -163,16 +164,16 @@ TEST_P(Cautery, SurfacesHaveTheColoursOfBurnsAndOfStrainWhereThereAreSome) {
 }
 
 TEST_P(Cautery, SavedStatesAndResetsHaveBurns) {
-  const Scene scene = burning(20);
+  const Scene scene = burning(60);
   Archive saved;
   uint64_t hash = 0;
   SeenBurns seen;
   {
     Session session(scene, context_);
     const uint64_t whole = session.stateHash();
-    burn(session, 60);
+    burn(session, kHeats);
     session.save(saved);
-    for (int t = 0; t < 60; ++t) session.step(on(true), {});
+    for (int t = 0; t < kHeats; ++t) session.step(on(true), {});
     hash = session.stateHash();
     seen = seenBurns(session);
     session.reset();
@@ -182,7 +183,7 @@ TEST_P(Cautery, SavedStatesAndResetsHaveBurns) {
   Session other(scene, context_);
   Archive kept(saved.take());
   other.restore(kept, "a test");
-  for (int t = 0; t < 60; ++t) other.step(on(true), {});
+  for (int t = 0; t < kHeats; ++t) other.step(on(true), {});
   EXPECT_EQ(other.stateHash(), hash);
   EXPECT_EQ(seenBurns(other).given_j, seen.given_j);
   EXPECT_EQ(seenBurns(other).parted, seen.parted);

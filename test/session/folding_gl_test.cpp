@@ -22,6 +22,7 @@ class Folding : public OnSceneBackend {
     session.drain();
   }
   static Scene folded(Scene scene) {
+    scene.bodies[0].spacing_m = 0.5 * kBall_m;
     scene.styluses[0].probe.radius_m = kBall_m;
     scene.bodies[0].material.cells = Cells::kSprings;  // those by moments push themselves open
     scene.environment.gravity_m_per_s2 = Vector3d::Zero();
@@ -34,7 +35,7 @@ class Folding : public OnSceneBackend {
   }
 
   static constexpr double kBall_m = 0.5 * kHalfM;
-  static constexpr int kGapTicks = 200;
+  static constexpr int kGapTicks = 100;
   static constexpr double kBack = 0.1;  ///< [spacings] as `viscera bench stability` has it
 };
 VISCERA_ON_EVERY_BACKEND(Folding);

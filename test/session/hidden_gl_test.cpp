@@ -21,8 +21,8 @@ CameraConfig cameraAt(const std::string& name, const Vector3d& position_m, const
   CameraConfig camera = cameraOf(name);
   camera.position_m = position_m;
   camera.target_m = target_m;
-  camera.width_px = 160;
-  camera.height_px = 120;
+  camera.width_px = 80;
+  camera.height_px = 60;
   return camera;
 }
 

@@ -19,7 +19,7 @@ using namespace test;
 constexpr double kJawsSide_m = 0.008;  // of the bar
 constexpr double kRounding_m = 1e-4;   // of sides that give a little between substeps, beside kMostSqueezed
 constexpr double kAside_m = 0.003;     // 1.5 spacings: by so much two nodes of a column may lie beside each other
-constexpr int kJawsClosing = 30, kJawsOpen = 4, kRests = 60;  // ticks
+constexpr int kJawsClosing = 20, kJawsOpen = 4, kRests = 30;  // ticks
 constexpr double kStill_per_s = 40;           // drag: what was squeezed sets the bar swinging when it is cut
 constexpr double kMostSqueezed = 0.4;         // Clips::kMostSqueezed
 constexpr double kRated_n = 3, kSlips = 0.1;  // of a grasper; share by which its force may differ as tissue slides

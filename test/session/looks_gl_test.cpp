@@ -22,6 +22,7 @@ class Looks : public OnSceneBackend {
   /// A block that fills much of a picture.
   static Scene scene(int supersampling = 0) {
     Scene scene = OnSceneBackend::scene();
+    scene.bodies[0].spacing_m = 0.005;  // shades are compared to a step of 255
     CameraConfig& camera = scene.cameras[0];
     camera.position_m = Vector3d(0, -0.07, 0.08);
     camera.width_px = 160;

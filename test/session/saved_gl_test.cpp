@@ -173,7 +173,7 @@ TEST_P(Saved, IsRefusedByAnotherSceneAndByOtherTissue) {
   softer.bodies[0].material.young_modulus_pa *= 0.5;
   refused(softer, "young_modulus_pa");
   Scene finer = scene();
-  finer.bodies[0].spacing_m = 0.004;
+  finer.bodies[0].spacing_m *= 0.8;
   refused(finer, "spacing_m");
   Scene more = scene();
   more.bodies.push_back(more.bodies[0]);

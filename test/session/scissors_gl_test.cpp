@@ -12,6 +12,7 @@ class ScissorsSession : public OnSceneBackend {
  protected:
   static Scene scissorsScene() {
     Scene out = scene();
+    out.bodies[0].spacing_m = 0.005;  // half of what the blades reach
     out.styluses[0].idle = ToolMode::kNone;
     out.styluses[0].button1 = ToolMode::kScissors;
     out.styluses[0].scissors.closing_s = 0.1;  // six ticks

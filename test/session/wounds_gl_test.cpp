@@ -29,6 +29,7 @@ Scene cutScene(Backend backend, Structure structure) {
   Scene scene = blockScene();
   scene.solver.backend = backend;
   scene.bodies[0].structure = structure;
+  scene.bodies[0].spacing_m = 0.005;  // a wound of many walls
   return scene;
 }
 

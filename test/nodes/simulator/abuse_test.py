@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whatever hands do to the tissue, the simulator stays alive, sends finite numbers only, and can be reset."""
+"""Whatever hands do to the tissue, the simulator stays alive, sends finite numbers only, and can be reset. VISCERA_CUTS: how
+many cuts, 1000 in the long form."""
 import math
+import os
 import random
 import sys
 import unittest
@@ -21,7 +23,7 @@ PRESSES = 10  # of a grip, 2 s each, or of a blade
 SKIN = (0, -0.046, -0.02)  # [m] on the front of the phantom
 BOUND_M = 1.5              # no vertex of the skin gets farther than solver.sleep_distance_m and the tissue's own size
 BACK_M = 0.004             # after a reset the skin is where it was, but for its sag under gravity
-CUTS = 1000
+CUTS = int(os.environ.get("VISCERA_CUTS", "200"))
 
 
 class Senses:
@@ -96,7 +98,7 @@ class AbuseTest(unittest.TestCase):
 
     def test_2_probe_faster_than_sound(self):
         fastest = 0
-        for i in range(4 * RATE_HZ):  # 1.7 m from one pose to the next: 100 m/s
+        for i in range(2 * RATE_HZ):  # 1.7 m from one pose to the next: 100 m/s
             self.move("left", 0.85 * (-1) ** i, 0.02 * random.random(), -0.02)
             fastest = max(fastest, self.watch.value("simulation", "max_speed_m_per_s"))
         self.assertAliveAndFinite()
@@ -111,7 +113,9 @@ class AbuseTest(unittest.TestCase):
             self.press(self.button1, True)
             for _ in range(2 * RATE_HZ):
                 self.move("left", x, y, z)
-                held = held or self.watch.value("left", "nodes_held") or 0
+                held = self.watch.value("left", "nodes_held") or 0
+                if held:
+                    break
             if held:
                 break
             self.press(self.button1, False)
@@ -124,7 +128,7 @@ class AbuseTest(unittest.TestCase):
             self.move("left", x, -0.9, z)
         self.assertAliveAndFinite()
 
-    def test_4_a_thousand_cuts(self):
+    def test_4_many_cuts(self):
         for _ in range(RATE_HZ // 2):  # a button that is down when its hand comes does nothing
             self.move("right", 0.2, 0, 0)
         def springs_cut():
@@ -139,8 +143,8 @@ class AbuseTest(unittest.TestCase):
             self.press(self.button2, False)
             self.move("right", 0.2, 0, 0)
         self.press(self.button2, False)
+        wait_until(springs_cut, LIMIT_S, "springs cut")
         self.assertAliveAndFinite()
-        self.assertGreater(springs_cut(), 0)
 
     def test_5_reset_makes_all_whole(self):
         for _ in range(RATE_HZ):

@@ -29,16 +29,30 @@ SCENE_NODES = "504 nodes"  # of scene_view.yaml
 
 class LaunchingTest(unittest.TestCase):
     def setUp(self):
-        with socket.socket() as probe:
-            probe.bind(("localhost", 0))
-            self.port = probe.getsockname()[1]
-        self.uri = "http://localhost:%d" % self.port
+        self.uri = os.environ["ROS_MASTER_URI"]  # rostest's, but for tests that restart it
         self.master = rosgraph.Master("/launching_test", self.uri)
         self.programs = []
 
     def tearDown(self):
         for program in reversed(self.programs):
             program.end()
+        if self.uri == os.environ["ROS_MASTER_URI"]:
+            for left in set(self.master.getParamNames()) - self.params:
+                if self.master.hasParam(left):
+                    self.master.deleteParam(left)
+
+    @classmethod
+    def setUpClass(cls):
+        cls.params = set(rosgraph.Master("/launching_test").getParamNames())
+
+    def own_master(self):
+        """One that may be restarted."""
+        with socket.socket() as probe:
+            probe.bind(("localhost", 0))
+            self.port = probe.getsockname()[1]
+        self.uri = "http://localhost:%d" % self.port
+        self.master = rosgraph.Master("/launching_test", self.uri)
+        return self.start_master()
 
     def start(self, *arguments):
         self.programs.append(Program(arguments, self.uri))
@@ -56,14 +70,12 @@ class LaunchingTest(unittest.TestCase):
             return False
 
     def test_rosrun_finds_the_nodes(self):
-        self.start_master()
         simulator = self.start("rosrun", "viscera", "simulator", "_scene:=" + SCENE)
         simulator.said("ready: " + SCENE_NODES)
         replay = self.start("rosrun", "viscera", "stylus_replay", "_strokes:=nowhere")
         replay.said("~strokes")
 
     def test_rosrun_says_what_an_earlier_start_has_left(self):
-        self.start_master()
         first = self.start("rosrun", "viscera", "simulator", "_scene:=" + SCENE, "_overrides:=solver.tick_hz=50")
         first.said("ready: " + SCENE_NODES)
         self.assertNotIn("parameters in force", first.output)
@@ -74,7 +86,6 @@ class LaunchingTest(unittest.TestCase):
         self.assertIn(" ~overrides=solver.tick_hz=50; `rosparam delete /simulator` clears them", second.output)
 
     def test_parameters_of_an_earlier_launch_are_cleared(self):
-        self.start_master()
         self.master.setParam("/simulator/mesh_unit_m", 0.001)
         simulator = self.start("roslaunch", "viscera", "training.launch", "scene:=" + SCENE)
         simulator.said("ready: " + SCENE_NODES)
@@ -100,7 +111,6 @@ class LaunchingTest(unittest.TestCase):
         self.assertIn("/cloth.rviz", self.nodes_of("training.launch", rviz="true", view="cloth")["/rviz"])
 
     def test_a_watchdog_stands_before_each_driver_that_takes_forces(self):
-        self.start_master()
         launched = self.start("roslaunch", "viscera", "training.launch", "scene:=" + TWO_HANDS, "watchdog:=true",
                               "device_left:=phantom_omni", "device_right:=polhemus")
         launched.said("ready: ")
@@ -114,7 +124,6 @@ class LaunchingTest(unittest.TestCase):
 
     def test_a_watchdog_stands_before_drivers_of_own_profiles_and_topics(self):
         """As device_check writes them."""
-        self.start_master()
         folder = os.path.join(roslib.packages.get_pkg_dir("viscera"), "config/devices")
         with tempfile.TemporaryDirectory() as own:
             for name, written in (("geomagic", "mine"), ("tf", "bare")):
@@ -159,7 +168,6 @@ class LaunchingTest(unittest.TestCase):
         return dict(self.master.getSystemState()[0]).get(topic, [])
 
     def test_hands_without_a_device_start_by_their_names(self):
-        self.start_master()
         launched = self.start("roslaunch", "viscera", "training.launch", "scene:=" + TWO_HANDS, "device_left:=marker",
                               "device_right:=joy")
         launched.said("ready: ")
@@ -167,7 +175,7 @@ class LaunchingTest(unittest.TestCase):
                    (["/marker_left"], ["/joy_right"]), START_LIMIT_S, "hands: " + launched.output)
 
     def test_a_respawn_after_a_restart_of_the_master_runs_the_same_scene(self):
-        core = self.start_master()
+        core = self.own_master()
         simulator = self.start("roslaunch", "viscera", "training.launch", "scene:=" + SCENE, "respawn:=true")
         simulator.said("ready: ")
         core.end()
@@ -177,7 +185,7 @@ class LaunchingTest(unittest.TestCase):
         self.assertEqual(simulator.output.count("ready: " + SCENE_NODES), 2, simulator.output)
 
     def test_a_respawn_that_has_lost_its_parameters_is_refused(self):
-        core = self.start_master()
+        core = self.own_master()
         file = tempfile.NamedTemporaryFile("w", suffix=".launch")
         file.write('<launch><node name="simulator" pkg="viscera" type="simulator" output="screen" respawn="true" '
                    'respawn_delay="1"><param name="scene" value="%s"/></node></launch>' % SCENE)
@@ -191,7 +199,6 @@ class LaunchingTest(unittest.TestCase):
         file.close()
 
     def test_simulated_time_without_a_clock_is_said_and_nothing_hangs(self):
-        self.start_master()
         self.master.setParam("/use_sim_time", True)
         launched = self.start("roslaunch", "viscera", "training.launch", "scene:=" + SCENE,
                               "strokes:=" + os.path.join(HANDS, "short_stroke.yaml"))

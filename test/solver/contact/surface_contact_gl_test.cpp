@@ -203,13 +203,14 @@ TEST_P(SurfaceContact, BodiesTouchWhereTheirSurfacesAre) {
     for (const double cells : {2.05, 2.52}) {  // nodes that touch lie just below the surface, and half a cell
       SCOPED_TRACE(::testing::Message() << "integrator " << static_cast<int>(integrator) << " cells " << cells);
       for (const double gap_m : {kNear_m + 1e-4, kNear_m - 1e-3}) {
+        const double seconds = gap_m > kNear_m ? 0.05 : 0.3;  // what does not move at first never does
         const Model model = buildModel(twoSlabs(cells, gap_m));
         Scene scene = sceneWith(integrator, model, 4, integrator == Integrator::kLeapfrog ? 0.5 : 3, 20);
         scene.collision.enabled = true;
         scene.collision.friction = 0;
         const auto solver = make(model, scene);
         EXPECT_NEAR(betweenSurfaces(model, solver->readState()), gap_m, 1e-6);
-        for (double t = 0; t < 0.3; t += 1 / scene.solver.tick_hz) solver->step({});
+        for (double t = 0; t < seconds; t += 1 / scene.solver.tick_hz) solver->step({});
         const HostState state = solver->readState();
         if (gap_m > kNear_m) {
           EXPECT_EQ(farthestMoved(state), 0);

@@ -178,7 +178,7 @@ TEST_P(SurroundReference, PdSolvesForObstaclesLikeTheReference) {
     HostState start = restState(model);
     for (const uint32_t slot : model.bodies[0].lattice.active_slots)
       start.velocity_m_per_s[slot] = vec4({0.2, 0.1, -0.3});
-    compare(model, scene, start);
+    compare(model, scene, start, 40);
   }
 }
 

@@ -158,6 +158,7 @@ TEST_F(ResistedBlade, CutsEveryStructure) {
 TEST_F(ResistedBlade, CutsBesideABodyThatResistsNothing) {
   Scene scene = blockOnAPlate();
   scene.solver.governor = false;
+  scene.bodies[0].spacing_m = 0.005;
   scene.bodies.push_back(scene.bodies[0]);
   scene.bodies[1].material.cut = {};
   scene.bodies[1].position_m.z() = 0.021;

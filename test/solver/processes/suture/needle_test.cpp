@@ -198,8 +198,8 @@ TEST_P(NeedleBite, PuncturesAtItsForceAndIsSteadyInside) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Tissue, NeedleBite,
-                         ::testing::Values(BiteCase{1e4, 0.02, false}, BiteCase{1e4, 0.2, true},
-                                           BiteCase{5e4, 0.02, false}, BiteCase{5e4, 0.2, true}));
+                         ::testing::Values(BiteCase{1e4, 0.04, false}, BiteCase{1e4, 0.2, true},
+                                           BiteCase{5e4, 0.04, false}, BiteCase{5e4, 0.2, true}));
 
 /// 6 mm thick, held at its ends; down through it.
 TEST(Needle, FeelsBothSkinsOfASlab) {
