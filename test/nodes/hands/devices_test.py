@@ -14,7 +14,7 @@ import rospkg
 import rospy
 import rostest
 import drivers
-from program import Program
+from program import Program, node
 from simulator_watch import Latest, SimulatorWatch, wait_until
 from tf2_msgs.msg import TFMessage
 from turns import length, plus, rotation, times
@@ -31,7 +31,7 @@ TURNED = rotation(0.18257419, 0.36514837, 0.54772256, 0.73029674)
 
 
 def simulator(name, devices, options=(), more=()):
-    return Program(["rosrun", "viscera", "simulator", "__name:=" + name, "_scene:=" + SCENE,
+    return Program([node("simulator"), "__name:=" + name, "_scene:=" + SCENE,
                     "_devices:=" + ";".join(devices), "_device_options:=" + ";".join(options)] + list(more))
 
 
@@ -158,6 +158,7 @@ class DevicesTest(unittest.TestCase):
             program.end()
 
     def test_wrong_choices_end_the_node_with_a_line(self):
+        refused = []
         for number, (arguments, line) in enumerate((
             (["_devices:=left=no_such"], "no file"),
             (["_devices:=middle=crtk"], "no stylus 'middle'; it has left right"),
@@ -167,10 +168,13 @@ class DevicesTest(unittest.TestCase):
             (["_devices:=left=tf", "_device_options:=left.button3.topic=a"], "unknown key 'button3'"),
             (["_registrations:=left=/nowhere.yaml"], "/nowhere.yaml: cannot be read"),
         )):
-            out = subprocess.run(["rosrun", "viscera", "simulator", "__name:=wrong%d" % number, "_scene:=" + SCENE] + arguments,
-                                 capture_output=True, text=True, timeout=60)
-            self.assertNotEqual(out.returncode, 0, arguments)
-            self.assertIn(line, out.stdout + out.stderr, arguments)
+            refused.append((arguments, line, subprocess.Popen(
+                [node("simulator"), "__name:=wrong%d" % number, "_scene:=" + SCENE] + arguments, text=True,
+                stdout=subprocess.PIPE, stderr=subprocess.STDOUT)))
+        for arguments, line, program in refused:
+            said = program.communicate(timeout=60)[0]
+            self.assertNotEqual(program.returncode, 0, arguments)
+            self.assertIn(line, said, arguments)
 
 
 if __name__ == "__main__":

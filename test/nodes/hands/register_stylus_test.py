@@ -16,7 +16,7 @@ import rospy
 import rostest
 import yaml
 from geometry_msgs.msg import PoseStamped, TransformStamped
-from program import Program
+from program import Program, node
 from sensor_msgs.msg import Joy
 from simulator_watch import wait_until
 from std_srvs.srv import Trigger
@@ -105,7 +105,7 @@ class RegisterStylusTest(unittest.TestCase):
             yaml.safe_dump({"points": [{"name": n, "position_m": list(p)} for n, p in POINTS.items()]}, out)
 
     def start(self, name, *arguments):
-        program = Program(["rosrun", "viscera", "register_stylus", "__name:=" + name, "_file:=" + self.file, *arguments])
+        program = Program([node("register_stylus"), "__name:=" + name, "_file:=" + self.file, *arguments])
         self.addCleanup(program.end)
         calls = [rospy.ServiceProxy(name + "/" + call, Trigger) for call in ("collect", "discard", "solve")]
         for call in calls:
@@ -168,7 +168,7 @@ class RegisterStylusTest(unittest.TestCase):
         self.assertLess(found["residual_mm"], 1)
 
     def refused(self, *arguments):
-        done = subprocess.run(["rosrun", "viscera", "register_stylus", "__name:=refused", *arguments], text=True,
+        done = subprocess.run([node("register_stylus"), "__name:=refused", *arguments], text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=LIMIT_S)
         self.assertEqual(done.returncode, 1, done.stdout)
         return done.stdout

@@ -23,7 +23,7 @@ LIMIT_S = 20
 ROUND_LIMIT_S = 90
 STROKE_S = 0.3      # of short_stroke.yaml
 SHARE = 0.8         # of the stroke that must pass in the simulation between first and last pose: ticks come after poses
-UNWATCHED_S = 3     # without a viewer
+UNWATCHED_S = 0.5     # without a viewer
 
 
 class SlowReplayTest(unittest.TestCase):

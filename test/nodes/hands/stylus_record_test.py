@@ -14,7 +14,7 @@ import unittest
 import rospy
 import rostest
 from irregular_hand import Hand
-from program import Program
+from program import Program, node
 from simulator_watch import Latest, SimulatorWatch, wait_until
 from std_srvs.srv import Trigger
 from viscera.msg import Samples, StylusState
@@ -69,7 +69,7 @@ class StylusRecordTest(unittest.TestCase):
             hand.join()
 
     def record(self, *arguments):
-        program = Program(["rosrun", "viscera", "stylus_record", "__name:=recorder",
+        program = Program([node("stylus_record"), "__name:=recorder",
                            "_file:=" + self.file, *arguments])
         self.addCleanup(program.end)
         return program
@@ -139,7 +139,7 @@ class StylusRecordTest(unittest.TestCase):
         return samples.message
 
     def test_3_a_file_that_cannot_be_written_is_told_at_the_start(self):
-        recorder = Program(["rosrun", "viscera", "stylus_record", "__name:=refused", "_file:=/proc/none.yaml"])
+        recorder = Program([node("stylus_record"), "__name:=refused", "_file:=/proc/none.yaml"])
         recorder.said("~file: /proc/none.yaml: cannot be written")
         self.assertEqual(recorder.process.wait(LIMIT_S), 1)
 

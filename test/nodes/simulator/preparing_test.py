@@ -8,7 +8,7 @@ import unittest
 
 import rospy
 import rostest
-from program import Program
+from program import Program, node
 from simulator_watch import READY_LIMIT_S, wait_until
 from visualization_msgs.msg import Marker, MarkerArray
 
@@ -40,7 +40,7 @@ class PreparingTest(unittest.TestCase):
             self.events.append("tissue")
 
     def start(self, *parameters):
-        self.program = Program(["rosrun", "viscera", "simulator"] + list(parameters))
+        self.program = Program([node("simulator")] + list(parameters))
 
     def test_the_text_counts_up_until_the_tissue_is_there(self):
         self.start("_scene:=heart", "_overrides:=bodies[0].spacing_m=0.004")

@@ -13,7 +13,7 @@ import unittest
 import rospy
 import rostest
 from geometry_msgs.msg import PoseStamped
-from program import Program
+from program import Program, node
 from sensor_msgs.msg import Image
 from simulator_watch import Latest, SimulatorWatch, wait_until
 
@@ -23,7 +23,7 @@ NO_MASTER = "http://localhost:1"  # where no master answers
 
 def status(*arguments, uri=None):
     environment = dict(os.environ, ROS_MASTER_URI=uri) if uri else None
-    return subprocess.run(["rosrun", "viscera", "status"] + list(arguments), check=False, capture_output=True,
+    return subprocess.run([node("status")] + list(arguments), check=False, capture_output=True,
                           text=True, timeout=LIMIT_S, env=environment)
 
 
@@ -56,9 +56,9 @@ class StatusTest(unittest.TestCase):
 
     def test_a_stylus_that_the_scene_has_not_is_an_error(self):
         with tempfile.TemporaryFile("w+") as log:  # where lines must not wait for a full buffer
-            wrong = [subprocess.Popen(["rosrun", "viscera", node, "_stylus:=middle", "__name:=wrong_" + node],
+            wrong = [subprocess.Popen([node(name), "_stylus:=middle", "__name:=wrong_" + name],
                                       stdout=log, stderr=subprocess.PIPE, text=True, env=self.plain)
-                     for node in ("stylus_marker", "stylus_joy")]
+                     for name in ("stylus_marker", "stylus_joy")]
             try:
                 wait_until(lambda: "rviz: add" in self.text_of(log), LIMIT_S, "line in the file")
                 self.assertIsNone(wrong[0].poll())
@@ -81,7 +81,7 @@ class StatusTest(unittest.TestCase):
         ended = threading.Event()
         thread = threading.Thread(target=self.send, args=(lost, ended), daemon=True)
         thread.start()
-        shown = Program(["rosrun", "viscera", "status"])
+        shown = Program([node("status")])
         try:
             shown.said("no_transform: tf does not join")
             shown.said("left: messages are dropped")
