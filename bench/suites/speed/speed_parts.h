@@ -66,6 +66,6 @@ void measureHidden(Report& report);
 /// Time of a substep of a scene, or of a cube and a heart that hang, with state hashes.
 void measureTicks(Report& report);
 /// The same, stage by stage, by the GPU's own clock.
-void measureStages(Report& report);
+void measureTickStages(Report& report);
 
 }  // namespace viscera::bench

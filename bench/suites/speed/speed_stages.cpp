@@ -74,7 +74,7 @@ void addStages(Table& table, const Model& model, Scene scene) {
 
 }  // namespace
 
-void measureStages(Report& report) {
+void measureTickStages(Report& report) {
   Table table(
       "stages of a tick by the GPU's own clock",
       {{"scene"}, {"nodes", "", 8}, {"stage"}, {"times per tick"}, {"per tick", "ms"}, {"per node update", "ns"}});

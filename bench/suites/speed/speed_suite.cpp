@@ -35,7 +35,7 @@ void speedSuite(Report& report) {
                         {"hidden", ofGpu<measureHidden>},
                         {"views", ofBoth<measureViews>},
                         {"ticks", measureTicks},
-                        {"stages", ofGpu<measureStages>}});
+                        {"stages", ofGpu<measureTickStages>}});
 }
 
 }  // namespace viscera::bench
