@@ -141,9 +141,9 @@ TEST_F(AutoSpacing, OfSeveralBodiesIsOneAndOthersKeepTheirs) {
   const double alone_m = chosenSpacing_m();
   const Scene scene = chosen();
   EXPECT_EQ(scene.bodies[0].spacing_m, scene.bodies[1].spacing_m);
-  EXPECT_EQ(scene.bodies[2].spacing_m, 0.005);
+  EXPECT_EQ(scene.bodies[2].spacing_m, scene_.bodies[2].spacing_m);
   EXPECT_TRUE(scene.bodies[1].spacing_note.empty());
-  scene_.bodies[2].spacing_m = 0.0025;  // leaves less for the two
+  scene_.bodies[2].spacing_m /= 4;  // leaves less for the two
   EXPECT_GT(chosenSpacing_m(), alone_m);
 }
 
@@ -151,7 +151,7 @@ TEST_F(AutoSpacing, SceneWithoutItComesBackAsItIsAndNothingIsMeasured) {
   scene_.bodies[0].auto_spacing = false;
   int stages = 0;
   const Scene scene = withChosenSpacing(scene_, &context_, [&](const std::string&, double) { ++stages; });
-  EXPECT_EQ(scene.bodies[0].spacing_m, 0.005);
+  EXPECT_EQ(scene.bodies[0].spacing_m, scene_.bodies[0].spacing_m);
   EXPECT_EQ(stages, 0);
 }
 
