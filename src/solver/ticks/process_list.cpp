@@ -75,8 +75,8 @@ void ProcessList::saveGood() {
 void ProcessList::restoreGood(int back) {
   const auto wanted = static_cast<size_t>(back);
   for (size_t i = 0; i < processes_.size(); ++i) {
-    if (processes_[i]->rollBack() != RollBack::kUndo) continue;
     States& states = kept_[i];
+    if (processes_[i]->rollBack() != RollBack::kUndo || states.empty()) continue;
     const size_t most = states.size() - 1;
     states.resize(states.size() - std::min(wanted, most));
     Archive archive(states.back());
