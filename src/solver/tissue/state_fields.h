@@ -21,17 +21,18 @@ struct StateField {
 };
 
 namespace fields {
-constexpr StateField kDisplacement{"state", 0, FieldRollBack::kUndo};
-constexpr StateField kVelocity{"state", 0, FieldRollBack::kUndo};
-constexpr StateField kOtherState{"state", 0,
-                                 FieldRollBack::kKeep};  ///< the last or the next one, which is written first
-constexpr StateField kRoundingErrors{"state", 0, FieldRollBack::kClear};
-constexpr StateField kAxialCut{"cuts", 0, FieldRollBack::kKeep};
-constexpr StateField kCutSides{"cuts", 0, FieldRollBack::kKeep};
-constexpr StateField kLeftByTearing{"cuts", 1, FieldRollBack::kKeep};
-constexpr StateField kGrabOffsets{"hands", 0, FieldRollBack::kKeep};
-constexpr StateField kHeldBricks{"hands", 0, FieldRollBack::kKeep};
-constexpr StateField kImpulses{"hands", 0, FieldRollBack::kClear};  ///< of styluses and obstacles, and where they are
+inline constexpr StateField kDisplacement{"state", 0, FieldRollBack::kUndo};
+inline constexpr StateField kVelocity{"state", 0, FieldRollBack::kUndo};
+inline constexpr StateField kOtherState{"state", 0,
+                                        FieldRollBack::kKeep};  ///< the last or the next one, which is written first
+inline constexpr StateField kRoundingErrors{"state", 0, FieldRollBack::kClear};
+inline constexpr StateField kAxialCut{"cuts", 0, FieldRollBack::kKeep};
+inline constexpr StateField kCutSides{"cuts", 0, FieldRollBack::kKeep};
+inline constexpr StateField kLeftByTearing{"cuts", 1, FieldRollBack::kKeep};
+inline constexpr StateField kGrabOffsets{"hands", 0, FieldRollBack::kKeep};
+inline constexpr StateField kHeldBricks{"hands", 0, FieldRollBack::kKeep};
+inline constexpr StateField kImpulses{"hands", 0,
+                                      FieldRollBack::kClear};  ///< of styluses and obstacles, and where they are
 }  // namespace fields
 
 }  // namespace viscera

@@ -39,7 +39,6 @@ void CpuGoodStates::restore(CpuLattice& lattice, int back) {
   const Bytes& from = ring_[static_cast<size_t>((next_ - 1 + depth) % depth)];
   size_t count = 0;
   lattice.visitState([&](const StateField& field, auto& values) {
-    if (field.roll_back == FieldRollBack::kClear) setToRest(field, values);
     if (field.roll_back != FieldRollBack::kUndo) return;
     std::memcpy(values.data(), from[count].data(), from[count].size());
     ++count;

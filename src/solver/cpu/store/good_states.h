@@ -14,7 +14,7 @@ class CpuGoodStates {
   /// @param depth  how many are kept; 0: none ever
   explicit CpuGoodStates(size_t depth) : ring_(depth) {}
   void save(CpuLattice& lattice);
-  /// As SolverBackend::restoreGood(), and clears what a roll-back clears.
+  /// As SolverBackend::restoreGood(), of these fields alone.
   void restore(CpuLattice& lattice, int back);
   void clear() { kept_ = 0; }
   /// @throws Error  a saved state names a good state that there cannot be, or is of other tissue
