@@ -7,6 +7,7 @@
 #include "layout/awake_bricks.h"
 #include "layout/bindings.h"
 #include "layout/edge_nodes.h"
+#include "layout/law.h"
 #include "layout/moments.h"
 #include "layout/network_skin.h"
 #include "layout/overlay.h"

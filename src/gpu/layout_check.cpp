@@ -36,7 +36,7 @@ AT(Brick, body, 12);
 AT(Brick, neighbors, 4 * kBrickNeighborWord);
 AT(Brick, pad, 124);
 
-SIZE(BodyParams, 48);
+SIZE(BodyParams, 64);
 AT(BodyParams, axial_quarter_n_per_m, 16);
 AT(BodyParams, diagonal_half_n_per_m, 20);
 AT(BodyParams, mass_eighth_kg, 24);
@@ -45,6 +45,7 @@ AT(BodyParams, dashpot_s, 32);
 AT(BodyParams, bulk_j, 36);
 AT(BodyParams, rigidity_j, 44);
 AT(BodyParams, connections, 40);
+AT(BodyParams, law, 48);
 
 SIZE(Link, 32);  // two texels (solver/tissue/network.glsl)
 AT(Link, stiffness, 16);

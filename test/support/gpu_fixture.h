@@ -11,6 +11,7 @@
 #include "gpu/program.h"
 #include "solver/gpu/gpu_solver.h"
 #include "solver/reference/reference_solver.h"
+#include "solver/tissue/joined_lattice.h"
 #include "support/lattices.h"
 #include "viscera/gpu/context.h"
 #include "viscera/model/scene/scene.h"
@@ -60,14 +61,9 @@ inline HostState restState(const Model& model) {
   HostState state;
   state.displacement_m.assign(model.slots(), layout::vec4{});
   state.velocity_m_per_s.assign(model.slots(), layout::vec4{});
-  for (size_t b = 0; b < model.bodies.size(); ++b) {
-    for (layout::NodeBits bits : model.bodies[b].lattice.nodes) {
-      bits.hi |= static_cast<uint32_t>(b) << layout::kBodyShift;
-      state.nodes.push_back(bits);
-    }
-    if (model.bodies[b].network) {
-      state.spring_cut.resize(state.spring_cut.size() + model.bodies[b].network->springs.size());
-    }
+  state.nodes = allNodes(model);
+  for (const Body& body : model.bodies) {
+    if (body.network) state.spring_cut.resize(state.spring_cut.size() + body.network->springs.size());
   }
   return state;
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/harness/specimens/block.h"
 
+#include "solver/tissue/joined_lattice.h"
+
 namespace viscera::bench {
 
 namespace {
@@ -79,12 +81,7 @@ HostState stateOf(const Model& model, const Field& u_m) {
   HostState state;
   for (const Vector3d& u : u_m) state.displacement_m.push_back(vec4(u));
   state.velocity_m_per_s.assign(model.slots(), layout::vec4{});
-  for (size_t b = 0; b < model.bodies.size(); ++b) {
-    for (layout::NodeBits bits : model.bodies[b].lattice.nodes) {
-      bits.hi |= static_cast<uint32_t>(b) << layout::kBodyShift;
-      state.nodes.push_back(bits);
-    }
-  }
+  state.nodes = allNodes(model);
   return state;
 }
 

@@ -26,5 +26,7 @@ void measureWalls(Report& report);
 void measureCircle(Report& report);
 /// A block on slopes and sliding, against Coulomb's law; a stack of boxes.
 void measureContact(Report& report);
+/// The neo-Hookean law beside CalculiX: a clamped block pulled, squeezed and sheared, a sphere pressed into a block.
+void measureLaw(Report& report);
 
 }  // namespace viscera::bench

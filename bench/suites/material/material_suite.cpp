@@ -15,6 +15,7 @@ void materialSuite(Report& report) {
                         {"indentation", measureIndentation},
                         {"walls", measureWalls},
                         {"circle", measureCircle},
+                        {"law", measureLaw},
                         {"contact", measureContact}});
 }
 

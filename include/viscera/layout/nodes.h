@@ -18,6 +18,7 @@ const uint kGrabShift = 23u;     // 2 bits: 0 free, 1 + stylus index while held
 const uint kGrabMask = 3u << 23;
 const uint kSeveredBit = 1u << 25; // at least one spring of this node was cut
 const uint kCellBit = 1u << 26;  // the cell whose lowest corner is this node is filled and whole
+const uint kLawCellBit = 1u << 27;  // at rest that cell obeys its body's hyperelastic law; once it is no longer whole, what is left of its springs
 const uint kAxialMask = (1u << 18) - 1u;
 // NodeBits.hi: twelve diagonal counts of 2 bits (halves of the diagonal stiffness, 0..2), then the body index:
 const uint kBodyShift = 24u;
@@ -50,9 +51,13 @@ struct BodyParams {
   float bulk_j;             // lambda_V h^3: a cell of volume V has the energy volumeEnergy(bulk_j, V/V0 - 1)
   uint connections;         // kImplicit, kExplicitLattice or kNetwork
   float rigidity_j;         // mu h^3 of cells that resist by moments too (moments.glsl); 0 where springs alone do
+  uint law;                 // kLawSprings or kLawNeoHookean
+  uint pad[3];
 };
 // Connections of a body: springs of a lattice by offset and counts in NodeBits; the same lattice with its springs as links;
 // or any graph of links, where the low 18 bits of NodeBits.lo say how many of a node's links are whole.
+const uint kLawSprings = 0u;
+const uint kLawNeoHookean = 1u;  // springs act only in cells that have lost one (law.glsl)
 const uint kImplicit = 0u;
 const uint kExplicitLattice = 1u;
 const uint kNetwork = 2u;

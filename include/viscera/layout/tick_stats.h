@@ -29,7 +29,8 @@ struct TickStats {
   float elastic_j;        // springs and volumes
   uint inverted;          // whole cells turned inside out
   uint crowded;           // nodes that no contact acts on, as too many lie in one place (collision_place.comp)
-  uint pad[2];
+  uint max_stiffening_bits;  // float bits of the largest stiffening() of cells of a hyperelastic law (law.glsl)
+  uint pad;
   vec4 obstacle_impulse[kMaxObstacles];  // xyz momentum given to the nodes by each obstacle over the tick [N s]; w nodes touched
   vec4 obstacle_angular[kMaxObstacles];  // xyz its moment about the obstacle's place at the end of the tick [N m s]
 };

@@ -20,6 +20,8 @@ double massOf_kg(const Body& body);  ///< all of its nodes
 bool isHeterogeneous(const Model& model);
 /// Does some body's cells resist by moments (Cells)?
 bool hasMoments(const Model& model);
+/// Does some body's material have a hyperelastic law (Law)?
+bool hasLaw(const Model& model);
 /// Do the springs of lattices pull where nodes will be, in place of their dashpots while they are mild (leapfrog;
 /// physics.md 2)? Where no cells resist by moments.
 bool predictsSprings(const Model& model);

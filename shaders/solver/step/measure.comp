@@ -37,6 +37,9 @@ void main() {
 layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
 #endif
+#ifdef LAW
+#include "solver/tissue/broken_cell.glsl"
+#endif
 
 /// Compilers drop isnan(); the bits do not lie (physics.md 2).
 bool finite(vec3 v) {
@@ -85,6 +88,11 @@ void main() {
   float mass = nodeMass(slot, bits, body);
   float stretch = 0.0f, elastic = 0.0f, stiffness = 0.0f;
   uint collapsed = 0u;
+#ifdef LAW
+  bool of_law = body.law != kLawSprings;  // what its springs pull is in the energy of its cells
+#else
+  const bool of_law = false;
+#endif
 #define VISIT_LINK                                                                     \
   stiffness += k;                                                                      \
   vec3 far = u(n);                                                                     \
@@ -92,7 +100,7 @@ void main() {
     float extension = springBetween(d, l0, prestrain, far - near).extension;           \
     if (l0 > 0.0f) stretch = max(stretch, abs(extension) / l0);                         \
     if (extension < (kCollapsed - 1.0f) * l0) ++collapsed;                              \
-    elastic += 0.5f * k * extension * extension;                                        \
+    if (!of_law) elastic += 0.5f * k * extension * extension;                           \
   }
   FOR_EACH_LINK
 #undef VISIT_LINK
@@ -105,11 +113,27 @@ void main() {
     vec3 at[8];
     for (uint c = 0u; c < 8u; ++c) at[c] = u(cornerSlot(slot, c));
     float e = dilation(at, h);
+#ifdef LAW
+    if ((bits.lo & kLawCellBit) != 0u) {
+      float bulk = cellBulk(slot, body), rigidity = cellRigidity(slot, body);
+      CellMotion q = cellMotion(at, h);
+      elastic += lawPull(q, cellMoments(slot), rigidity, bulk).energy;
+      uint stiffening = floatBitsToUint(lawStiffening(q, bulk / rigidity));
+      if (stiffening > stats.max_stiffening_bits) atomicMax(stats.max_stiffening_bits, stiffening);
+    } else
+#endif
 #ifdef VOLUME
     elastic += cellEnergy(at, e, h, cellBulk(slot, body), cellRigidity(slot, body), cellMoments(slot));
 #endif
     if (e < -1.0f && (bits.lo & kSeveredBit) == 0u) atomicAdd(stats.inverted, 1u);
   }
+#ifdef LAW
+  else if ((bits.lo & kLawCellBit) != 0u) {
+    vec3 at[8];
+    for (uint c = 0u; c < 8u; ++c) at[c] = u(cornerSlot(slot, c));
+    elastic += brokenCell(slot, at, body.origin_spacing.w, cellRigidity(slot, body)).energy;
+  }
+#endif
   energies[i] = vec2(0.5f * mass * dot(v, v), elastic);
   // Positive floats order like their bits. The look before the atomic only saves work: the maximum is the same.
   uint stretch_bits = floatBitsToUint(stretch), speed_bits = floatBitsToUint(length(v)), rate_bits = floatBitsToUint(stiffness / mass);

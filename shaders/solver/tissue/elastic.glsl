@@ -3,11 +3,14 @@
 //
 // What a node, a spring and a cell are made of (physics.md 1). After lattice.glsl.
 // Features: LATTICE (some body has implicit connections), NETWORK (some body has explicit ones: network.glsl), PARTS (strengths differ within a body: tables), VOLUME (cells have energies of their own: of volume, by moments), MOMENTS (some have
-// the latter), THIN_WALLS (some cells lie in thin walls), INCREMENT (implicit integrators: the state is displacement + increment), MAKES_CELL_FORCES (of kernels that do).
+// the latter), LAW (some bodies obey a hyperelastic law), THIN_WALLS (some cells lie in thin walls), INCREMENT (implicit integrators: the state is displacement + increment), MAKES_CELL_FORCES (of kernels that do).
 #include "solver/tissue/spring.glsl"
 #include "solver/tissue/volume.glsl"
 #include "solver/tissue/bends.glsl"
 #include "solver/tissue/moments.glsl"
+#ifdef LAW
+#include "solver/tissue/law.glsl"
+#endif
 
 #ifndef __cplusplus
 #ifdef LOADS
@@ -183,6 +186,17 @@ CellForces cellForces(vec3 at[8], CellShape shape, float p, float h, float bulk,
   f.hxyz = (0.35355339f / h) * pull.hxyz;
   return f;
 }
+
+#ifdef LAW
+/// As cellForces(), of a cell that obeys the body's law. @param bulk, rigidity  as of lawPull()
+CellForces lawForces(vec3 at[8], float h, float bulk, float rigidity, CellMoments moments) {
+  CellPull pull = lawPull(cellMotion(at, h), moments, rigidity, bulk);
+  float quarter = 0.25f / h;
+  CellForces f = {quarter * pull.a, quarter * pull.b, quarter * pull.c, (2.0f * quarter) * pull.hx, (2.0f * quarter) * pull.hy,
+                  (2.0f * quarter) * pull.hz, (0.35355339f / h) * pull.hxyz};
+  return f;
+}
+#endif
 
 /// Bit per axis, x lowest. @param corner  -1 or 1 per axis
 uint cornerNumber(ivec3 corner) { return uint((corner.x + 1) / 2 + (corner.y + 1) + 2 * (corner.z + 1)); }

@@ -63,12 +63,42 @@ layout(std430, binding = kBindCellForces) writeonly buffer CellForcesBuffer { ve
 #endif
 
 vec3 u(uint slot) { return xyz(stateAt(displacement, int(slot))); }
+#ifdef LAW
+#include "solver/tissue/broken_cell.glsl"
+
+/// Of a body with a law: where its nodes will be, which damps (physics.md 2). Leaves a cell's forces. @param whole  it has all springs
+void leaveLawForces(uint slot, BodyParams body, bool whole) {
+  float h = body.origin_spacing.w;
+  vec3 at[8];
+  for (uint c = 0u; c < 8u; ++c) {
+    uint corner = cornerSlot(slot, c);
+#ifdef DASHPOT
+    at[c] = u(corner) + body.dashpot_s * xyz(stateAt(velocity, int(corner)));
+#else
+    at[c] = u(corner);
+#endif
+  }
+  if (!whole) {
+    BrokenCell cell = brokenCell(slot, at, h, cellRigidity(slot, body));
+    for (uint c = 0u; c < 8u; ++c) cell_forces_out[cellVector(slot, c)] = vec4(cell.force[c], 0.0f);
+    return;
+  }
+  CellForces f = lawForces(at, h, cellBulk(slot, body), cellRigidity(slot, body), cellMoments(slot));
+  LEAVE_CELL_FORCES(slot, f, 0.0f)
+}
+#endif
 
 void main() {
   uint i = globalIndex();
   if (i >= cell_count) return;
   uint slot = cells[i];
   NodeBits bits = nodes[slot];
+#ifdef LAW
+  if ((bits.lo & kLawCellBit) != 0u) {
+    leaveLawForces(slot, bodies[bodyOf(bits)], (bits.lo & kCellBit) != 0u);
+    return;
+  }
+#endif
   CellForces f = {vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f)};
   if ((bits.lo & kCellBit) != 0u) {
     BodyParams body = bodies[bodyOf(bits)];

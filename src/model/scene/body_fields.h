@@ -84,6 +84,10 @@ void visitFields(V& v, MaterialConfig& c) {
            "axial dashpot: damping ratio at the highest frequency; 0 leaves it out of the kernel");
   v.choice("weights", c.weights, {{"cell", Weights::kCell}, {"paper", Weights::kPaper}},
            "assembly of springs and masses: per solid cell (exact), or VR05's uniform weights");
+  v.choice(
+      "law", c.law, {{"springs", Law::kSprings}, {"neo_hookean", Law::kNeoHookean}},
+      "material law of the cells: springs with what `cells` adds to them, or a neo-Hookean energy per cell, accurate "
+      "at large strain (structure lattice, solver.integrator leapfrog)");
   v.choice("cells", c.cells, {{"auto", Cells::kAuto}, {"moments", Cells::kMoments}, {"springs", Cells::kSprings}},
            "what cells resist with: springs corrected by the moments of the part of each cell that is tissue (cells at "
            "the surface are filled in part), or springs alone (cells are full or empty); auto is moments in structure "

@@ -17,6 +17,14 @@ std::string sourceFault(const BodyConfig& body) {
   return "";
 }
 
+std::string lawFault(const MaterialConfig& material) {
+  if (material.law == Law::kSprings) return "";
+  if (material.cells == Cells::kSprings) return "material.cells: springs does not go with material.law: neo_hookean";
+  if (material.weights != Weights::kCell) return "material.weights: paper does not go with material.law: neo_hookean";
+  if (material.thin_walls) return "material.thin_walls does not go with material.law: neo_hookean";
+  return "";
+}
+
 bool isNone(const PrestressConfig& c) {
   return c.strain == 0 && c.strains.isZero(0);
 }
@@ -36,7 +44,7 @@ std::string structureFault(const BodyConfig& body) {
     return "material.cells: moments does not go with material.weights: paper";
   if (body.material.thin_walls && !hasMoments(body))
     return "material.thin_walls needs cells by moments: cells auto or moments, weights cell";
-  return "";
+  return lawFault(body.material);
 }
 
 }  // namespace viscera

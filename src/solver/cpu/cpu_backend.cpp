@@ -204,12 +204,13 @@ void CpuBackend::measure() {
   out.springs_cut = springs_cut_;
   std::copy(std::begin(stats_.grabbed), std::end(stats_.grabbed), std::begin(out.grabbed));
   double kinetic_j = 0, elastic_j = 0;
-  float stretch = 0, speed = 0;
+  float stretch = 0, speed = 0, stiffening = 0;
   for (const simd::BrickStats& brick : work_->stats) {
     kinetic_j += brick.kinetic_j;
     elastic_j += brick.elastic_j;
     stretch = std::max(stretch, brick.max_stretch);
     speed = std::max(speed, brick.max_speed);
+    stiffening = std::max(stiffening, brick.max_stiffening);
     out.nonfinite += brick.nonfinite;
     out.collapsed += brick.collapsed;
     out.inverted += brick.inverted;
@@ -218,6 +219,7 @@ void CpuBackend::measure() {
   out.elastic_j = static_cast<float>(elastic_j);
   out.max_stretch_bits = bitsOfFloat(stretch);
   out.max_speed_bits = bitsOfFloat(speed);
+  out.max_stiffening_bits = bitsOfFloat(stiffening);
   if (surroundings_) out.crowded = surroundings_->crowded();
   const bool known = !network_ && stats_.max_rate_bits != 0 && springs_cut_ == rate_springs_cut_;
   out.max_rate_bits = known ? stats_.max_rate_bits : bitsOfFloat(largestRate());

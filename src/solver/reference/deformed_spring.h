@@ -31,6 +31,25 @@ inline ReferenceLattice::Spring ReferenceLattice::springAt(const Field& u_m, uin
   return springBetween(n, u_m[n.slot] - u_m[slot]);
 }
 
+/// Calls visit(corner, far corner, slot, spring, k) for each spring that a cell has left: what the cell gives to it.
+template <class Visit>
+void ReferenceLattice::forEachSpringOf(const Cell& cell, Visit visit) const {
+  const double quarter = cell.moments.rigidity_j / (4 * cell.spacing_m * cell.spacing_m);
+  for (size_t c = 0; c < 8; ++c) {
+    const uint32_t slot = cell.corners[c];
+    for (uint32_t s = 0; s < layout::kSpringsPerNode; s += 2) {
+      size_t far = 0;
+      bool inside = true;
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const int to = static_cast<int>(c >> axis & 1) + kNeighborOffsets[s][axis];
+        inside = inside && (to == 0 || to == 1);
+        far |= static_cast<size_t>(to == 1) << axis;
+      }
+      if (inside && isWhole(slot, s)) visit(c, far, slot, s, isAxial(s) ? quarter : 2 * quarter);
+    }
+  }
+}
+
 /// Sign of the axis at corner c of a cell: -1 or 1.
 inline double cornerSign(size_t corner, int axis) {
   return (corner >> axis) & 1u ? 1 : -1;

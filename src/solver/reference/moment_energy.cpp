@@ -7,6 +7,7 @@
 #include <unsupported/Eigen/AutoDiff>
 
 #include "layout/moments.h"
+#include "solver/reference/law_energy.h"
 
 namespace viscera {
 
@@ -152,6 +153,7 @@ T bendingOf(const MomentCell& cell, const Eigen::Matrix<T, 21, 1>& motion) {
 
 template <class T>
 T energyOf(const MomentCell& cell, const Eigen::Matrix<T, 21, 1>& motion) {
+  if (cell.obeys_law) return cell.rigidity_j * lawEnergy<T>(cell.bulk_j / cell.rigidity_j, cell.fill, motion);
   return cell.rigidity_j * (bendingOf<T>(cell, motion) + crushedOf<T>(motion));
 }
 

@@ -22,9 +22,10 @@ Eigen::Matrix<double, 7, 1> motionOfCorner(size_t corner, double spacing_m);
 
 /// What a cell has by moments beside its springs and its volume.
 struct MomentCell {
-  double rigidity_j = 0;  ///< mu h^3 times its share
-  double bulk_j = 0;      ///< (lambda - mu) h^3 times its share
-  CellFill fill;          ///< over its share, which is 1
+  double rigidity_j = 0;   ///< mu h^3 times its share
+  bool obeys_law = false;  ///< of the neo-Hookean law: law_energy.h, without springs
+  double bulk_j = 0;       ///< (lambda - mu) h^3 times its share
+  CellFill fill;           ///< over its share, which is 1
   /// Second differences of displacement along its own axes by its hourglass motions (bend_matrices.h): in a thin wall
   /// those of the tissue around it; else strain across is -nu/(1 - nu) of that along, and no shear.
   std::optional<BendMatrix> missing;

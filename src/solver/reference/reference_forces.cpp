@@ -16,7 +16,7 @@ double ReferenceLattice::strain(const Field& u_m, uint32_t slot, uint32_t spring
 
 Vector3d ReferenceLattice::springForce(const Field& u_m, uint32_t slot) const {
   Vector3d sum = Vector3d::Zero();
-  for (uint32_t s = 0; s < springsOf(slot); ++s) {
+  for (uint32_t s = 0; s < springsOf(slot) && !obeysLaw(slot); ++s) {
     const double k = stiffness(slot, s);
     if (k == 0) continue;
     const Spring spring = springAt(u_m, slot, s);
@@ -37,6 +37,7 @@ Vector3d ReferenceLattice::dashpotForce(const Field& u_m, const Field& v_m_per_s
 }
 
 Vector3d ReferenceLattice::dampingForce(const Field& u_m, const Field& v_m_per_s, uint32_t slot) const {
+  if (obeysLaw(slot)) return elasticForce(lawPlaces(u_m, v_m_per_s), slot) - elasticForce(u_m, slot);
   if (!predicts_ || body(slot).connections != layout::kImplicit) return dashpotForce(u_m, v_m_per_s, slot);
   const double dashpot_s = body(slot).dashpot_s;
   Vector3d sum = Vector3d::Zero();
@@ -55,6 +56,14 @@ Vector3d ReferenceLattice::dampingForce(const Field& u_m, const Field& v_m_per_s
   return sum;
 }
 
+Field ReferenceLattice::lawPlaces(const Field& u_m, const Field& v_m_per_s) const {
+  Field out = u_m;
+  for (uint32_t slot : active) {
+    if (obeysLaw(slot)) out[slot] += body(slot).dashpot_s * v_m_per_s[slot];
+  }
+  return out;
+}
+
 double ReferenceLattice::dissipation(const Field& u_m, const Field& v_m_per_s) const {
   double sum = 0;
   for (uint32_t slot : active) {
@@ -71,7 +80,7 @@ double ReferenceLattice::dissipation(const Field& u_m, const Field& v_m_per_s) c
 double ReferenceLattice::springEnergy(const Field& u_m) const {
   double sum = 0;
   for (uint32_t slot : active) {
-    for (uint32_t s = 0; s < springsOf(slot); ++s) {
+    for (uint32_t s = 0; s < springsOf(slot) && !obeysLaw(slot); ++s) {
       const double k = isFirstEnd(slot, s) ? stiffness(slot, s) : 0;
       if (k == 0) continue;
       const double extension = springAt(u_m, slot, s).extension_m;
@@ -107,7 +116,7 @@ Eigen::Matrix3d ReferenceLattice::cellGradient(const Field& u_m, const Cell& cel
 Eigen::Matrix3d ReferenceLattice::cellStress(const Field& u_m, size_t index) const {
   const Cell& cell = cells_[index];
   const double bulk_j = bulk(cell.corners[0]);
-  if (bulk_j == 0) return Eigen::Matrix3d::Zero();
+  if (bulk_j == 0 || cell.moments.obeys_law) return Eigen::Matrix3d::Zero();
   const Eigen::Matrix3d g = cellGradient(u_m, cell);
   return -volumeSlope(bulk_j, volumeStrain(g)) / (4 * cell.spacing_m) * volumeGradient(g);
 }
@@ -123,6 +132,31 @@ MomentCell ReferenceLattice::momentsOf(const Cell& cell) const {
   return nodes[cell.corners[0]].lo & layout::kCellBit ? cell.moments : MomentCell{};
 }
 
+bool ReferenceLattice::isBroken(const Cell& cell) const {
+  return cell.moments.obeys_law && !(nodes[cell.corners[0]].lo & layout::kCellBit);
+}
+
+ReferenceLattice::CornerForces ReferenceLattice::brokenForces(const Field& u_m, const Cell& cell) const {
+  CornerForces out;
+  out.fill(Vector3d::Zero());
+  forEachSpringOf(cell, [&](size_t corner, size_t far, uint32_t slot, uint32_t s, double k) {
+    const Spring spring = springAt(u_m, slot, s);
+    const Vector3d pull = k * spring.extension_m * spring.direction;
+    out[corner] += pull;
+    out[far] -= pull;
+  });
+  return out;
+}
+
+double ReferenceLattice::brokenEnergy(const Field& u_m, const Cell& cell) const {
+  double sum = 0;
+  forEachSpringOf(cell, [&](size_t, size_t, uint32_t slot, uint32_t s, double k) {
+    const double extension = springAt(u_m, slot, s).extension_m;
+    sum += 0.5 * k * extension * extension;
+  });
+  return sum;
+}
+
 /// What a cell's volume and moments do to its corners [N].
 ReferenceLattice::CornerForces ReferenceLattice::cellForces(const Field& u_m, size_t index) const {
   const Cell& cell = cells_[index];
@@ -130,6 +164,7 @@ ReferenceLattice::CornerForces ReferenceLattice::cellForces(const Field& u_m, si
   const MomentCell moments = momentsOf(cell);
   CellMotion gradient = CellMotion::Zero();
   if (moments.rigidity_j != 0) gradient = momentGradient(moments, motionOf(u_m, cell));
+  if (isBroken(cell)) return brokenForces(u_m, cell);
   CornerForces out;
   for (size_t c = 0; c < 8; ++c) {
     out[c].setZero();
@@ -156,7 +191,8 @@ double ReferenceLattice::volumeEnergy(const Field& u_m) const {
   double sum = 0;
   for (const Cell& cell : cells_) {
     const double bulk_j = bulk(cell.corners[0]);
-    if (bulk_j != 0) sum += viscera::volumeEnergy(bulk_j, volumeStrain(cellGradient(u_m, cell)));
+    if (bulk_j != 0 && !cell.moments.obeys_law)
+      sum += viscera::volumeEnergy(bulk_j, volumeStrain(cellGradient(u_m, cell)));
   }
   return sum;
 }
@@ -165,6 +201,7 @@ double ReferenceLattice::momentEnergy(const Field& u_m) const {
   double sum = 0;
   for (const Cell& cell : cells_) {
     const MomentCell moments = momentsOf(cell);
+    if (isBroken(cell)) sum += brokenEnergy(u_m, cell);
     if (moments.rigidity_j != 0) sum += viscera::momentEnergy(moments, motionOf(u_m, cell));
   }
   return sum;

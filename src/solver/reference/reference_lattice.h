@@ -103,6 +103,11 @@ class ReferenceLattice {
  protected:
   size_t bodies() const { return params_.size(); }
   const layout::BodyParams& body(uint32_t slot) const { return params_[nodes[slot].hi >> layout::kBodyShift]; }
+  /// Do the cells around a node obey a hyperelastic law? Springs pull in those that have lost one alone.
+  bool obeysLaw(uint32_t slot) const { return body(slot).law != layout::kLawSprings; }
+  /// Where nodes are at which leapfrog takes the forces of such cells: displacements ahead by dashpot_s [m], which
+  /// damps (physics.md 2); of other bodies as they are.
+  Field lawPlaces(const Field& u_m, const Field& v_m_per_s) const;
 
  private:
   struct Neighbor {
@@ -135,6 +140,12 @@ class ReferenceLattice {
   Eigen::Matrix3d cellStress(const Field& u_m, size_t cell) const;
   CellMotion motionOf(const Field& u_m, const Cell& cell) const;
   MomentCell momentsOf(const Cell& cell) const;
+  bool isBroken(const Cell& cell) const;
+  template <class Visit>
+  void forEachSpringOf(const Cell& cell, Visit visit) const;
+  CornerForces brokenForces(const Field& u_m, const Cell& cell) const;
+  double brokenEnergy(const Field& u_m, const Cell& cell) const;
+  void addBroken(const Field& u_m, Curvature curvature, std::vector<Eigen::Triplet<double>>& out) const;
   CornerForces cellForces(const Field& u_m, size_t cell) const;
   Vector3d springForce(const Field& u_m, uint32_t slot) const;
   template <class ForcesOf>

@@ -121,10 +121,11 @@ void ReferenceSolver::integrate(Field& u_next, Field& v_next) {
 /// this one, and the first, from the same moment, is half a one.
 void ReferenceSolver::leapfrog(Field& u_next, Field& v_next) const {
   const double kick_s = first_ ? 0.5 * dt_s_ : 0.5 * (last_dt_s_ + dt_s_);
-  const Field elastic = elasticForces(u_m);
+  const Field elastic = elasticForces(lawPlaces(u_m, v_m_per_s));
   for (uint32_t slot : active) {
     if (rests(slot)) continue;
-    const Vector3d force = elastic[slot] + dampingForce(u_m, v_m_per_s, slot);
+    Vector3d force = elastic[slot];
+    if (!obeysLaw(slot)) force += dampingForce(u_m, v_m_per_s, slot);
     const double g = drag_per_s(slot) * kick_s;
     v_next[slot] = ((1 - g / 2) * v_m_per_s[slot] + kick_s * (force / mass(slot) + gravity_)) / (1 + g / 2);
     u_next[slot] = u_m[slot] + dt_s_ * v_next[slot];

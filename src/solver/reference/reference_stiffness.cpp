@@ -48,33 +48,61 @@ Matrix positivePart(const Matrix& m) {
 
 }  // namespace
 
+namespace {
+
+/// d2 (k/2 extension^2) / d w2 of a spring, with its dashpot [N/m]. @param damping  c / dt
+Eigen::Matrix3d springCurvature(const Vector3d& direction, double extension_m, double length_m, double k,
+                                double damping, bool positive) {
+  const Eigen::Matrix3d along = direction * direction.transpose();
+  // Tension over length, what a spring resists turning with; negative while it is compressed. One without rest
+  // length has k even where it has no length: its force is k times the way from end to end.
+  double turning = length_m > 0 ? k * extension_m / length_m : k;
+  if (positive) turning = std::max(0.0, turning);
+  return (k + damping) * along + turning * (Eigen::Matrix3d::Identity() - along);
+}
+
+void addBetween(int near, int far, const Eigen::Matrix3d& block, Triplets& out) {
+  addBlock(near, near, block, out);
+  addBlock(far, far, block, out);
+  addBlock(near, far, -block, out);
+  addBlock(far, near, -block, out);
+}
+
+}  // namespace
+
 void ReferenceLattice::addSprings(const Field& u_m, Curvature curvature, double dashpot_per_s, Triplets& out) const {
   for (uint32_t slot : active) {
-    for (uint32_t s = 0; s < springsOf(slot); ++s) {
+    for (uint32_t s = 0; s < springsOf(slot) && !obeysLaw(slot); ++s) {
       const double k = isFirstEnd(slot, s) ? stiffness(slot, s) : 0;
       if (k == 0) continue;
       const Spring spring = springAt(u_m, slot, s);
-      const Eigen::Matrix3d along = spring.direction * spring.direction.transpose();
-      // Tension over length, what a spring resists turning with; negative while it is compressed. One without rest
-      // length has k even where it has no length: its force is k times the way from end to end.
       const double length_m = std::max(spring.length_m, kShortest * neighbor(slot, s).rest_m);
-      double turning = length_m > 0 ? k * spring.extension_m / length_m : k;
-      if (curvature == Curvature::kPositive) turning = std::max(0.0, turning);
       const Eigen::Matrix3d block =
-          (k + dashpot(slot, s) * dashpot_per_s) * along + turning * (Eigen::Matrix3d::Identity() - along);
-      const int near = dof(slot, 0), far = dof(farEnd(slot, s), 0);
-      addBlock(near, near, block, out);
-      addBlock(far, far, block, out);
-      addBlock(near, far, -block, out);
-      addBlock(far, near, -block, out);
+          springCurvature(spring.direction, spring.extension_m, length_m, k, dashpot(slot, s) * dashpot_per_s,
+                          curvature == Curvature::kPositive);
+      addBetween(dof(slot, 0), dof(farEnd(slot, s), 0), block, out);
     }
+  }
+}
+
+void ReferenceLattice::addBroken(const Field& u_m, Curvature curvature, Triplets& out) const {
+  for (const Cell& cell : cells_) {
+    if (!isBroken(cell)) continue;
+    forEachSpringOf(cell, [&](size_t, size_t, uint32_t slot, uint32_t s, double k) {
+      const Spring spring = springAt(u_m, slot, s);
+      const double length_m = std::max(spring.length_m, kShortest * neighbor(slot, s).rest_m);
+      addBetween(
+          dof(slot, 0), dof(farEnd(slot, s), 0),
+          springCurvature(spring.direction, spring.extension_m, length_m, k, 0, curvature == Curvature::kPositive),
+          out);
+    });
   }
 }
 
 void ReferenceLattice::addVolumes(const Field& u_m, Curvature curvature, Triplets& out) const {
   for (const Cell& cell : cells_) {
     const double bulk_j = bulk(cell.corners[0]);
-    if (bulk_j == 0) continue;
+    if (bulk_j == 0 || cell.moments.obeys_law) continue;
     Matrix9d m = volumeCurvatureMatrix(bulk_j, cellGradient(u_m, cell));
     if (curvature == Curvature::kPositive) m = positivePart(m);
     m /= 16 * cell.spacing_m * cell.spacing_m;
@@ -114,6 +142,7 @@ Eigen::SparseMatrix<double> ReferenceLattice::stiffnessMatrix(const Field& u_m, 
   addSprings(u_m, curvature, dashpot_per_s, triplets);
   addVolumes(u_m, curvature, triplets);
   addMoments(u_m, curvature, triplets);
+  addBroken(u_m, curvature, triplets);
   Eigen::SparseMatrix<double> out(dofs(), dofs());
   out.setFromTriplets(triplets.begin(), triplets.end());
   return out;

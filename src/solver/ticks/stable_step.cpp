@@ -30,6 +30,10 @@ constexpr double kDashpotMargin = 0.94;
 /// strainFactor(): up to kStrainedStretch, and beyond, where shear asks for more (docs/physics.md 2).
 constexpr double kPerStretch = 0.4, kPerMore = 0.8;
 
+/// lawFactor(): what strain takes from the substep, times this, as it grows within the tick too; in steps of a
+/// twentieth, since substeps that change in every tick make small forces flicker.
+constexpr double kStrainMargin = 1.5, kPerFactor = 20;
+
 /// Nodes that may move, with their masses.
 struct Movers {
   std::vector<uint32_t> slots;
@@ -151,6 +155,10 @@ double measureLimit_s(SolverBackend& backend, const Model& model) {
 
 double strainFactor(double stretch) {
   return 1 + kPerStretch * std::min(stretch, kStrainedStretch) + kPerMore * std::max(0.0, stretch - kStrainedStretch);
+}
+
+double lawFactor(double stiffening) {
+  return std::ceil(kPerFactor * (1 + kStrainMargin * (std::sqrt(stiffening) - 1))) / kPerFactor;
 }
 
 double measuredSubstep_s(const SolverConfig& config, double dashpot_ratio, double dt_safe_s, double dt_limit_s,

@@ -21,6 +21,10 @@ double measureLimit_s(SolverBackend& backend, const Model& model);
 /// @param stretch  largest |L - l0| / l0, >= 0
 double strainFactor(double stretch);
 
+/// How much shorter substeps must be than at rest for cells of a hyperelastic law.
+/// @param stiffening  q, of the fastest wave squared over that at rest, >= 1 (lawStiffening() of law.glsl)
+double lawFactor(double stiffening);
+
 /// Substep that follows from a measured limit [s]: in proportion to dt_fraction, and never shorter than by dt_fraction;
 /// of tissue stretched by more than kStrainedStretch, by dt_fraction_strained.
 /// @param dashpot_ratio  xi, the largest of all bodies   @param stretch  as of strainFactor()

@@ -41,6 +41,7 @@ TickPlan planTicks(const Model& model, const Scene& scene, const SolverOptions& 
   plan.substeps = planned(model, scene.solver, plan.dt_safe_s, options.allow_unstable);
   if (scene.solver.governor)
     plan.recovery_substeps = std::max(1, plan.substeps.strained / SolverBackend::kRecoveryIterations);
+  if (hasLaw(model) && scene.solver.substeps == 0 && plan.governed()) plan.most_by_strain = scene.solver.max_substeps;
   plan.tools = !scene.styluses.empty();
   if (surroundingsOf(model, scene).any()) plan.surroundings.emplace(model, scene);
   return plan;

@@ -27,6 +27,7 @@ struct TickPlan {
   double dt_safe_s = 0;       ///< largest stable substep of whole tissue at rest
   SubstepPlan substeps;       ///< of whole tissue
   int recovery_substeps = 0;  ///< of a tick in which the governor's recovery goes on; 0 where there is no governor
+  int most_by_strain = 0;     ///< substeps that strained tissue of a hyperelastic law may need; 0 without
   bool tools = false;         ///< there are styluses
   std::optional<Surroundings> surroundings;  ///< at time 0; only where a scene has any
 
@@ -34,7 +35,9 @@ struct TickPlan {
   /// May nodes be moved that are at rest? Then none may sleep.
   bool staysAwake() const { return surroundings && surroundings->keepsAwake(); }
   double shortestSubstep_s() const { return tick_s / substeps.strained; }
-  int mostSubsteps() const { return std::max(substeps.strained, recovery_substeps); }  ///< a tick can have
+  int mostSubsteps() const {
+    return std::max({substeps.strained, recovery_substeps, most_by_strain});
+  }  ///< a tick can have
 };
 
 /// @throws SceneError  substeps (planSubsteps), surroundings (Surroundings), features (requireFeatures)

@@ -7,6 +7,7 @@
 #include <limits>
 #include <sstream>
 
+#include "layout/law.h"
 #include "math/archive.h"
 #include "math/float_bits.h"
 #include "math/number_text.h"
@@ -28,6 +29,7 @@ namespace {
 
 constexpr size_t kFinishedKept = 3;    // ticks whose measurements wait to be asked for
 constexpr double kStretchSteps = 0.1;  // in which the substep follows the stretch
+constexpr double kSlowlyBack = 0.9;    // in a tick, of what strain asks of the substep
 constexpr double kWorthwhile = 1.01;   // a stable substep must have grown by this factor to be taken
 // What is read from a saved state, over the same of this machine: of computed and of measured stable substeps.
 constexpr double kRoundedHere = 0.999, kLeastMeasured = 0.5;
@@ -55,6 +57,7 @@ Ticks::Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::
       substeps_(plan.substeps),
       recovery_substeps_(plan.recovery_substeps),
       most_substeps_(std::max(plan.mostSubsteps(), plan.substeps.calm)),
+      heeds_stiffening_(plan.most_by_strain > 0),
       surroundings_(plan.surroundings),
       processes_(makeProcesses(scene, model, plan.tools),
                  static_cast<size_t>(SolverBackend::kGoodStates + backend_->lag())),
@@ -131,10 +134,15 @@ void Ticks::chooseSubsteps() {
   restarted_ |= recover != recovering_;
   recovering_ = recover;
   n_ = recover ? recovery_substeps_ : strained ? substeps_.strained : calmSubsteps();
+  if (strained && !recover && heeds_stiffening_) n_ = std::max(n_, calmSubsteps());
 }
 
 /// Of a tick in which the tissue is stretched as it is now.
 int Ticks::calmSubsteps() const {
+  if (heeds_stiffening_ && stiffening_ > 1) {
+    const double dt_s = tick_s_ / substeps_.calm / lawFactor(stiffening_);
+    return std::clamp(static_cast<int>(std::ceil(tick_s_ / dt_s)), substeps_.calm, most_substeps_);
+  }
   if (dt_limit_s_ == 0 || stretch_ == 0) return substeps_.calm;
   const double dt_s = measuredSubstep_s(config_, dashpot_ratio_, dt_safe_s_, dt_limit_s_, stretch_);
   return std::clamp(static_cast<int>(std::ceil(tick_s_ / dt_s)), substeps_.calm,
@@ -196,7 +204,7 @@ void Ticks::reset() {
   processes_.reset();
   pulls_.clear();
   told_ = {};
-  stretch_ = 0;
+  stretch_ = stiffening_ = 0;
   folds_.reset();
   looks_for_folds_ = false;
   dt_safe_s_ = safeTimeStep(model_);
@@ -228,6 +236,7 @@ void Ticks::persistSubsteps(Archive& archive) {
   double limit_s = dt_limit_s_;  // which a reset would not measure again
   archive.value(limit_s);
   archive.value(stretch_);
+  archive.value(stiffening_);
   archive.value(substeps_);
   archive.value(substeps_done_);
   archive.value(springs_cut_);
@@ -241,6 +250,7 @@ void Ticks::persistSubsteps(Archive& archive) {
   constexpr double kAny = std::numeric_limits<double>::infinity();
   requireInTicks("stable substep [s]", dt_safe_s_, least_safe_s, kAny);
   requireInTicks("measured stable substep [s]", limit_s, kLeastMeasured * dt_limit_s_, dt_limit_s_ / kLeastMeasured);
+  requireInTicks("stiffening", stiffening_, 0, layout::kMostStiffening);
   requireInTicks("stretch", stretch_, 0, std::numeric_limits<float>::max());
   requireInTicks("calm substeps", substeps_.calm, 1, most_substeps_);
   requireInTicks("strained substeps", substeps_.strained, 1, most_substeps_);
@@ -318,6 +328,8 @@ bool Ticks::heed(const Watch::Verdict& verdict) {
 
 /// Rounded down: substeps that change in every tick make small forces flicker, and there is a margin for that.
 void Ticks::noteStretch(const layout::TickStats& stats) {
+  const double stiffening = static_cast<double>(floatFromBits(stats.max_stiffening_bits));
+  stiffening_ = std::max(stiffening, kSlowlyBack * stiffening_);
   stretch_ = std::floor(static_cast<double>(floatFromBits(stats.max_stretch_bits)) / kStretchSteps) * kStretchSteps;
 }
 

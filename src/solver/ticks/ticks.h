@@ -89,9 +89,11 @@ class Ticks : public Solver {
   float edge_reach_m_;
   double dt_limit_s_ = 0;  ///< measured at the start; 0 where it is not
   double dashpot_ratio_;   ///< the largest
+  double stiffening_ = 0;  ///< of cells of a hyperelastic law, the largest of late; 0 where substeps do not heed it
   double stretch_ = 0;     ///< largest of the last good tick, rounded down
   SubstepPlan substeps_;
   int recovery_substeps_, most_substeps_;
+  bool heeds_stiffening_;
   std::optional<Surroundings> surroundings_;  ///< only where a scene has any
   ProcessList processes_;
   CutState seen_cuts_;                  ///< only where a process reads cuts

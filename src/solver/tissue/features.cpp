@@ -25,6 +25,7 @@ std::vector<std::string> FeatureSet::defines() const {
   if (predicted) out.push_back("PREDICTED");
   if (volume) out.push_back("VOLUME");
   if (moments) out.push_back("MOMENTS");
+  if (law) out.push_back("LAW");
   if (thin_walls) out.push_back("THIN_WALLS");
   if (parts) out.push_back("PARTS");
   if (compensated) out.push_back("COMPENSATED");
@@ -40,6 +41,7 @@ FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint3
   features.lattice = model.hasLattice();
   features.network = model.hasNetwork();
   features.moments = hasMoments(model);
+  features.law = hasLaw(model);
   features.thin_walls = features.moments && hasBends(model);
   features.volume = features.moments || hasVolumeEnergy(model);
   features.parts = isHeterogeneous(model);

@@ -112,6 +112,7 @@ layout::BodyParams bodyParams(const Body& body, double dt_safe_s) {
   params.dashpot_s = static_cast<float>(material.dashpot_ratio * dt_safe_s);
   params.bulk_j = static_cast<float>(e.bulk_j);
   if (material.cells == Cells::kMoments) params.rigidity_j = static_cast<float>(e.rigidity_j);
+  params.law = material.law == Law::kNeoHookean ? layout::kLawNeoHookean : layout::kLawSprings;
   params.connections = !body.network              ? layout::kImplicit
                        : body.network->of_lattice ? layout::kExplicitLattice
                                                   : layout::kNetwork;
@@ -136,6 +137,11 @@ bool hasVolumeEnergy(const Model& model) {
 bool hasMoments(const Model& model) {
   return std::any_of(model.bodies.begin(), model.bodies.end(),
                      [](const Body& body) { return body.material.cells == Cells::kMoments; });
+}
+
+bool hasLaw(const Model& model) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(),
+                     [](const Body& body) { return body.material.law == Law::kNeoHookean; });
 }
 
 bool predictsSprings(const Model& model) {

@@ -28,6 +28,12 @@ enum class Cells {
   kMoments   ///< springs corrected by the moments of the part that is filled: bends and twists as the solid does
 };
 
+/// What the cells of a lattice are made of (docs/physics.md 1).
+enum class Law {
+  kSprings,    ///< springs, with what `cells` adds to them
+  kNeoHookean  ///< a hyperelastic energy per cell, of its deformation gradient
+};
+
 /// How spring and mass weights are assembled (physics.md 1).
 enum class Weights {
   kCell,  ///< each solid cell adds k/4 to its edges, k/2 to its face diagonals, m/8 to its nodes
@@ -77,6 +83,7 @@ struct MaterialConfig {
   double drag_per_s = 4;
   double dashpot_ratio = 0.2;
   Weights weights = Weights::kCell;
+  Law law = Law::kSprings;
   Cells cells = Cells::kAuto;
   bool thin_walls = false;  ///< walls of few cells bend as the tissue around each cell lets them
   std::string tissue;       ///< preset (docs/tissues.md) of those of the first three that the scene does not give

@@ -11,6 +11,7 @@
 #include "hwy/highway.h"
 #include "solver/cpu/simd/cells-inl.h"
 #include "solver/cpu/simd/crushed-inl.h"
+#include "solver/cpu/simd/law_bricks-inl.h"
 #include "solver/cpu/simd/moments-inl.h"
 #include "solver/cpu/simd/targets.h"
 
@@ -126,11 +127,6 @@ HWY_NOINLINE void cellForces(const CellBrick& of, int cell, V rigidity, V bulk, 
   addCrushed(motion, rigidity, scale.per_4h, out);
 }
 
-HWY_INLINE Face faceAt(const UpTile& tile, int at) {
-  const Corners n = cornersAt(tile, at);
-  return faceOf(n.n00, n.n10, n.n01, n.n11);
-}
-
 /// A column of four vectors of cells, and of the five planes of their nodes.
 struct Column {
   Corners below[5];               ///< what nodes get of the springs of the cells below them
@@ -143,12 +139,8 @@ struct Column {
 
 /// What the nodes of a plane get from cells and springs.
 HWY_INLINE Corners gathered(const Corners& springs, const CellMotion& below, const CellMotion& above) {
-  const Vec3 ss = above.dc - below.dc, sd = (above.hx - above.db) - (below.hx + below.db);
-  const Vec3 ds = (above.hy - above.da) - (below.hy + below.da);
-  const Vec3 dd = (above.hxyz - above.hz) - (below.hxyz + below.hz);
-  const Vec3 even = ss + dd, odd = ss - dd, sum = sd + ds, difference = sd - ds;
-  return {springs.n00 + (even - sum), springs.n10 + (odd - difference), springs.n01 + (odd + difference),
-          springs.n11 + (even + sum)};
+  const Corners cells = gathered(below, above);
+  return {springs.n00 + cells.n00, springs.n10 + cells.n10, springs.n01 + cells.n01, springs.n11 + cells.n11};
 }
 
 /// @param i  place of the column's vectors in their planes   @param none, nothing  0
@@ -215,8 +207,13 @@ void cellsOf(const CellJob& job, const uint32_t* bricks, size_t count) {
   CellTiles tiles;
   for (size_t n = 0; n < count; ++n) {
     const uint32_t b = bricks[n], next = bricks[std::min(n + 1, count - 1)];
-    const CellBody body = cellBodyOf(job.arrays.bodies[job.arrays.bricks[b].body]);
+    const layout::BodyParams& params = job.arrays.bodies[job.arrays.bricks[b].body];
     const uint32_t planes = planesOf(~uint32_t{job.idle_rows[b]});
+    if (params.law != layout::kLawSprings) {
+      lawBrick(job, params, b, next, planes, tiles.u);
+      continue;
+    }
+    const CellBody body = cellBodyOf(params);
     fillUp(job.arrays, job.arrays.displacement, b, planes, tiles.u);
     if (job.dashpot) {
       fillUp(job.arrays, job.arrays.velocity, b, planes, tiles.v);

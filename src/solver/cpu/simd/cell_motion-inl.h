@@ -30,6 +30,11 @@ HWY_INLINE Face faceOf(const Vec3& n00, const Vec3& n10, const Vec3& n01, const 
   const Vec3 s0 = n00 + n10, d0 = n10 - n00, s1 = n01 + n11, d1 = n11 - n01;
   return {s0 + s1, s1 - s0, d0 + d1, d1 - d0};
 }
+/// Of displacements over 4 h.
+HWY_INLINE CellMotion motionOf4(const Face& low, const Face& high) {
+  return {low.ds + high.ds, low.sd + high.sd, high.ss - low.ss, high.sd - low.sd,
+          high.ds - low.ds, low.dd + high.dd, high.dd - low.dd};
+}
 /// @param per_4h  1 / (4 h), 0 where there is no cell: nothing is strained there, wherever the nodes around are
 HWY_INLINE CellMotion motionBetween(const Face& low, const Face& high, V per_4h) {
   return {per_4h * (low.ds + high.ds),

@@ -11,6 +11,7 @@
 #endif
 
 #include "hwy/highway.h"
+#include "solver/cpu/simd/cell_motion-inl.h"
 #include "solver/cpu/simd/kernels.h"
 #include "solver/cpu/simd/springs-inl.h"
 
@@ -41,25 +42,27 @@ HWY_INLINE V rowsAfter(V rows, V next) {
 #endif
 }
 
-/// @param values  [3 * slots] as in Arrays   @param planes  bit z: wanted
-HWY_INLINE void fillUp(const Arrays& a, const float* values, uint32_t b, uint32_t planes, UpTile& tile) {
+/// @param planes  bit z: wanted   @param get  says the vector of numbers at an index as in Arrays' fields
+template <class Get>
+HWY_INLINE void fillUp(const Arrays& a, uint32_t b, uint32_t planes, UpTile& tile, const Get& get) {
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
   const Tag d;
   const uint32_t* around = a.bricks[b].neighbors;
-  const auto brick = [&](int direction) HWY_ATTR { return values + size_t{around[direction]} * 192; };
   for (int z = 0; z <= 4; ++z) {
     if ((planes >> z & 1) == 0) continue;
     const int layer = 13 + 9 * (z >> 2);
-    const float *own = brick(layer), *right = brick(layer + 1), *behind = brick(layer + 3), *corner = brick(layer + 4);
+    const size_t own = size_t{around[layer]} * 192, right = size_t{around[layer + 1]} * 192;
+    const size_t behind = size_t{around[layer + 3]} * 192, corner = size_t{around[layer + 4]} * 192;
     for (int c = 0; c < 3; ++c) {
-      const int from = 64 * c + (z & 3) * 16;
-      const auto shifted = [&](const float* at_right, V at, int i)
-                               HWY_ATTR { return hn::CombineShiftRightBytes<4>(d, load(at_right + from + i), at); };
-      V here = load(own + from), here_right = shifted(right, here, 0);
+      const auto from = static_cast<size_t>(64 * c + (z & 3) * 16);
+      const auto shifted = [&](size_t at_right, V at, size_t i)
+                               HWY_ATTR { return hn::CombineShiftRightBytes<4>(d, get(at_right + from + i), at); };
+      V here = get(own + from), here_right = shifted(right, here, 0);
       for (int i = 0; i < 16; i += kLanes) {
         const bool last = i + kLanes == 16;
-        const int to = z * kUpPlane + i, after = last ? 0 : i + kLanes;
-        const V next = load((last ? behind : own) + from + after);
+        const int to = z * kUpPlane + i;
+        const size_t after = last ? 0 : static_cast<size_t>(i + kLanes);
+        const V next = get((last ? behind : own) + from + after);
         const V next_right = shifted(last ? corner : right, next, after);
         hn::Store(here, d, tile.component[c][0][0] + to);
         hn::Store(here_right, d, tile.component[c][1][0] + to);
@@ -70,6 +73,11 @@ HWY_INLINE void fillUp(const Arrays& a, const float* values, uint32_t b, uint32_
       }
     }
   }
+}
+
+/// @param values  [3 * slots] as in Arrays
+HWY_INLINE void fillUp(const Arrays& a, const float* values, uint32_t b, uint32_t planes, UpTile& tile) {
+  fillUp(a, b, planes, tile, [&](size_t at) HWY_ATTR { return load(values + at); });
 }
 
 /// What four corners of cells at one height have or get, by their x and y.
@@ -192,6 +200,21 @@ HWY_INLINE hn::Vec<D> lastOfRows(D d, hn::Vec<D> x, hn::Vec<D> y, hn::Vec<D> z) 
   const auto xy = hn::BitCast(wide, hn::InterleaveUpper(d, x, y));
   const auto z0 = hn::BitCast(wide, hn::InterleaveUpper(d, z, hn::Zero(d)));
   return hn::BitCast(d, hn::InterleaveUpper(wide, xy, z0));
+}
+
+/// Nodes of the lowest faces of a vector of cells. @param at  place of the first in the tile
+HWY_INLINE Face faceAt(const UpTile& tile, int at) {
+  const Corners n = cornersAt(tile, at);
+  return faceOf(n.n00, n.n10, n.n01, n.n11);
+}
+
+/// What the nodes of a plane get from the cells below and above it.
+HWY_INLINE Corners gathered(const CellMotion& below, const CellMotion& above) {
+  const Vec3 ss = above.dc - below.dc, sd = (above.hx - above.db) - (below.hx + below.db);
+  const Vec3 ds = (above.hy - above.da) - (below.hy + below.da);
+  const Vec3 dd = (above.hxyz - above.hz) - (below.hxyz + below.hz);
+  const Vec3 even = ss + dd, odd = ss - dd, sum = sd + ds, difference = sd - ds;
+  return {even - sum, odd - difference, odd + difference, even + sum};
 }
 
 /// What the last rows of a vector of cells gave to those behind them, for the next vector of their plane.

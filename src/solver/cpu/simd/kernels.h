@@ -74,7 +74,8 @@ constexpr size_t cellNumberAt(uint32_t slot, uint32_t number, uint32_t numbers) 
 constexpr size_t cellSpringAt(uint32_t slot, uint32_t spring) {
   return cellNumberAt(slot, spring, kCellSprings);
 }
-constexpr uint32_t kMomentNumbers = 9;  ///< first, square, mixed (moments.glsl)
+constexpr uint32_t kMomentNumbers = 9;   ///< first, square, mixed (moments.glsl)
+constexpr uint32_t kBrokenSprings = 24;  ///< within a cell: 12 edges, along x, y and z, then 12 face diagonals
 
 // Forces of a brick's 64 cells on their corners, summed by node, plane by plane of nodes (the fifth is that above the
 // brick): on the nodes of its own rows, of the row behind them, then of each row's right neighbour and of the corner
@@ -105,6 +106,8 @@ struct CellJob {
   const uint16_t* partial_rows;  ///< [bricks] bit r: some of the four cells from 4 r on is tissue in part
   const float* const* bends;     ///< [bricks] [kBendNumbers * 64] of its cells (CpuStrengths); null without thin walls
   const uint16_t* thin_rows;     ///< [bricks] bit r: some of the four cells from 4 r on has a bend
+  const float* const* broken;    ///< [bricks] [kBrokenSprings * 64] N of cells of a law that have lost a spring
+                                 ///< (CpuStrengths); null where all are whole
   bool parts;                    ///< bulk over rigidity differs within a body
   bool volumes;                  ///< some bulk is not 0
   bool dashpot;                  ///< some body has one
@@ -118,6 +121,7 @@ using BrickCells = void (*)(const CellJob& job, const uint32_t* bricks, size_t c
 struct BrickStats {
   float max_stretch, max_speed;
   double kinetic_j, elastic_j;
+  float max_stiffening;  ///< of cells of a law; 0 without
   uint32_t nonfinite, collapsed, inverted;
 };
 

@@ -10,6 +10,7 @@
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "hwy/highway.h"
 #include "solver/cpu/simd/crushed-inl.h"
+#include "solver/cpu/simd/law_measure-inl.h"
 #include "solver/cpu/simd/moments-inl.h"
 #include "solver/cpu/simd/targets.h"
 #include "solver/cpu/simd/tiles-inl.h"
@@ -91,6 +92,20 @@ HWY_INLINE M hasBits(Bits of, uint32_t bits) {
   return hn::RebindMask(Tag(), hn::Ne(hn::And(of, hn::Set(d, bits)), hn::Zero(d)));
 }
 
+/// Elastic energy of cells of a law above a vector's nodes [J]. @param good  whose nodes are finite
+HWY_INLINE V measureLawCells(const MeasureJob& job, const Material& m, const layout::BodyParams& body, size_t slot,
+                             const Vec3 (&corners)[8], M good, BrickStats& stats) {
+  const LawMeasured law = measureLaw(job.cells, body, slot, corners);
+  V elastic = hn::IfThenElseZero(good, law.energy);
+  const V most = set(kMostStiffening), bounded = hn::IfThenElse(hn::Lt(law.stiffening, most), law.stiffening, most);
+  const V stiffening = hn::IfThenElseZero(good, bounded);
+  stats.max_stiffening = std::max(stats.max_stiffening, hn::GetLane(hn::MaxOfLanes(Tag(), stiffening)));
+  const float* broken = job.cells.broken[slot / 64];
+  if (HWY_LIKELY(broken == nullptr)) return elastic;
+  const float* k = broken + cellNumberAt(static_cast<uint32_t>(slot % 64), 0, kBrokenSprings);
+  return hn::Add(elastic, hn::IfThenElseZero(good, brokenEnergy(k, m, body.origin_spacing.w, corners)));
+}
+
 void measureVector(const MeasureJob& job, const Material& m, const Tile& u, uint32_t b, int i, BrickStats& stats) {
   const Arrays& a = job.arrays;
   const size_t slot = size_t{b} * 64 + static_cast<size_t>(i);
@@ -113,12 +128,15 @@ void measureVector(const MeasureJob& job, const Material& m, const Tile& u, uint
   const M cell = hn::And(good, hasBits(bits, layout::kCellBit));
   const M whole = hn::AndNot(hasBits(bits, layout::kSeveredBit), cell);
   stats.inverted += count(hn::And(whole, hn::Lt(e, set(-1))));
-  if (a.bulk_around) {
+  const layout::BodyParams& body = a.bodies[a.bricks[b].body];
+  const bool of_law = body.law != layout::kLawSprings;
+  if (of_law) elastic = measureLawCells(job, m, body, slot, corners, good, stats);
+  if (a.bulk_around && !of_law) {
     const V energy = volumeEnergyOf(load(a.bulk_around + size_t{b} * 512 + i), e);
     elastic = hn::Add(elastic, hn::IfThenElseZero(cell, energy));
   }
-  if (job.cells.rigidity) {
-    const V energy = momentEnergyOf(job.cells, a.bodies[a.bricks[b].body], slot, corners);
+  if (job.cells.rigidity && !of_law) {
+    const V energy = momentEnergyOf(job.cells, body, slot, corners);
     elastic = hn::Add(elastic, hn::IfThenElseZero(cell, energy));
   }
   const V v2 = hn::IfThenElseZero(good, dot(v, v));

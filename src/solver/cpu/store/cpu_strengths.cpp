@@ -22,9 +22,29 @@ constexpr CellSpring kCellSpringOf[kSpringPairs] = {{{0, 0, 0}, 0}, {{0, 0, 0}, 
                                                     {{0, 0, 0}, 3}, {{0, 1, 0}, 4}, {{0, 0, 0}, 5},
                                                     {{0, 0, 1}, 6}, {{0, 0, 0}, 7}, {{0, 0, 1}, 8}};
 
+/// From which corner of its cell a spring within it goes, bit per axis, x lowest, and of which pair it is: in the order
+/// of kBrokenSprings (VISCERA_SPRINGS_WITHIN in law_bricks-inl.h).
+struct SpringWithin {
+  int corner;
+  uint32_t pair;
+};
+constexpr SpringWithin kSpringsWithin[simd::kBrokenSprings] = {
+    {0, 0}, {2, 0}, {4, 0}, {6, 0}, {0, 1}, {1, 1}, {4, 1}, {5, 1}, {0, 2}, {1, 2}, {2, 2}, {3, 2},
+    {0, 3}, {4, 3}, {2, 4}, {6, 4}, {0, 5}, {2, 5}, {4, 6}, {6, 6}, {0, 7}, {1, 7}, {4, 8}, {5, 8}};
+
 bool isAlone(const layout::NodeBits& bits) {
   return (bits.lo & layout::kAxialMask) == 0 && (bits.hi & layout::kDiagonalMask) == 0;
 }
+
+/// Of LawMoments (law-inl.h). @param m  first, square and mixed moments   @param v  which of them
+float lawMoment(const layout::vec4* m, size_t v, size_t c) {
+  const auto of = [](const layout::vec4& vector, size_t i) { return i == 0 ? vector.x : i == 1 ? vector.y : vector.z; };
+  if (v == 0) return 2 * of(m[0], c);
+  const size_t a = v == 1 ? c : (c + 1) % 3, b = v == 1 ? c : (c + 2) % 3;
+  return 4 * (of(m[v], c) - of(m[0], a) * of(m[0], b));
+}
+
+constexpr uint32_t kNoSlot = ~0u;
 
 /// Slot of the neighbour at an offset, whose brick must be there (shaders/solver/tissue/lattice.glsl).
 uint32_t neighborSlot(const std::vector<layout::Brick>& bricks, uint32_t slot, const std::array<int, 3>& offset) {
@@ -37,6 +57,18 @@ uint32_t neighborSlot(const std::vector<layout::Brick>& bricks, uint32_t slot, c
   }
   const layout::Brick& brick = bricks[slot / layout::kBrickSlots];
   return brick.neighbors[direction] * layout::kBrickSlots + static_cast<uint32_t>(inside);
+}
+
+/// The same, kNoSlot where no brick is.
+uint32_t slotBeside(const std::vector<layout::Brick>& bricks, uint32_t slot, const std::array<int, 3>& offset) {
+  constexpr int kShift[3] = {0, 2, 4};
+  bool inside = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int at = static_cast<int>(slot >> kShift[axis] & 3) + offset[static_cast<size_t>(axis)];
+    inside = inside && at >= 0 && at < 4;
+  }
+  const uint32_t out = neighborSlot(bricks, slot, offset);
+  return !inside && out / layout::kBrickSlots == slot / layout::kBrickSlots ? kNoSlot : out;
 }
 
 }  // namespace
@@ -65,6 +97,8 @@ CpuStrengths::CpuStrengths(const Model& model, const CpuStore& store, const Feat
   }
   if (features.moments) {
     rigidity.resize(store.slotCount());
+    broken.resize(store.brickCount());
+    if (features.law) broken_planes_.resize(store.brickCount());
     moments = allMoments(model);
     cell_springs.resize(store.slotCount() * simd::kCellSprings);
     uniform_cells.resize(store.brickCount());
@@ -93,7 +127,38 @@ float CpuStrengths::cellBulk(const CpuStore& store, uint32_t slot) const {
 
 float CpuStrengths::cellRigidity(const CpuStore& store, uint32_t slot) const {
   if (!(store.nodes[slot].lo & layout::kCellBit) || hasSoftened(store, slot)) return 0;
+  return wholeRigidity(store, slot);
+}
+
+/// Of the cell above a slot, which there is, before anything cut it [J].
+float CpuStrengths::wholeRigidity(const CpuStore& store, uint32_t slot) const {
   return table_.rigidity_j.empty() ? store.bodyOf(slot).rigidity_j : table_.rigidity_j[slot];
+}
+
+/// Fits what cells around a node have left to springs that it may have lost.
+void CpuStrengths::breakCells(const CpuStore& store, uint32_t slot) {
+  for (int c = 0; c < 8; ++c) {
+    const uint32_t cell = slotBeside(store.bricks, slot, {-(c & 1), -(c >> 1 & 1), -(c >> 2 & 1)});
+    if (cell == kNoSlot || !(store.nodes[cell].lo & layout::kLawCellBit)) continue;
+    if (cellRigidity(store, cell) == 0) setBroken(store, cell);
+  }
+}
+
+void CpuStrengths::setBroken(const CpuStore& store, uint32_t cell) {
+  const uint32_t brick = cell / layout::kBrickSlots, local = cell % layout::kBrickSlots;
+  AlignedVector<float>& planes = broken_planes_[brick];
+  if (broken[brick] == nullptr) planes.assign(simd::kBrokenSprings * layout::kBrickSlots, 0);
+  broken[brick] = planes.data();
+  // Times 4 h: a quarter of k along an edge, a half along a diagonal, k = rigidity / h^2.
+  const float of_edge = wholeRigidity(store, cell) / store.bodyOf(cell).origin_spacing.w;
+  for (uint32_t s = 0; s < simd::kBrokenSprings; ++s) {
+    const auto& [corner, pair] = kSpringsWithin[s];
+    const uint32_t near = neighborSlot(store.bricks, cell, {corner & 1, corner >> 1 & 1, corner >> 2 & 1});
+    const float left_of_it = left.empty() ? 1 : left[stiffnessAt(near, pair)];
+    const bool alive = springCount(store.nodes[near], 2 * pair) != 0;
+    planes[simd::cellNumberAt(local, s, simd::kBrokenSprings)] =
+        alive ? left_of_it * (isAxial(2 * pair) ? of_edge : 2 * of_edge) : 0;
+  }
 }
 
 /// Has one of a cell's 24 springs softened? It resists by nothing else then, or it would hold a tear together.
@@ -134,6 +199,7 @@ void CpuStrengths::refresh(const CpuStore& store, uint32_t slot) {
   bulk[slot] = cellBulk(store, slot);
   has_volumes |= bulk[slot] != 0;
   if (!rigidity.empty()) rigidity[slot] = cellRigidity(store, slot);
+  if (!broken_planes_.empty()) breakCells(store, slot);
   shareBulk(store, slot);
 }
 
@@ -164,7 +230,8 @@ void CpuStrengths::spreadMoments(const CpuStore& store) {
   for (size_t i = 0; i < partial.size(); ++i) {
     float* planes = &moment_planes_[i * kBrick];
     brick_moments[partial[i]] = planes;
-    const float twice_h = 2 * store.bodies[store.bricks[partial[i]].body].origin_spacing.w;
+    const layout::BodyParams& body = store.bodies[store.bricks[partial[i]].body];
+    const float twice_h = 2 * body.origin_spacing.w;
     for (size_t local = 0; local < layout::kBrickSlots; ++local) {
       const uint32_t which = moments.of_cell[partial[i] * layout::kBrickSlots + local];
       if (which != 0) partial_rows[partial[i]] = static_cast<uint16_t>(partial_rows[partial[i]] | 1u << (local / 4));
@@ -173,7 +240,9 @@ void CpuStrengths::spreadMoments(const CpuStore& store) {
         const float numbers[3] = {m[v].x, m[v].y, m[v].z};
         for (size_t c = 0; c < 3; ++c)
           planes[simd::cellNumberAt(static_cast<uint32_t>(local), static_cast<uint32_t>(3 * v + c),
-                                    simd::kMomentNumbers)] = v == 0 ? twice_h * numbers[c] : numbers[c];
+                                    simd::kMomentNumbers)] = body.law != layout::kLawSprings ? lawMoment(m, v, c)
+                                                             : v == 0                        ? twice_h * numbers[c]
+                                                                                             : numbers[c];
       }
     }
   }
@@ -228,6 +297,7 @@ bool CpuStrengths::isFull(const CpuStore& store, uint32_t slot) const {
 void CpuStrengths::refreshAll(const CpuStore& store) {
   for (size_t b = 0; b < store.bricks.size(); ++b)
     uniform[b] = store.first_active[b + 1] - store.first_active[b] == layout::kBrickSlots;
+  std::fill(broken.begin(), broken.end(), nullptr);
   for (uint32_t slot : store.active) refresh(store, slot);
   noteIdleRows();
   if (!cell_springs.empty()) noteCells(store);
@@ -269,8 +339,9 @@ void CpuStrengths::noteCells(const CpuStore& store) {
 bool CpuStrengths::isIdleRow(const CpuStore& store, uint32_t first) const {
   bool nothing = true, still = true;
   for (uint32_t slot = first; slot < first + 4; ++slot) {
-    nothing = nothing && rigidity[slot] == 0 && bulk[slot] == 0;
-    for (uint32_t s = 0; s < simd::kCellSprings; ++s)
+    nothing = nothing && rigidity[slot] == 0 && bulk[slot] == 0 && !(store.nodes[slot].lo & layout::kLawCellBit);
+    const bool springs = store.bodyOf(slot).law == layout::kLawSprings;
+    for (uint32_t s = 0; s < simd::kCellSprings && springs; ++s)
       nothing = nothing && cell_springs[simd::cellSpringAt(slot, s)] == 0;
     for (int c = 0; c < 8; ++c) {
       still = still && mobility[neighborSlot(store.bricks, slot, {c & 1, c >> 1 & 1, c >> 2 & 1})] == 0;

@@ -42,8 +42,12 @@ struct CpuStrengths {
                                   ///< alone; empty without moments
   JoinedMoments moments;          ///< empty without
   std::vector<const float*> brick_moments;  ///< [bricks] [9 * 64] moments of its cells, number by number, the
-                                            ///< first ones times 2 h; null where all are full; empty without moments
-  std::vector<uint16_t> partial_rows;       ///< [bricks] bit r: some of the four cells from 4 r on is tissue in part
+                                            ///< first ones times 2 h, or of a law those of LawMoments (law-inl.h);
+                                            ///< null where all are full; empty without moments
+  std::vector<const float*> broken;       ///< [bricks] [kBrokenSprings * 64] stiffness times 4 h of the springs within
+                                          ///< cells of a law that have lost one, number by number (kernels.h) [N];
+                                          ///< null where all are whole; empty without moments
+  std::vector<uint16_t> partial_rows;     ///< [bricks] bit r: some of the four cells from 4 r on is tissue in part
   std::vector<const float*> brick_bends;  ///< [bricks] [kBendNumbers * 64] bends of its cells, number by number, those
                                           ///< with strains times 2 h; null where none is; empty without thin walls
   std::vector<uint16_t> thin_rows;        ///< [bricks] bit r: some of the four cells from 4 r on has a bend
@@ -65,14 +69,18 @@ struct CpuStrengths {
   void spreadMoments(const CpuStore& store);
   void spreadBends(const CpuStore& store);
   void shareBulk(const CpuStore& store, uint32_t slot);
+  float wholeRigidity(const CpuStore& store, uint32_t slot) const;
+  void breakCells(const CpuStore& store, uint32_t slot);
+  void setBroken(const CpuStore& store, uint32_t cell);
   void setCellSpring(const CpuStore& store, uint32_t slot, uint32_t pair);
   void noteIdleRows();
   void noteCells(const CpuStore& store);
   bool isIdleRow(const CpuStore& store, uint32_t first) const;
 
-  AlignedVector<float> moment_planes_;  ///< what brick_moments points to
-  AlignedVector<float> bend_planes_;    ///< what brick_bends points to
-  Strengths table_;                     ///< of models with parts, whose counts only say alive or cut; else empty
+  AlignedVector<float> moment_planes_;               ///< what brick_moments points to
+  std::vector<AlignedVector<float>> broken_planes_;  ///< [bricks] what broken points to
+  AlignedVector<float> bend_planes_;                 ///< what brick_bends points to
+  Strengths table_;  ///< of models with parts, whose counts only say alive or cut; else empty
 };
 
 }  // namespace viscera

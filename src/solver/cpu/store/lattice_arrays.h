@@ -39,6 +39,7 @@ inline simd::CellJob cellsOf(CpuLattice& lattice) {
   job.partial_rows = lattice.strengths.partial_rows.data();
   job.bends = lattice.strengths.brick_bends.empty() ? nullptr : lattice.strengths.brick_bends.data();
   job.thin_rows = lattice.strengths.thin_rows.data();
+  job.broken = lattice.strengths.broken.data();
   job.parts = lattice.strengths.has_parts;
   job.volumes = lattice.strengths.has_volumes;
   return job;

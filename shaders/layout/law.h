@@ -1,0 +1,24 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+// clang-format off
+// Constants of the hyperelastic law (physics.md 1): of shaders/solver/tissue/law.glsl, its SIMD twin and the float64 reference.
+#ifndef VISCERA_LAYOUT_LAW_H
+#define VISCERA_LAYOUT_LAW_H
+#include "viscera/layout/types.h"
+
+#ifdef __cplusplus
+namespace viscera::layout {
+#endif
+
+// Volume ratio J below which the law goes on with bounded derivatives: 1/J stays constant, so that a cell that is turned inside out is
+// pushed back with a bounded pressure. No cell of 200 random starts with displacements of 0.3 h came below it.
+const float kLeastVolume = 0.2f;
+// Largest stiffening() that is looked at: beyond it a cell is crushed, and the stability monitor's affair.
+const float kMostStiffening = 1e4f;
+// What resists the alternating motion: 5/36 mu h^3 |H_xyz|^2, the hexahedron's.
+const float kLawAlternating = 5.0f / 18.0f;
+
+#ifdef __cplusplus
+}  // namespace viscera::layout
+#endif
+#endif

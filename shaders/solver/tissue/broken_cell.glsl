@@ -1,0 +1,39 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A cell of a hyperelastic law that has lost a spring to a blade: from then on it is what is left of its springs (physics.md 1, Law).
+// After elastic.glsl and `nodes`. Feature: LAW
+
+struct BrokenCell {
+  vec3 force[8];  // on its corners [N]
+  float energy;   // [J]
+};
+
+/// @param at  displacements of the corners, bit per axis, x lowest [m]   @param rigidity  mu h^3 times the cell's share [J]
+BrokenCell brokenCell(uint slot, vec3 at[8], float h, float rigidity) {
+  BrokenCell cell;
+  cell.energy = 0.0f;
+  for (uint c = 0u; c < 8u; ++c) cell.force[c] = vec3(0.0f);
+  float quarter = rigidity / (4.0f * h * h);  // what a cell gives to an edge; to a diagonal twice as much [N/m]
+  for (uint c = 0u; c < 8u; ++c) {
+    NodeBits bits = nodes[cornerSlot(slot, c)];
+    ivec3 from = ivec3(c & 1u, (c >> 1) & 1u, (c >> 2) & 1u);
+#define BROKEN_SPRING(spring, offset)                                                                                   \
+  {                                                                                                                     \
+    ivec3 to = from + offset;                                                                                           \
+    if ((spring & 1u) == 0u && all(greaterThanEqual(to, ivec3(0))) && all(lessThanEqual(to, ivec3(1))) && springCount(bits, spring) != 0u) { \
+      uint far = uint(to.x + 2 * to.y + 4 * to.z);                                                                      \
+      float k = spring < kAxialSprings ? quarter : 2.0f * quarter;                                                      \
+      float l0 = spring < kAxialSprings ? h : kSqrt2 * h;                                                               \
+      Spring s = springBetween(h * vec3(offset), l0, 0.0f, at[far] - at[c]);                                            \
+      vec3 pull = (k * s.extension) * s.direction;                                                                      \
+      cell.force[c] += pull;                                                                                            \
+      cell.force[far] -= pull;                                                                                          \
+      cell.energy += 0.5f * k * s.extension * s.extension;                                                              \
+    }                                                                                                                   \
+  }
+    FOR_EACH_SPRING(BROKEN_SPRING)
+#undef BROKEN_SPRING
+  }
+  return cell;
+}

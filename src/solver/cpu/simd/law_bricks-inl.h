@@ -1,0 +1,173 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Bricks whose cells obey a hyperelastic law: forces of their cells, those that have lost a spring included. Included
+// once per instruction set (Highway).
+#if defined(VISCERA_SOLVER_CPU_LAW_BRICKS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef VISCERA_SOLVER_CPU_LAW_BRICKS_INL_H
+#undef VISCERA_SOLVER_CPU_LAW_BRICKS_INL_H
+#else
+#define VISCERA_SOLVER_CPU_LAW_BRICKS_INL_H
+#endif
+
+#include "hwy/cache_control.h"
+#include "hwy/highway.h"
+#include "solver/cpu/simd/cells-inl.h"
+#include "solver/cpu/simd/law-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace viscera::simd::HWY_NAMESPACE {
+
+/// (u + dashpot_s v) / (4 h) of a brick's nodes and of those above it (fillUp()): cells take their forces where their
+/// corners will be, which damps (docs/physics.md 2).
+template <bool kDashpot>
+HWY_INLINE void fillScaled(const Arrays& a, uint32_t b, uint32_t planes, const LawBody& body, UpTile& tile) {
+  const V scale = set(body.scale), ahead = set(body.dashpot_s * body.scale);
+  fillUp(a, b, planes, tile, [&](size_t at) HWY_ATTR {
+    const V u = hn::Mul(scale, load(a.displacement + at));
+    return kDashpot ? hn::MulAdd(ahead, load(a.velocity + at), u) : u;
+  });
+}
+
+struct LawBrick {
+  const CellJob& job;
+  const layout::BodyParams& params;
+  const LawBody& body;
+  const UpTile& tile;
+  uint32_t b;
+};
+
+// clang-format off
+/// Calls APPLY(number, near, far, x, y, z) for the springs within a cell (kBrokenSprings): from corner to corner, bit
+/// per axis, x lowest.
+#define VISCERA_SPRINGS_WITHIN(APPLY)                                                                          \
+  APPLY(0, 0, 1, 1, 0, 0) APPLY(1, 2, 3, 1, 0, 0) APPLY(2, 4, 5, 1, 0, 0) APPLY(3, 6, 7, 1, 0, 0)              \
+  APPLY(4, 0, 2, 0, 1, 0) APPLY(5, 1, 3, 0, 1, 0) APPLY(6, 4, 6, 0, 1, 0) APPLY(7, 5, 7, 0, 1, 0)              \
+  APPLY(8, 0, 4, 0, 0, 1) APPLY(9, 1, 5, 0, 0, 1) APPLY(10, 2, 6, 0, 0, 1) APPLY(11, 3, 7, 0, 0, 1)            \
+  APPLY(12, 0, 3, 1, 1, 0) APPLY(13, 4, 7, 1, 1, 0) APPLY(14, 2, 1, 1, -1, 0) APPLY(15, 6, 5, 1, -1, 0)        \
+  APPLY(16, 0, 5, 1, 0, 1) APPLY(17, 2, 7, 1, 0, 1) APPLY(18, 4, 1, 1, 0, -1) APPLY(19, 6, 3, 1, 0, -1)        \
+  APPLY(20, 0, 6, 0, 1, 1) APPLY(21, 1, 7, 0, 1, 1) APPLY(22, 4, 2, 0, 1, -1) APPLY(23, 5, 3, 0, 1, -1)
+// clang-format on
+
+/// Springs of a material where lengths are in units of 4 h, and their stiffness in N per unit.
+HWY_INLINE Material springsWithin() {
+  Material m{};
+  m.h = set(0.25f);
+  m.h2 = set(0.5f);
+  for (int kind = 0; kind < 2; ++kind) m.per_length2[kind] = set(16.0f / static_cast<float>(kind + 1));
+  return m;
+}
+
+/// Adds what the springs that broken cells have left do, as derivatives by the cells' motions.
+/// @param k  stiffness times 4 h of their first spring (CpuStrengths::broken) [N]; the next is 16 farther
+inline HWY_NOINLINE void addBroken(const float* k, const Corners& low, const Corners& high, CellMotion& out) {
+  const Vec3 n[8] = {low.n00, low.n10, low.n01, low.n11, high.n00, high.n10, high.n01, high.n11};
+  Vec3 f[8] = {zero3(), zero3(), zero3(), zero3(), zero3(), zero3(), zero3(), zero3()};
+  const Material m = springsWithin();
+  V largest = hn::Zero(Tag());
+#define VISCERA_PULL(number, near, far, X, Y, Z)                                                                 \
+  {                                                                                                              \
+    const SpringPull s =                                                                                         \
+        springPull<X, Y, Z, false, true, false>(m, load(k + 16 * (number)), n[far] - n[near], zero3(), largest); \
+    f[near] = mulAdd(s.pull, s.e, f[near]);                                                                      \
+    f[far] = mulAdd(hn::Neg(s.pull), s.e, f[far]);                                                               \
+  }
+  VISCERA_SPRINGS_WITHIN(VISCERA_PULL)
+#undef VISCERA_PULL
+  // Forces that sum up to nothing are those of the seven motions: -1/8 sum of sign times force.
+  const V eighth = set(-0.125f);
+  const Face below = faceOf(f[0], f[1], f[2], f[3]), above = faceOf(f[4], f[5], f[6], f[7]);
+  const CellMotion sum = motionOf4(below, above);
+  out.da = mulAdd(eighth, sum.da, out.da);
+  out.db = mulAdd(eighth, sum.db, out.db);
+  out.dc = mulAdd(eighth, sum.dc, out.dc);
+  out.hx = mulAdd(eighth, sum.hx, out.hx);
+  out.hy = mulAdd(eighth, sum.hy, out.hy);
+  out.hz = mulAdd(eighth, sum.hz, out.hz);
+  out.hxyz = mulAdd(eighth, sum.hxyz, out.hxyz);
+}
+
+/// What a vector of cells does to its corners. @param cell  index of the first in the brick
+template <bool kFull>
+HWY_NOINLINE void lawCells(const LawBrick& of, int cell, V rigidity, const Face& below, const Face& above,
+                           CellMotion& out) {
+  const V mu = hn::Mul(rigidity, of.body.per_4h);
+  const CellMotion q = motionOf4(below, above);
+  const LawMoments moments = kFull ? LawMoments{zero3(), zero3(), zero3()} : loadLawMoments(of.job.moments[of.b], cell);
+  if (HWY_LIKELY(!of.job.parts)) {
+    lawForces<kFull>(of.body, moments, mu, q, out);
+    return;
+  }
+  const V bulk = load(of.job.bulk + size_t{of.b} * 64 + static_cast<size_t>(cell));
+  const M there = hn::Gt(rigidity, hn::Zero(Tag()));
+  const V ratio = hn::IfThenElseZero(there, hn::Div(bulk, hn::Max(rigidity, set(1e-30f))));
+  LawBody body = lawBodyOf(of.params, ratio, of.job.dashpot);
+  lawForces<kFull>(body, moments, mu, q, out);
+}
+
+/// What the four vectors of cells of a column do. @param i  place of the column's vectors in their planes
+struct LawColumn {
+  CellMotion cells[4];
+  const CellMotion* at[6];  ///< below and above a plane of nodes
+};
+HWY_INLINE void stepLawColumn(const LawBrick& of, int i, const CellMotion& nothing, LawColumn& column) {
+  Face faces[2];
+  int known = -1;  // last plane whose face is
+  column.at[0] = column.at[5] = &nothing;
+  for (int z = 0; z < 4; ++z) {
+    const int cell = 16 * z + i, at = z * kUpPlane + i;
+    CellMotion& out = column.cells[z];
+    column.at[z + 1] = &nothing;
+    if (noRows(~uint32_t{of.job.idle_rows[of.b]}, cell)) continue;
+    const V rigidity = load(of.job.rigidity + size_t{of.b} * 64 + static_cast<size_t>(cell));
+    const float* broken = of.job.broken[of.b];
+    if (!hn::AllTrue(Tag(), hn::Eq(rigidity, hn::Zero(Tag())))) {
+      if (known < z) faces[z & 1] = faceAt(of.tile, at);
+      faces[(z + 1) & 1] = faceAt(of.tile, at + kUpPlane);
+      known = z + 1;
+      column.at[z + 1] = &out;
+      if (noRows(of.job.partial_rows[of.b], cell))
+        lawCells<true>(of, cell, rigidity, faces[z & 1], faces[(z + 1) & 1], out);
+      else
+        lawCells<false>(of, cell, rigidity, faces[z & 1], faces[(z + 1) & 1], out);
+    }
+    if (HWY_LIKELY(broken == nullptr)) continue;
+    if (column.at[z + 1] == &nothing) out = nothing;
+    column.at[z + 1] = &out;
+    addBroken(broken + cellNumberAt(static_cast<uint32_t>(cell), 0, kBrokenSprings), cornersAt(of.tile, at),
+              cornersAt(of.tile, at + kUpPlane), out);
+  }
+}
+
+/// @param planes  bit z: of nodes, which cells may do something to; the others' sums are 0 and stay so
+HWY_INLINE void sumLawBrick(const LawBrick& of, uint32_t planes) {
+  const CellMotion nothing = {zero3(), zero3(), zero3(), zero3(), zero3(), zero3(), zero3()};
+  LawColumn column;
+  float* sums = of.job.sums + size_t{of.b} * kCellSums;
+  Behind behind;
+  for (int i = 0; i < 16; i += static_cast<int>(hn::MaxLanes(Tag()))) {
+    stepLawColumn(of, i, nothing, column);
+    for (int z = 0; z <= 4; ++z) {
+      if (planes >> z & 1) writeSums(sums, behind, z, i, gathered(*column.at[z], *column.at[z + 1]));
+    }
+  }
+}
+
+/// @param next  the brick after it
+HWY_INLINE void lawBrick(const CellJob& job, const layout::BodyParams& params, uint32_t b, uint32_t next,
+                         uint32_t planes, UpTile& tile) {
+  const V ratio = set(params.rigidity_j > 0 ? params.bulk_j / params.rigidity_j : 0);
+  const LawBody body = lawBodyOf(params, ratio, job.dashpot);
+  if (job.dashpot)
+    fillScaled<true>(job.arrays, b, planes, body, tile);
+  else
+    fillScaled<false>(job.arrays, b, planes, body, tile);
+  for (size_t i = 0; i < 192; i += 16) hwy::Prefetch(job.arrays.displacement + size_t{next} * 192 + i);
+  for (size_t i = 0; i < kCellSums; i += 16) hwy::Prefetch(job.sums + size_t{next} * kCellSums + i);
+  sumLawBrick({job, params, body, tile, b}, planes);
+}
+
+}  // namespace viscera::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

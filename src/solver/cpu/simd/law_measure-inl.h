@@ -1,0 +1,115 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Energy and stiffening of cells that obey a hyperelastic law (shaders/solver/tissue/law.glsl). Included once per
+// instruction set (Highway).
+#if defined(VISCERA_SOLVER_CPU_LAW_MEASURE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef VISCERA_SOLVER_CPU_LAW_MEASURE_INL_H
+#undef VISCERA_SOLVER_CPU_LAW_MEASURE_INL_H
+#else
+#define VISCERA_SOLVER_CPU_LAW_MEASURE_INL_H
+#endif
+
+#include <cmath>
+
+#include "hwy/contrib/math/math-inl.h"
+#include "hwy/highway.h"
+#include "solver/cpu/simd/law_bricks-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace viscera::simd::HWY_NAMESPACE {
+
+/// W over mu.
+HWY_INLINE V lawDensity(const LawBody& body, const Columns& d, V e) {
+  const V one = set(1), two = set(2), least = set(kLeastVolume), j = hn::Add(one, e), size = sizeOf(d);
+  const V above = hn::Max(e, set(kLeastVolume - 1)), logarithm = hn::Log1p(Tag(), above);
+  const V less = hn::Expm1(Tag(), hn::Mul(set(-2.0f / 3), logarithm));  // phi - 1
+  const V shape = hn::MulAdd(set(3), less, hn::Mul(hn::Add(one, less), size));
+  const V squeezed = hn::MulSub(volumeOf<true>(e).phi, hn::Add(size, set(3)), set(3));
+  const M below = hn::Lt(j, least);
+  // J^2 - 1 - 2 ln J, its logarithm going on straight below kLeastVolume
+  const V straight = hn::Add(logarithm, hn::Div(hn::Sub(j, hn::Max(j, least)), least));
+  const V volume = hn::NegMulAdd(two, straight, hn::Mul(e, hn::Add(e, two)));
+  return hn::MulAdd(hn::Mul(set(0.25f), body.bulk), volume, hn::Mul(set(0.5f), hn::IfThenElse(below, squeezed, shape)));
+}
+
+/// Largest row sum of |M|^T |M| for M = 1 + m: at least the square of its largest stretch.
+HWY_INLINE V largestOf(const Columns& m) {
+  const V one = set(1);
+  const Vec3 a = {hn::Add(m.a.x, one), m.a.y, m.a.z}, b = {m.b.x, hn::Add(m.b.y, one), m.b.z};
+  const Vec3 c = {m.c.x, m.c.y, hn::Add(m.c.z, one)};
+  const V ab = hn::Abs(dot(a, b)), bc = hn::Abs(dot(b, c)), ca = hn::Abs(dot(c, a));
+  const V x = hn::Add(dot(a, a), hn::Add(ab, ca)), y = hn::Add(dot(b, b), hn::Add(ab, bc));
+  return hn::Max(x, hn::Max(y, hn::Add(dot(c, c), hn::Add(bc, ca))));
+}
+
+/// lawStiffening() of law.glsl.
+HWY_INLINE V stiffeningOf(const LawBody& body, const Columns& d, const Columns& c, V e) {
+  const V one = set(1), zero = hn::Zero(Tag()), j = hn::Add(e, one);
+  const Volume v = volumeOf<true>(e);
+  const V size = hn::Add(set(3), sizeOf(d)), slope = hn::Mul(v.phi, v.slope);
+  const V pressing = hn::MulAdd(hn::Mul(set(5.0f / 9), hn::Mul(slope, v.slope)), size,
+                                hn::Mul(hn::Mul(set(0.5f), body.bulk), hn::MulAdd(v.inverse, v.inverse, one)));
+  V waves = hn::MulAdd(pressing, largestOf(c), v.phi);
+  waves = hn::NegMulAdd(hn::Mul(set(4.0f / 3), slope), hn::Max(j, zero), waves);
+  const V turned = hn::MulAdd(set(2.0f / 3), slope, hn::Mul(hn::Mul(set(0.5f), body.bulk), v.inverse));
+  waves = hn::IfThenElse(hn::Lt(j, set(kLeastVolume)), hn::MulAdd(turned, hn::Sqrt(size), waves), waves);
+  // lambda/mu + 2 = K/mu + 4/3
+  return hn::Max(one, hn::Div(waves, hn::Add(body.bulk, set(4.0f / 3))));
+}
+
+/// Energy of whole cells [J], and how much stiffer the stiffest is than at rest.
+struct LawMeasured {
+  V energy, stiffening;
+};
+/// @param n  displacements of the corners of the cells above a vector's nodes [m]
+inline HWY_NOINLINE LawMeasured measureLaw(const CellJob& job, const layout::BodyParams& params, size_t slot,
+                                           const Vec3 (&n)[8]) {
+  const V rigidity = load(job.rigidity + slot), none = hn::Zero(Tag());
+  const M there = hn::Gt(rigidity, none);
+  if (hn::AllFalse(Tag(), there)) return {none, none};
+  const V ratio = hn::IfThenElseZero(there, hn::Div(load(job.bulk + slot), hn::Max(rigidity, set(1e-30f))));
+  const LawBody body = lawBodyOf(params, ratio, false);
+  const V scale = hn::IfThenElseZero(there, set(body.scale));
+  const auto scaled = [&](const Vec3& v) HWY_ATTR { return scale * v; };
+  const Face low = faceOf(scaled(n[0]), scaled(n[1]), scaled(n[2]), scaled(n[3]));
+  const Face high = faceOf(scaled(n[4]), scaled(n[5]), scaled(n[6]), scaled(n[7]));
+  const CellMotion q = motionOf4(low, high);
+  const float* numbers = job.moments[slot / 64];
+  const V twelfth4 = set(4.0f / 12);
+  LawMoments m = {zero3(), {twelfth4, twelfth4, twelfth4}, zero3()};
+  if (numbers != nullptr) m = loadLawMoments(numbers, static_cast<int>(slot % 64));
+  const Columns d = {q.da, q.db, q.dc}, c = cofactorsOf(d);
+  const V e = dilationOf(d, c), r = hn::Div(set(1), hn::Max(hn::Add(e, set(1)), set(kLeastVolume)));
+  const Bends s = {r * transposedOf(c, q.hx), r * transposedOf(c, q.hy), r * transposedOf(c, q.hz)};
+  const Bends k = lawBends<false>(body, m, s);
+  const Columns g = atCentroid(body.poisson, s, m.centroid2);
+  const Columns star = {timesOf(d, g.a) + d.a, timesOf(d, g.b) + d.b, timesOf(d, g.c) + d.c};
+  V energy = lawDensity(body, star, dilationOf(star, cofactorsOf(star)));
+  energy = hn::MulAdd(set(0.5f), hn::Add(dot(k.x, s.x), hn::Add(dot(k.y, s.y), dot(k.z, s.z))), energy);
+  energy = hn::MulAdd(set(kLawAlternating), dot(q.hxyz, q.hxyz), energy);
+  return {hn::Mul(rigidity, energy), hn::IfThenElseZero(there, stiffeningOf(body, d, c, e))};
+}
+
+/// Energy of the springs that broken cells have left [J]. @param k  as of addBroken()   @param n  displacements [m]
+inline HWY_NOINLINE V brokenEnergy(const float* k, const Material& m, float h, const Vec3 (&n)[8]) {
+  V energy = hn::Zero(Tag());
+  const V eighth = set(0.125f / h);  // half of k, which is kept times 4 h
+#define VISCERA_STORED(number, near, far, X, Y, Z)                                                       \
+  {                                                                                                      \
+    constexpr int kKind = X * X + Y * Y + Z * Z - 1;                                                     \
+    const Vec3 w = n[far] - n[near];                                                                     \
+    const V per2 = m.per_length2[kKind], q = hn::Mul(dot(w, shifted<X, Y, Z>(w, m.h2)), per2);           \
+    const V ratio = hn::Div(q, hn::Add(set(1), hn::Sqrt(hn::Max(hn::Add(set(1), q), hn::Zero(Tag()))))); \
+    const V half = hn::Mul(eighth, load(k + 16 * (number)));                                             \
+    energy = hn::MulAdd(hn::Div(half, per2), hn::Mul(ratio, ratio), energy);                             \
+  }
+  VISCERA_SPRINGS_WITHIN(VISCERA_STORED)
+#undef VISCERA_STORED
+  return energy;
+}
+
+}  // namespace viscera::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

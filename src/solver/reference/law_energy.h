@@ -1,0 +1,72 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "layout/law.h"
+#include "viscera/model/shape/solid.h"
+
+namespace viscera {
+
+/// Returns W of the neo-Hookean law over mu (physics.md 1): 1/2 (J^(-2/3) |F|^2 - 3) + K/(4 mu) (J^2 - 1 - 2 ln J).
+/// Below kLeastVolume 1/J is constant and J^(-2/3) levels off, both without a jump in the stress.
+template <class T>
+T lawDensity(const Eigen::Matrix<T, 3, 3>& f, double bulk_over_mu) {
+  using std::log;
+  using std::pow;
+  const double kLeast = static_cast<double>(layout::kLeastVolume);
+  const T j = f.col(0).dot(f.col(1).cross(f.col(2))), size = f.squaredNorm();
+  if (j >= kLeast) return 0.5 * (pow(j, -2.0 / 3) * size - 3.0) + 0.25 * bulk_over_mu * (j * j - 1.0 - 2.0 * log(j));
+  const T phi = std::pow(kLeast, -2.0 / 3) * (1.0 + 2.0 / 3 * (kLeast - j) / (2 * kLeast - j));
+  const T logarithm = std::log(kLeast) + (j - kLeast) / kLeast;
+  return 0.5 * (phi * size - 3.0) + 0.25 * bulk_over_mu * (j * j - 1.0 - 2.0 * logarithm);
+}
+
+/// Returns the energy of a cell of the neo-Hookean law over rigidity (physics.md 1, Law).
+/// @param ratio  lambda / mu - 1   @param fill  moments of the cell's tissue over its share
+/// @param motion  mean edges less their rest value, hourglass motions, alternating motion, over h (moment_energy.h)
+template <class T>
+T lawEnergy(double ratio, const CellFill& fill, const Eigen::Matrix<T, 21, 1>& motion) {
+  using Tensor = Eigen::Matrix<T, 3, 3>;
+  const double lambda = 1 + ratio, poisson = lambda / (lambda + 2);
+  const Vector3d& c = fill.first;
+  const Eigen::Matrix3d about = fill.second - c * c.transpose();
+  Tensor f, h, cofactors;
+  for (int a = 0; a < 3; ++a) {
+    f.col(a) = motion.template segment<3>(3 * a);
+    f(a, a) += 1.0;
+    h.col(a) = motion.template segment<3>(9 + 3 * a);
+  }
+  for (int a = 0; a < 3; ++a) cofactors.col(a) = f.col((a + 1) % 3).cross(f.col((a + 2) % 3));
+  const T j = f.col(0).dot(cofactors.col(0));
+  const T least = j < static_cast<double>(layout::kLeastVolume) ? T(static_cast<double>(layout::kLeastVolume)) : j;
+  const Tensor s = cofactors.transpose() * h / least;  // s(a, l): of H_l along the frame's axis a
+  // Second derivatives by pairs of axes that the corners do not show: a plate that bends thins, and does not shear.
+  Tensor gradients[3], g;
+  for (int n = 0; n < 3; ++n) {
+    const int a = (n + 1) % 3, b = (n + 2) % 3;
+    Tensor& of_n = gradients[n];
+    of_n.setZero();
+    of_n(a, a) = s(a, b);
+    of_n(b, b) = s(b, a);
+    of_n(n, n) = -poisson * (of_n(a, a) + of_n(b, b));
+    of_n(a, b) = of_n(b, a) = 0.5 * (s(a, a) + s(b, b));
+    g.col(n) = c[a] * s.col(b) + c[b] * s.col(a);
+    g(n, n) -= poisson * c[n] * (s(a, b) + s(b, a));
+    g(a, n) -= c[n] * s(n, b);
+    g(b, n) -= c[n] * s(n, a);
+  }
+  T energy = lawDensity<T>(f + f * g, lambda + 2.0 / 3);
+  for (int n = 0; n < 3; ++n) {
+    for (int k = 0; k < 3; ++k) {
+      const T traces = gradients[n].trace() * gradients[k].trace();
+      energy += about(n, k) * (0.5 * lambda * traces + gradients[n].cwiseProduct(gradients[k]).sum());
+    }
+  }
+  const Eigen::Matrix<T, 3, 1> alternating = motion.template segment<3>(18);
+  return energy + 0.5 * (5.0 / 18) * alternating.squaredNorm();
+}
+
+}  // namespace viscera
