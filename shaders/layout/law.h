@@ -13,6 +13,8 @@ namespace viscera::layout {
 // Volume ratio J below which the law goes on with bounded derivatives: 1/J stays constant, so that a cell that is turned inside out is
 // pushed back with a bounded pressure. No cell of 200 random starts with displacements of 0.3 h came below it.
 const float kLeastVolume = 0.2f;
+// Largest exponent of the stiffening law: shear resists exp(3) = 20 times as much as at rest at most, so that steps stay finite.
+const float kMostExponent = 3.0f;
 // Largest stiffening() that is looked at: beyond it a cell is crushed, and the stability monitor's affair.
 const float kMostStiffening = 1e4f;
 // What resists the alternating motion: 5/36 mu h^3 |H_xyz|^2, the hexahedron's.

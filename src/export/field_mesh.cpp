@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "export/field_mesh.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "export/cell_stress.h"
 #include "math/vec4.h"
-#include "model/fracture/prestress.h"
 #include "viscera/layout/skin.h"
 #include "viscera/math/error.h"
 #include "viscera/session/tissue_processes.h"
@@ -24,75 +23,29 @@ void add(std::vector<float>& out, const Vector3d& v) {
   for (int c = 0; c < 3; ++c) out.push_back(static_cast<float>(v[c]));
 }
 
-/// Lame's constants of a cell [Pa].
-struct Lame {
-  double lambda, mu;
-};
-Lame lameOf(double young_pa, double poisson) {
-  return {young_pa * poisson / ((1 + poisson) * (1 - 2 * poisson)), young_pa / (2 * (1 + poisson))};
-}
-/// [parts + 1] of a body: of no part, then by label.
-std::vector<Lame> lamesOf(const Body& body) {
-  std::vector<Lame> out(body.lattice.part_names.size() + 1,
-                        lameOf(body.material.young_modulus_pa, body.material.poisson_ratio));
-  for (const PartConfig& part : body.parts) {
-    for (size_t p = 0; p < body.lattice.part_names.size(); ++p) {
-      if (body.lattice.part_names[p] == part.part) out[p + 1] = lameOf(part.young_modulus_pa, part.poisson_ratio);
-    }
-  }
-  return out;
-}
-
-struct Strained {
-  double energy_j_per_m3, von_mises_pa;
-};
-
-/// The strain that gives a stress. @param stress  over mu
-Eigen::Matrix3d strainOf(const Eigen::Matrix3d& stress, const Lame& lame) {
-  const double volume = lame.lambda / (3 * lame.lambda + 2 * lame.mu);
-  return 0.5 * (stress - volume * stress.trace() * Eigen::Matrix3d::Identity());
-}
-
-/// Of St. Venant and Kirchhoff's law in the middle of a cell. @param gradient  of displacements   @param prestrain  at
-/// rest
-Strained strainedOf(const Eigen::Matrix3d& gradient, const Eigen::Matrix3d& prestrain, const Lame& lame) {
-  const Eigen::Matrix3d turned = Eigen::Matrix3d::Identity() + gradient;
-  const Eigen::Matrix3d strain = 0.5 * (turned.transpose() * turned - Eigen::Matrix3d::Identity()) + prestrain;
-  const Eigen::Matrix3d second = lame.lambda * strain.trace() * Eigen::Matrix3d::Identity() + 2 * lame.mu * strain;
-  const Eigen::Matrix3d cauchy = turned * second * turned.transpose() / turned.determinant();
-  const Eigen::Matrix3d shear = cauchy - cauchy.trace() / 3 * Eigen::Matrix3d::Identity();
-  return {0.5 * (second.cwiseProduct(strain)).sum(), std::sqrt(1.5) * shear.norm()};
-}
-
 /// A cell of a body's lattice that is whole.
 struct Cell {
   uint32_t lowest;
   std::array<uint32_t, 8> corners;  ///< slots of the body, x first
-  Strained strained;
+  CellStress stress;
 };
 
 /// Calls visit(cell) for the whole cells of a body. @param offset  of its slots in the state
 template <class Visit>
 void forCells(const Body& body, uint32_t offset, const HostState& state, const Visit& visit) {
   if (!body.hasCells()) return;
-  const std::vector<Lame> lames = lamesOf(body);
-  const std::vector<Eigen::Matrix3d> prestresses = cellPrestresses(body);
+  const CellStresses stresses(body);
   for (const uint32_t slot : body.lattice.active_slots) {
     if (!(state.nodes[offset + slot].lo & layout::kCellBit)) continue;
     Cell cell{slot, {}, {}};
-    Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
+    std::array<Vector3d, 8> u_m;
     const Vector3i at = body.lattice.nodeAt(slot);
     for (uint32_t c = 0; c < 8; ++c) {
       const Vector3i way(static_cast<int>(c & 1), static_cast<int>(c >> 1 & 1), static_cast<int>(c >> 2 & 1));
       cell.corners[c] = static_cast<uint32_t>(body.lattice.slotAt(at + way));
-      const Vector3d slope = (2 * way - Vector3i::Ones()).cast<double>() / (4 * body.lattice.spacing_m);
-      gradient += xyz(state.displacement_m[offset + cell.corners[c]]) * slope.transpose();
+      u_m[c] = xyz(state.displacement_m[offset + cell.corners[c]]);
     }
-    const size_t label = body.lattice.cell_labels.empty() ? 0 : body.lattice.cell_labels[slot];
-    const Lame& lame = lames[std::min(label, lames.size() - 1)];
-    const Eigen::Matrix3d prestrain =
-        prestresses.empty() ? Eigen::Matrix3d(Eigen::Matrix3d::Zero()) : strainOf(prestresses[slot], lame);
-    cell.strained = strainedOf(gradient, prestrain, lame);
+    cell.stress = stresses.at(slot, u_m);
     visit(cell);
   }
 }
@@ -108,8 +61,8 @@ NodeStrains nodeStrains(const Model& model, const HostState& state) {
     const uint32_t offset = model.slotOffset(b);
     forCells(model.bodies[b], offset, state, [&](const Cell& cell) {
       for (const uint32_t corner : cell.corners) {
-        out.energy[offset + corner] += static_cast<float>(cell.strained.energy_j_per_m3);
-        out.von_mises[offset + corner] += static_cast<float>(cell.strained.von_mises_pa);
+        out.energy[offset + corner] += static_cast<float>(cell.stress.energy_j_per_m3);
+        out.von_mises[offset + corner] += static_cast<float>(cell.stress.von_mises_pa);
         ++cells[offset + corner];
       }
     });
@@ -213,7 +166,8 @@ FieldMesh latticeFields(const Session& session) {
   const Model& model = session.model();
   FieldMesh mesh = begun(session, 8);
   NodePoints points(model, mesh);
-  mesh.of_cells = {{"body", 1, {}}, {"part", 1, {}}, {"strain_energy", 1, {}}, {"von_mises", 1, {}}};
+  mesh.of_cells = {{"body", 1, {}},       {"part", 1, {}},       {"strain_energy", 1, {}}, {"von_mises", 1, {}},
+                   {"stress_max", 1, {}}, {"stress_mid", 1, {}}, {"stress_min", 1, {}}};
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     const uint32_t offset = model.slotOffset(b);
@@ -222,8 +176,10 @@ FieldMesh latticeFields(const Session& session) {
       mesh.of_cells[0].values.push_back(static_cast<float>(b));
       const bool labelled = !body.lattice.cell_labels.empty();
       mesh.of_cells[1].values.push_back(labelled ? static_cast<float>(body.lattice.cell_labels[cell.lowest]) : 0);
-      mesh.of_cells[2].values.push_back(static_cast<float>(cell.strained.energy_j_per_m3));
-      mesh.of_cells[3].values.push_back(static_cast<float>(cell.strained.von_mises_pa));
+      mesh.of_cells[2].values.push_back(static_cast<float>(cell.stress.energy_j_per_m3));
+      mesh.of_cells[3].values.push_back(static_cast<float>(cell.stress.von_mises_pa));
+      for (int i = 0; i < 3; ++i)
+        mesh.of_cells[static_cast<size_t>(4 + i)].values.push_back(static_cast<float>(cell.stress.principal_pa[i]));
     });
   }
   if (mesh.cells.empty()) throw Error("--export lattice: no body has cells: export its skin or its network");

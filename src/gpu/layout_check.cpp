@@ -46,6 +46,7 @@ AT(BodyParams, bulk_j, 36);
 AT(BodyParams, rigidity_j, 44);
 AT(BodyParams, connections, 40);
 AT(BodyParams, law, 48);
+AT(BodyParams, stiffening, 52);
 
 SIZE(Link, 32);  // two texels (solver/tissue/network.glsl)
 AT(Link, stiffness, 16);

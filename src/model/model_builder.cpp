@@ -158,7 +158,8 @@ Model buildModel(const Scene& scene, const Progress& progress) {
   const std::string file = scene.file.empty() ? "" : scene.file + ": ";
   Model model;
   for (size_t b = 0; b < scene.bodies.size(); ++b) {
-    const BodyConfig& config = scene.bodies[b];
+    BodyConfig config = scene.bodies[b];
+    config.material.law = lawOf(config, scene.solver.integrator);
     try {
       model.bodies.push_back(withPlace(scene, b, [&] { return buildBody(config, scene, can_be_cut, progress); }));
     } catch (const PlacedError&) {

@@ -80,9 +80,9 @@ TEST_F(Run, EveryIntegratorBringsTheHangingBlockToTheSameSag) {
   // With so much drag the block does not swing beyond its sag, which implicit Euler would damp.
   constexpr double kApart = 1e-3;  // of the sag: what is left of the way there, and float32
   const auto stretch = [&](const std::string& integrator, const std::string& backend) {
-    const Json metrics = metricsOf(
-        run({"--seconds", "0.5", "--set", "bodies[0].material.drag_per_s=500", "--set",
-             "solver.integrator=" + integrator, "--set", "solver.substeps=40", "--set", "solver.backend=" + backend}));
+    const Json metrics = metricsOf(run({"--seconds", "0.5", "--set", "bodies[0].material.drag_per_s=500", "--set",
+                                        "bodies[0].material.law=springs", "--set", "solver.integrator=" + integrator,
+                                        "--set", "solver.substeps=40", "--set", "solver.backend=" + backend}));
     EXPECT_EQ(metrics["governor_trips"], 0) << integrator;
     return metrics["max_stretch"].get<double>();
   };
@@ -97,14 +97,16 @@ TEST_F(Run, EveryIntegratorBringsTheHangingBlockToTheSameSag) {
 
 TEST_F(Run, EquilibriumIsWhereTheBlockHangsFromTheFirstTickOn) {
   constexpr double kApart = 1e-3;  // of the sag, as above
-  const Json settled = metricsOf(viscera({"settle", scene_}));
+  const Json settled = metricsOf(viscera({"settle", scene_, "--set", "bodies[0].material.law=springs"}));
   EXPECT_EQ(settled["settled"], true);
   EXPECT_GT(settled["substeps"], 0);
   EXPECT_GT(settled["max_displacement_m"], 0);
-  const Json sagged = metricsOf(run({"--seconds", "0.5", "--no-view", "--set", "bodies[0].material.drag_per_s=500"}));
+  const Json sagged = metricsOf(run({"--seconds", "0.5", "--no-view", "--set", "bodies[0].material.drag_per_s=500",
+                                     "--set", "bodies[0].material.law=springs"}));
   for (const char* integrator : {"leapfrog", "pd"}) {
-    const Json metrics = metricsOf(run({"--seconds", "0.05", "--no-view", "--set", "solver.start=equilibrium", "--set",
-                                        std::string("solver.integrator=") + integrator}));
+    const Json metrics =
+        metricsOf(run({"--seconds", "0.05", "--no-view", "--set", "solver.start=equilibrium", "--set",
+                       "bodies[0].material.law=springs", "--set", std::string("solver.integrator=") + integrator}));
     EXPECT_NEAR(metrics["max_stretch"], sagged["max_stretch"].get<double>(),
                 kApart * sagged["max_stretch"].get<double>())
         << integrator;
@@ -183,8 +185,8 @@ TEST_F(Run, LastLineIsAnObjectWithAllMeasurements) {
   EXPECT_GT(metrics["faces"], 0);
   EXPECT_GT(metrics["dt_s"].get<double>(), SolverConfig{}.dt_fraction * metrics["dt_safe_s"].get<double>());
   EXPECT_LT(metrics["dt_s"], metrics["dt_limit_s"]);
-  EXPECT_NEAR(metrics["steps"].get<double>() * metrics["dt_s"].get<double>(), 0.1, 1e-9);
-  EXPECT_GT(metrics["max_stretch"], 0);  // it hangs
+  EXPECT_GE(metrics["steps"].get<double>() * metrics["dt_s"].get<double>(), 0.1 - 1e-9);  // shorter ones where strained
+  EXPECT_GT(metrics["max_stretch"], 0);                                                   // it hangs
   EXPECT_EQ(metrics["nonfinite"], 0);
   EXPECT_EQ(metrics["peak_force_n"], 0);
   EXPECT_EQ(metrics["state_hash"].get<std::string>().find_first_not_of("0123456789abcdef"), std::string::npos);
@@ -212,14 +214,16 @@ TEST_F(Run, BackendThatTheSceneAsksForIsTakenAndNamed) {
     for (const std::string& change : set) options.insert(options.end(), {"--set", change});
     return metricsOf(run(options));
   };
-  const Json gpu = metrics({"solver.backend=gpu"}), cpu = metrics({"solver.backend=cpu"});
+  // With substeps that do not follow the strain, which a GPU tells of later.
+  const Json gpu = metrics({"solver.backend=gpu", "solver.substeps=20"});
+  const Json cpu = metrics({"solver.backend=cpu", "solver.substeps=20"});
   EXPECT_EQ(gpu["backend"], "gpu");
   EXPECT_EQ(cpu["backend"].get<std::string>().rfind("cpu (", 0), 0u) << cpu["backend"];
   // The same tissue: what it does differs by rounding.
   EXPECT_EQ(cpu["springs_cut"], gpu["springs_cut"]);
   EXPECT_NEAR(cpu["max_stretch"].get<double>(), gpu["max_stretch"].get<double>(),
               1e-3 * gpu["max_stretch"].get<double>());
-  const Json alone = metrics({"solver.backend=cpu", "solver.threads=1"});
+  const Json alone = metrics({"solver.backend=cpu", "solver.threads=1", "solver.substeps=20"});
   EXPECT_NE(alone["backend"].get<std::string>().find(", 1 thread)"), std::string::npos) << alone["backend"];
   EXPECT_EQ(alone["state_hash"], cpu["state_hash"]);
   const std::string chosen = metrics({})["backend"];
@@ -229,7 +233,7 @@ TEST_F(Run, BackendThatTheSceneAsksForIsTakenAndNamed) {
 TEST_F(Run, StrokesActOnTheTissueAndSayHowLongToRun) {
   const Json metrics = metricsOf(run({"--strokes", strokes_}));
   EXPECT_GT(metrics["springs_cut"], 0);
-  EXPECT_NEAR(metrics["steps"].get<double>() * metrics["dt_s"].get<double>(), 0.15, 1e-9);
+  EXPECT_GE(metrics["steps"].get<double>() * metrics["dt_s"].get<double>(), 0.15 - 1e-9);
 }
 
 TEST_F(Run, PicturesAndMetricsGoToTheFolder) {

@@ -55,7 +55,7 @@ bodies:
     position_m: [0.051, 0.052, 0.053]
     rotation_deg: [61, 62, 63]
     color: [0.071, 0.072, 0.073]
-    material: {tissue: liver, young_modulus_pa: 8100, poisson_ratio: 0.31, density_kg_per_m3: 820, drag_per_s: 8.3, dashpot_ratio: 0.084, weights: cell, cells: moments, thin_walls: true, cut: {toughness_j_per_m2: 187},
+    material: {tissue: liver, young_modulus_pa: 8100, poisson_ratio: 0.31, density_kg_per_m3: 820, drag_per_s: 8.3, dashpot_ratio: 0.084, weights: cell, cells: moments, thin_walls: true, law: springs, stiffening: 0, cut: {toughness_j_per_m2: 187},
                prestress: {strain: 0.0821, strains: [0.0822, 0.0823, 0.0824], axes_deg: [82.5, 82.6, 82.7]}, bleeding: {flow_ml_per_min: 191, calibre_m: 0.0192}}
     parts: [{part: valve, tissue: spleen, young_modulus_pa: 8101, poisson_ratio: 0.32, density_kg_per_m3: 821, cut: {toughness_j_per_m2: 188},
              prestress: {strain: 0.0831, strains: [0.0832, 0.0833, 0.0834], axes_deg: [83.5, 83.6, 83.7]}, bleeding: {flow_ml_per_min: 193, calibre_m: 0.0194}}]
@@ -232,6 +232,11 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(body.material.weights, Weights::kCell);
   EXPECT_EQ(body.material.cells, Cells::kMoments);
   EXPECT_TRUE(body.material.thin_walls);
+  EXPECT_EQ(body.material.law, Law::kSprings);
+  EXPECT_EQ(body.material.stiffening, 0);
+  EXPECT_EQ(
+      parseScene("{bodies: [{material: {law: neo_hookean, stiffening: 4.3}}]}", "law").bodies[0].material.stiffening,
+      4.3);
   const PartConfig& part = body.parts.at(0);
   EXPECT_EQ(part.cut.toughness_j_per_m2, 188);
   EXPECT_EQ(part.part, "valve");

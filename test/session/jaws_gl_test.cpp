@@ -100,15 +100,17 @@ TEST_P(ClipSession, IsTakenOffByABladeThatMeetsItAndNotByOneBesideIt) {
   Session session(still, context_);
   clip(session, 0.006);
   const auto draw = [&](double x_m) {
+    session.step(at(x_m, false, false, 0.015), {});  // or the blade would cut all the way there from the clip
     for (int t = 0; t <= kJawsClosing; ++t) session.step(at(x_m, false, true, 0.015 - 0.03 * t / kJawsClosing), {});
     for (int t = 0; t < kJawsOpen; ++t) session.step(at(x_m, false, false, -0.015), {});
     return seenClips(session);
   };
+  EXPECT_EQ(seenClips(session).on.size(), 1U);
   EXPECT_EQ(draw(0.012).on.size(), 1U);
   for (int t = 0; t < kRests; ++t) session.step({}, {});
   StylusSamples along = at(0, false, true);  // along the bar, across the clip's legs
   for (int t = 0; t <= kJawsClosing; ++t) {
-    along[0].pose.position_m = {0.012 - 0.012 * t / kJawsClosing, 0.001, -0.006};
+    along[0].pose.position_m = {0.012 - 0.016 * t / kJawsClosing, 0, -0.006};
     session.step(along, {});
   }
   const SeenClips after = seenClips(session);

@@ -30,8 +30,9 @@ Spoilt spoilt(size_t at, T value, const char* named) {
 /// As Ticks::persist() writes them.
 std::vector<Spoilt> spoiltTicks() {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
-  constexpr size_t kSafe = 0, kLimit = 8, kStretch = 16, kCalm = 24, kStrained = 28, kLast = 44, kRecovers = 48,
-                   kRestarted = 49, kLast_s = 50, kLooks = 58, kLooksLeft = 59, kTicksLeft = 63, kTime_s = 67;
+  constexpr size_t kSafe = 0, kLimit = 8, kStretch = 16, kStiffening = 24, kCalm = 40, kStrained = 44, kLast = 60,
+                   kRecovers = 64, kRestarted = 65, kLast_s = 66, kLooks = 74, kLooksLeft = 75, kTicksLeft = 79,
+                   kTime_s = 83;
   const auto byte = static_cast<uint8_t>(2);
   return {spoilt(kSafe, kNan, "stable substep"),
           spoilt(kSafe, 0.0, "stable substep"),
@@ -40,6 +41,8 @@ std::vector<Spoilt> spoiltTicks() {
           spoilt(kLimit, 1e9, "measured stable"),
           spoilt(kStretch, -1.0, "stretch"),
           spoilt(kStretch, kInf, "stretch"),
+          spoilt(kStiffening, -1.0, "stiffening"),
+          spoilt(kStiffening, kNan, "stiffening"),
           spoilt(kCalm, 0, "calm substeps"),
           spoilt(kCalm, 1 << 30, "calm substeps"),
           spoilt(kStrained, -5, "strained substeps"),

@@ -52,7 +52,8 @@ struct BodyParams {
   uint connections;         // kImplicit, kExplicitLattice or kNetwork
   float rigidity_j;         // mu h^3 of cells that resist by moments too (moments.glsl); 0 where springs alone do
   uint law;                 // kLawSprings or kLawNeoHookean
-  uint pad[3];
+  float stiffening;         // b of the neo-Hookean law's exponential (law.glsl); 0: none
+  uint pad_x, pad_y;        // to whole vectors, as std140 has arrays of structs
 };
 // Connections of a body: springs of a lattice by offset and counts in NodeBits; the same lattice with its springs as links;
 // or any graph of links, where the low 18 bits of NodeBits.lo say how many of a node's links are whole.

@@ -117,8 +117,8 @@ void main() {
     if ((bits.lo & kLawCellBit) != 0u) {
       float bulk = cellBulk(slot, body), rigidity = cellRigidity(slot, body);
       CellMotion q = cellMotion(at, h);
-      elastic += lawPull(q, cellMoments(slot), rigidity, bulk).energy;
-      uint stiffening = floatBitsToUint(lawStiffening(q, bulk / rigidity));
+      elastic += lawPull(q, cellMoments(slot), rigidity, bulk, body.stiffening).energy;
+      uint stiffening = floatBitsToUint(lawStiffening(q, cellMoments(slot), bulk / rigidity, body.stiffening));
       if (stiffening > stats.max_stiffening_bits) atomicMax(stats.max_stiffening_bits, stiffening);
     } else
 #endif

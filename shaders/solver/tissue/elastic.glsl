@@ -189,8 +189,9 @@ CellForces cellForces(vec3 at[8], CellShape shape, float p, float h, float bulk,
 
 #ifdef LAW
 /// As cellForces(), of a cell that obeys the body's law. @param bulk, rigidity  as of lawPull()
-CellForces lawForces(vec3 at[8], float h, float bulk, float rigidity, CellMoments moments) {
-  CellPull pull = lawPull(cellMotion(at, h), moments, rigidity, bulk);
+CellForces lawForces(vec3 at[8], BodyParams body, float bulk, float rigidity, CellMoments moments) {
+  float h = body.origin_spacing.w;
+  CellPull pull = lawPull(cellMotion(at, h), moments, rigidity, bulk, body.stiffening);
   float quarter = 0.25f / h;
   CellForces f = {quarter * pull.a, quarter * pull.b, quarter * pull.c, (2.0f * quarter) * pull.hx, (2.0f * quarter) * pull.hy,
                   (2.0f * quarter) * pull.hz, (0.35355339f / h) * pull.hxyz};

@@ -4,7 +4,8 @@
 // The neo-Hookean law of a cell (physics.md 1, Law): W(F*) + s.K.s/2 + 5/36 mu |H_xyz|^2 over its volume, with
 // W = mu/2 (J^(-2/3) |F|^2 - 3) + K/4 (J^2 - 1 - 2 ln J), s = F^-1 H its hourglass motions in the material's frame and F* the deformation
 // gradient at the centroid of the part of the cell that is tissue. Everything is computed from D = F - 1, so that nothing cancels
-// near rest. After moments.glsl.
+// near rest. With a stiffening b the first term is mu/(2 b) (exp(b x) - 1), x = J^(-2/3) |F|^2 - 3, straight from b x = kMostExponent on.
+// After moments.glsl.
 
 /// Columns of a 3x3 matrix.
 struct LawColumns {
@@ -53,14 +54,18 @@ LawVolume lawVolume(float e) {
 /// |1 + D|^2 - 3.
 float lawSize(LawColumns d) { return 2.0f * (d.a.x + d.b.y + d.c.z) + dot(d.a, d.a) + dot(d.b, d.b) + dot(d.c, d.c); }
 
+/// How much more shear resists, at x.
+float lawStiffer(float x, float stiffening) { return stiffening == 0.0f ? 1.0f : exp(min(stiffening * x, kMostExponent)); }
+
 /// dW/dF over mu. @param c, e  cofactors and dilation of d   @param bulk  K/mu
-LawColumns lawStress(LawColumns d, LawColumns c, float e, float bulk) {
+LawColumns lawStress(LawColumns d, LawColumns c, float e, float bulk, float stiffening) {
   LawVolume v = lawVolume(e);
   float size = lawSize(d);
   float off = 1.0f + e >= kLeastVolume ? (size / 3.0f - e) * v.inverse : v.slope * (1.0f + size / 3.0f) - 1.0f;
   float pressure = 0.5f * bulk * (e + (1.0f + e >= kLeastVolume ? e * v.inverse : 1.0f - v.inverse));
-  float kappa = pressure - v.phi * off, of_c = kappa - v.phi;
-  LawColumns p = lawColumns(v.phi * d.a + of_c * c.a, v.phi * d.b + of_c * c.b, v.phi * d.c + of_c * c.c);
+  float shear = v.phi * lawStiffer(v.phi * (3.0f + size) - 3.0f, stiffening);
+  float kappa = pressure - shear * off, of_c = kappa - shear;
+  LawColumns p = lawColumns(shear * d.a + of_c * c.a, shear * d.b + of_c * c.b, shear * d.c + of_c * c.c);
   p.a.x += kappa;
   p.b.y += kappa;
   p.c.z += kappa;
@@ -78,15 +83,23 @@ float lawExp1(float x) {
   return x * (1.0f + x * (0.5f + x * (1.0f / 6.0f + x * (1.0f / 24.0f + x * (1.0f / 120.0f)))));
 }
 
+/// (exp(b x) - 1) / b, straight from b x = kMostExponent on; x without stiffening.
+float lawShear(float x, float stiffening) {
+  if (stiffening == 0.0f) return x;
+  float y = stiffening * x, least = min(y, kMostExponent);
+  return (lawExp1(least) + exp(least) * (y - least)) / stiffening;
+}
+
 /// W over mu.
-float lawDensity(LawColumns d, float e, float bulk) {
+float lawDensity(LawColumns d, float e, float bulk, float stiffening) {
   float j = 1.0f + e, size = lawSize(d);
   if (j >= kLeastVolume) {
     float log_ = lawLog1(e), less = lawExp1((-2.0f / 3.0f) * log_);  // phi - 1
-    return 0.5f * (3.0f * less + (1.0f + less) * size) + 0.25f * bulk * (2.0f * e + e * e - 2.0f * log_);
+    float shear = lawShear(3.0f * less + (1.0f + less) * size, stiffening);
+    return 0.5f * shear + 0.25f * bulk * (2.0f * e + e * e - 2.0f * log_);
   }
   float log_ = log(kLeastVolume) + (j - kLeastVolume) / kLeastVolume;
-  return 0.5f * (lawVolume(e).phi * (3.0f + size) - 3.0f) + 0.25f * bulk * (j * j - 1.0f - 2.0f * log_);
+  return 0.5f * lawShear(lawVolume(e).phi * (3.0f + size) - 3.0f, stiffening) + 0.25f * bulk * (j * j - 1.0f - 2.0f * log_);
 }
 
 /// Second moments of a cell's tissue about its centroid, and what its law depends on.
@@ -145,28 +158,33 @@ void lawAddCentroid(LawCell t, LawColumns q, INOUT(LawColumns) r) {
   r.c += vec3(c.z * q.b.z + c.y * q.c.z - c.z * q.c.y - py, c.z * q.a.z + c.x * q.c.z - c.z * q.c.x - px, c.y * q.a.z + c.x * q.b.z);
 }
 
+/// s = F^-1 H, row by row. @param c, e  cofactors and dilation of the mean edges
+LawColumns lawFrame(CellMotion q, LawColumns c, float e) {
+  float inverse = 1.0f / max(1.0f + e, kLeastVolume);
+  vec3 gx = lawTransposed(c, q.hx), gy = lawTransposed(c, q.hy), gz = lawTransposed(c, q.hz);
+  return lawColumns(inverse * vec3(gx.x, gy.x, gz.x), inverse * vec3(gx.y, gy.y, gz.y), inverse * vec3(gx.z, gy.z, gz.z));
+}
+
 /// The law's energy and its derivatives. @param rigidity, bulk  as of cellPull()
-CellPull lawPull(CellMotion q, CellMoments moments, float rigidity, float bulk_j) {
+CellPull lawPull(CellMotion q, CellMoments moments, float rigidity, float bulk_j, float stiffening) {
   float ratio = bulk_j / rigidity, bulk = ratio + 5.0f / 3.0f;  // K/mu = lambda/mu + 2/3
   LawCell t = lawCell(moments, ratio);
   LawColumns d = lawColumns(q.da, q.db, q.dc), c = lawCofactors(d);
   float e = lawDilation(d, c), inverse = 1.0f / max(1.0f + e, kLeastVolume);
-  vec3 gx = lawTransposed(c, q.hx), gy = lawTransposed(c, q.hy), gz = lawTransposed(c, q.hz);  // C^T H
-  LawColumns s = lawColumns(inverse * vec3(gx.x, gy.x, gz.x), inverse * vec3(gx.y, gy.y, gz.y), inverse * vec3(gx.z, gy.z, gz.z));
-  LawColumns r = lawBends(t, s);
+  LawColumns s = lawFrame(q, c, e), r = lawBends(t, s);
   CellPull pull;
   pull.energy = 0.5f * (dot(r.a, s.a) + dot(r.b, s.b) + dot(r.c, s.c)) + 0.5f * kLawAlternating * dot(q.hxyz, q.hxyz);
   LawColumns p;
   if (dot(t.center, t.center) == 0.0f) {
-    p = lawStress(d, c, e, bulk);
-    pull.energy += lawDensity(d, e, bulk);
+    p = lawStress(d, c, e, bulk, stiffening);
+    pull.energy += lawDensity(d, e, bulk, stiffening);
   } else {
     LawColumns g = lawAtCentroid(t, s);
     LawColumns star = lawColumns(d.a + lawTimes(d, g.a), d.b + lawTimes(d, g.b), d.c + lawTimes(d, g.c));
     LawColumns of_star = lawCofactors(star);
     float e_star = lawDilation(star, of_star);
-    LawColumns ps = lawStress(star, of_star, e_star, bulk);
-    pull.energy += lawDensity(star, e_star, bulk);
+    LawColumns ps = lawStress(star, of_star, e_star, bulk, stiffening);
+    pull.energy += lawDensity(star, e_star, bulk, stiffening);
     lawAddCentroid(t, lawColumns(lawTransposed(d, ps.a), lawTransposed(d, ps.b), lawTransposed(d, ps.c)), r);
     p = lawColumns(ps.a + g.a.x * ps.a + g.b.x * ps.b + g.c.x * ps.c, ps.b + g.a.y * ps.a + g.b.y * ps.b + g.c.y * ps.c,
                    ps.c + g.a.z * ps.a + g.b.z * ps.b + g.c.z * ps.c);
@@ -204,15 +222,30 @@ float lawLargest(LawColumns m) {
   return max(dot(a, a) + ab + ca, max(dot(b, b) + ab + bc, dot(c, c) + bc + ca));
 }
 
-/// How much faster squared the fastest wave in a lattice of such cells is than at rest, 1 or more (physics.md 2): exact for waves along
-/// principal stretches. @param ratio  lambda/mu - 1
-float lawStiffening(CellMotion q, float ratio) {
-  LawColumns d = lawColumns(q.da, q.db, q.dc), c = lawCofactors(d);
+/// How much faster squared the fastest wave in a lattice of cells with a gradient 1 + D is than at rest, 1 or more (physics.md 2): exact for
+/// waves along principal stretches. @param c  lawCofactors(d)   @param ratio  lambda/mu - 1
+float lawStiffeningAt(LawColumns d, LawColumns c, float ratio, float stiffening) {
   float e = lawDilation(d, c), bulk = ratio + 5.0f / 3.0f;
   LawVolume v = lawVolume(e);
   float size = 3.0f + lawSize(d), r = v.inverse;
-  float pressing = (5.0f / 9.0f) * v.phi * v.slope * v.slope * size + 0.5f * bulk * (1.0f + r * r);
-  float waves = v.phi + pressing * lawLargest(c) - (4.0f / 3.0f) * v.phi * v.slope * max(1.0f + e, 0.0f);
-  if (1.0f + e < kLeastVolume) waves += (2.0f / 3.0f * v.phi * v.slope + 0.5f * bulk * r) * sqrt(size);
+  float x = v.phi * size - 3.0f, shear = v.phi * lawStiffer(x, stiffening), across = lawLargest(c);
+  float pressing = (5.0f / 9.0f) * shear * v.slope * v.slope * size + 0.5f * bulk * (1.0f + r * r);
+  float waves = shear + pressing * across - (4.0f / 3.0f) * shear * v.slope * max(1.0f + e, 0.0f);
+  if (1.0f + e < kLeastVolume) waves += (2.0f / 3.0f * shear * v.slope + 0.5f * bulk * r) * sqrt(size);
+  if (stiffening * x > 0.0f && stiffening * x < kMostExponent) {  // along d x / d F = 2 phi (F - size/(3 J) C)
+    float longest = max(lawLargest(d), size * size / 9.0f * across * r * r);
+    waves += 2.0f * stiffening * v.phi * shear * longest;
+  }
   return min(max(1.0f, waves / (ratio + 3.0f)), kMostStiffening);
+}
+
+/// The larger of those at the cell's mean gradient and at its tissue's centroid.
+float lawStiffening(CellMotion q, CellMoments moments, float ratio, float stiffening) {
+  LawColumns d = lawColumns(q.da, q.db, q.dc), c = lawCofactors(d);
+  LawCell t = lawCell(moments, ratio);
+  float found = lawStiffeningAt(d, c, ratio, stiffening);
+  if (dot(t.center, t.center) == 0.0f) return found;
+  LawColumns g = lawAtCentroid(t, lawFrame(q, c, lawDilation(d, c)));
+  LawColumns star = lawColumns(d.a + lawTimes(d, g.a), d.b + lawTimes(d, g.b), d.c + lawTimes(d, g.c));
+  return max(found, lawStiffeningAt(star, lawCofactors(star), ratio, stiffening));
 }

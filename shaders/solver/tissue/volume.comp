@@ -83,7 +83,7 @@ void leaveLawForces(uint slot, BodyParams body, bool whole) {
     for (uint c = 0u; c < 8u; ++c) cell_forces_out[cellVector(slot, c)] = vec4(cell.force[c], 0.0f);
     return;
   }
-  CellForces f = lawForces(at, h, cellBulk(slot, body), cellRigidity(slot, body), cellMoments(slot));
+  CellForces f = lawForces(at, body, cellBulk(slot, body), cellRigidity(slot, body), cellMoments(slot));
   LEAVE_CELL_FORCES(slot, f, 0.0f)
 }
 #endif

@@ -173,11 +173,24 @@ void weighShared(const Body& body, CellMoments& out) {
   });
 }
 
+/// Share below which a cell is a sliver, and what its second moments are raised by at most, over those of a full cell.
+constexpr double kSliver = 0.2, kLeastMoment = 0.1;
+
+/// Nodes that slivers alone hold bend and twist with next to nothing, and would fall out of the tissue: a cell of a
+/// hyperelastic law has second moments about its centroid of a little. Its share keeps that from being felt.
+void raiseSlivers(std::vector<CellFill>& fills) {
+  for (CellFill& fill : fills) {
+    const double lacks = std::max(0.0, 1 - fill.share / kSliver);
+    fill.second += fill.share * kLeastMoment / 12 * lacks * lacks * Eigen::Matrix3d::Identity();
+  }
+}
+
 }  // namespace
 
 CellMoments cellMoments(const Body& body) {
   CellMoments out{body.lattice.cell_fills, body.lattice.fills, {}};
   if (!body.lattice.shared.empty() && !body.parts.empty()) weighShared(body, out);
+  if (body.material.law == Law::kNeoHookean) raiseSlivers(out.fills);
   if (body.material.thin_walls) out.bends = cellBends(body, out);
   return out;
 }

@@ -48,6 +48,7 @@ Body plainBody(const BodyConfig& config) {
   body.name = config.name;
   body.material = config.material;
   body.material.cells = hasMoments(config) ? Cells::kMoments : Cells::kSprings;
+  body.material.law = lawOf(config);
   body.parts = config.parts;
   body.color = config.color;
   body.roughness = config.roughness;

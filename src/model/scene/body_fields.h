@@ -85,9 +85,13 @@ void visitFields(V& v, MaterialConfig& c) {
   v.choice("weights", c.weights, {{"cell", Weights::kCell}, {"paper", Weights::kPaper}},
            "assembly of springs and masses: per solid cell (exact), or VR05's uniform weights");
   v.choice(
-      "law", c.law, {{"springs", Law::kSprings}, {"neo_hookean", Law::kNeoHookean}},
-      "material law of the cells: springs with what `cells` adds to them, or a neo-Hookean energy per cell, accurate "
-      "at large strain (structure lattice, solver.integrator leapfrog)");
+      "law", c.law, {{"auto", Law::kAuto}, {"neo_hookean", Law::kNeoHookean}, {"springs", Law::kSprings}},
+      "what the cells are made of: a neo-Hookean energy each, accurate at large strain (structure lattice, "
+      "solver.integrator leapfrog), or springs with what `cells` adds to them, as in the papers; auto is neo_hookean "
+      "in structure lattice where leapfrog steps, cells is auto, weights cell and thin_walls false, else springs");
+  v.number("stiffening", c.stiffening, {0, 100}, "1",
+           "law neo_hookean: b of its shear energy mu/(2 b) (exp(b (I1 - 3)) - 1), so that tissue stiffens as it is "
+           "stretched, by exp(b (I1 - 3)) and 20 times at most; 0: none, and costs nothing");
   v.choice("cells", c.cells, {{"auto", Cells::kAuto}, {"moments", Cells::kMoments}, {"springs", Cells::kSprings}},
            "what cells resist with: springs corrected by the moments of the part of each cell that is tissue (cells at "
            "the surface are filled in part), or springs alone (cells are full or empty); auto is moments in structure "

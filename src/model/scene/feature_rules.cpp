@@ -85,8 +85,6 @@ constexpr Rule kRules[] = {
      kAll, kAll, true, "springs of a sheet give what they give, 1/3"},
     {"material.weights: paper", [](const BodyConfig& b) { return b.material.weights != Weights::kCell; }, nullptr,
      kCells},
-    {"material.law: neo_hookean", [](const BodyConfig& b) { return b.material.law == Law::kNeoHookean; }, nullptr,
-     in(Structure::kLattice), in(Integrator::kLeapfrog)},
     {"material.cells: moments", [](const BodyConfig& b) { return b.material.cells == Cells::kMoments; }, nullptr,
      kCells},
     {"material.thin_walls", [](const BodyConfig& b) { return b.material.thin_walls; }, nullptr, kCells},
@@ -103,6 +101,8 @@ constexpr Rule kRules[] = {
      in(Integrator::kLeapfrog), in(Backend::kAuto, Backend::kCpu), false},
     {"a stylus with mode cautery", nullptr, [](const Scene& scene) { return mayBurn(scene.styluses); }, kAll,
      in(Integrator::kLeapfrog)},
+    {"material.law: neo_hookean", [](const BodyConfig& b) { return b.material.law == Law::kNeoHookean; }, nullptr,
+     in(Structure::kLattice), in(Integrator::kLeapfrog)},
 };
 
 template <class Enum>

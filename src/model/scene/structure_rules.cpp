@@ -17,8 +17,10 @@ std::string sourceFault(const BodyConfig& body) {
   return "";
 }
 
-std::string lawFault(const MaterialConfig& material) {
-  if (material.law == Law::kSprings) return "";
+std::string lawFault(const BodyConfig& body) {
+  const MaterialConfig& material = body.material;
+  if (lawOf(body) == Law::kSprings)
+    return material.stiffening > 0 ? "material.stiffening needs material.law: neo_hookean" : "";
   if (material.cells == Cells::kSprings) return "material.cells: springs does not go with material.law: neo_hookean";
   if (material.weights != Weights::kCell) return "material.weights: paper does not go with material.law: neo_hookean";
   if (material.thin_walls) return "material.thin_walls does not go with material.law: neo_hookean";
@@ -44,7 +46,7 @@ std::string structureFault(const BodyConfig& body) {
     return "material.cells: moments does not go with material.weights: paper";
   if (body.material.thin_walls && !hasMoments(body))
     return "material.thin_walls needs cells by moments: cells auto or moments, weights cell";
-  return lawFault(body.material);
+  return lawFault(body);
 }
 
 }  // namespace viscera

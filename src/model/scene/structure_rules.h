@@ -6,6 +6,7 @@
 #include <string>
 
 #include "viscera/model/scene/body_config.h"
+#include "viscera/model/scene/solver_config.h"
 
 namespace viscera {
 
@@ -19,6 +20,16 @@ inline bool isNetwork(Structure structure) {
 inline bool hasMoments(const BodyConfig& body) {
   if (body.material.cells != Cells::kAuto) return body.material.cells == Cells::kMoments;
   return !isNetwork(body.structure) && body.material.weights == Weights::kCell;
+}
+
+/// The law that the body's cells obey: of lattices that leapfrog steps the neo-Hookean one, unless the scene asks for
+/// springs or for what goes with them alone. Never Law::kAuto.
+inline Law lawOf(const BodyConfig& body, Integrator integrator = Integrator::kLeapfrog) {
+  const MaterialConfig& material = body.material;
+  if (material.law != Law::kAuto) return material.law;
+  const bool plain = material.cells == Cells::kAuto && material.weights == Weights::kCell && !material.thin_walls;
+  const bool goes = body.structure == Structure::kLattice && integrator == Integrator::kLeapfrog;
+  return goes && plain ? Law::kNeoHookean : Law::kSprings;
 }
 
 /// Do springs of the body or of a part of it pull where they are?

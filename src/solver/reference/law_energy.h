@@ -10,25 +10,39 @@
 
 namespace viscera {
 
+/// Returns the shear energy of the law over mu/2: (exp(b x) - 1) / b, straight from b x = kMostExponent on; x without
+/// stiffening.
+template <class T>
+T lawShear(const T& x, double stiffening) {
+  using std::exp;
+  if (stiffening == 0) return x;
+  const double most = static_cast<double>(layout::kMostExponent);
+  if (stiffening * x <= most) return (exp(stiffening * x) - 1.0) / stiffening;
+  return (std::exp(most) * (1.0 + stiffening * x - most) - 1.0) / stiffening;
+}
+
 /// Returns W of the neo-Hookean law over mu (physics.md 1): 1/2 (J^(-2/3) |F|^2 - 3) + K/(4 mu) (J^2 - 1 - 2 ln J).
 /// Below kLeastVolume 1/J is constant and J^(-2/3) levels off, both without a jump in the stress.
 template <class T>
-T lawDensity(const Eigen::Matrix<T, 3, 3>& f, double bulk_over_mu) {
+T lawDensity(const Eigen::Matrix<T, 3, 3>& f, double bulk_over_mu, double stiffening) {
   using std::log;
   using std::pow;
   const double kLeast = static_cast<double>(layout::kLeastVolume);
   const T j = f.col(0).dot(f.col(1).cross(f.col(2))), size = f.squaredNorm();
-  if (j >= kLeast) return 0.5 * (pow(j, -2.0 / 3) * size - 3.0) + 0.25 * bulk_over_mu * (j * j - 1.0 - 2.0 * log(j));
+  if (j >= kLeast)
+    return 0.5 * lawShear<T>(pow(j, -2.0 / 3) * size - 3.0, stiffening) +
+           0.25 * bulk_over_mu * (j * j - 1.0 - 2.0 * log(j));
   const T phi = std::pow(kLeast, -2.0 / 3) * (1.0 + 2.0 / 3 * (kLeast - j) / (2 * kLeast - j));
   const T logarithm = std::log(kLeast) + (j - kLeast) / kLeast;
-  return 0.5 * (phi * size - 3.0) + 0.25 * bulk_over_mu * (j * j - 1.0 - 2.0 * logarithm);
+  return 0.5 * lawShear<T>(phi * size - 3.0, stiffening) + 0.25 * bulk_over_mu * (j * j - 1.0 - 2.0 * logarithm);
 }
 
 /// Returns the energy of a cell of the neo-Hookean law over rigidity (physics.md 1, Law).
-/// @param ratio  lambda / mu - 1   @param fill  moments of the cell's tissue over its share
+/// @param ratio  lambda / mu - 1   @param stiffening  b of lawShear()   @param fill  moments of the cell's tissue over
+/// its share
 /// @param motion  mean edges less their rest value, hourglass motions, alternating motion, over h (moment_energy.h)
 template <class T>
-T lawEnergy(double ratio, const CellFill& fill, const Eigen::Matrix<T, 21, 1>& motion) {
+T lawEnergy(double ratio, double stiffening, const CellFill& fill, const Eigen::Matrix<T, 21, 1>& motion) {
   using Tensor = Eigen::Matrix<T, 3, 3>;
   const double lambda = 1 + ratio, poisson = lambda / (lambda + 2);
   const Vector3d& c = fill.first;
@@ -58,7 +72,7 @@ T lawEnergy(double ratio, const CellFill& fill, const Eigen::Matrix<T, 21, 1>& m
     g(a, n) -= c[n] * s(n, b);
     g(b, n) -= c[n] * s(n, a);
   }
-  T energy = lawDensity<T>(f + f * g, lambda + 2.0 / 3);
+  T energy = lawDensity<T>(f + f * g, lambda + 2.0 / 3, stiffening);
   for (int n = 0; n < 3; ++n) {
     for (int k = 0; k < 3; ++k) {
       const T traces = gradients[n].trace() * gradients[k].trace();

@@ -153,7 +153,8 @@ T bendingOf(const MomentCell& cell, const Eigen::Matrix<T, 21, 1>& motion) {
 
 template <class T>
 T energyOf(const MomentCell& cell, const Eigen::Matrix<T, 21, 1>& motion) {
-  if (cell.obeys_law) return cell.rigidity_j * lawEnergy<T>(cell.bulk_j / cell.rigidity_j, cell.fill, motion);
+  if (cell.obeys_law)
+    return cell.rigidity_j * lawEnergy<T>(cell.bulk_j / cell.rigidity_j, cell.stiffening, cell.fill, motion);
   return cell.rigidity_j * (bendingOf<T>(cell, motion) + crushedOf<T>(motion));
 }
 

@@ -23,6 +23,7 @@ Eigen::Matrix<double, 7, 1> motionOfCorner(size_t corner, double spacing_m);
 /// What a cell has by moments beside its springs and its volume.
 struct MomentCell {
   double rigidity_j = 0;   ///< mu h^3 times its share
+  double stiffening = 0;   ///< of that law
   bool obeys_law = false;  ///< of the neo-Hookean law: law_energy.h, without springs
   double bulk_j = 0;       ///< (lambda - mu) h^3 times its share
   CellFill fill;           ///< over its share, which is 1

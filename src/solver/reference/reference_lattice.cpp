@@ -43,7 +43,7 @@ void ReferenceLattice::addBody(const Model& model, size_t b, double dt_safe_s) {
   strengths_.push_back(isHeterogeneous(body) ? strengths(body) : Strengths{});
   moments_ = cellMoments(body);
   if (body.network) strengths_[b].mass_kg.assign(body.network->masses_kg.begin(), body.network->masses_kg.end());
-  const bool of_law = body.material.law != Law::kSprings;
+  const bool of_law = body.material.law == Law::kNeoHookean;
   for (layout::NodeBits bits : lattice.nodes) {
     bits.hi |= static_cast<uint32_t>(b) << layout::kBodyShift;
     if (of_law && bits.lo & layout::kCellBit) bits.lo |= layout::kLawCellBit;
@@ -130,7 +130,8 @@ void ReferenceLattice::addCell(const Body& body, size_t b, uint32_t local) {
     around_[cell.corners[c]][c] = static_cast<int>(cells_.size());
   }
   if (body.material.cells == Cells::kMoments) {
-    cell.moments.obeys_law = body.material.law != Law::kSprings;
+    cell.moments.stiffening = static_cast<double>(params_[b].stiffening);
+    cell.moments.obeys_law = body.material.law == Law::kNeoHookean;
     const Strengths& table = strengths_[b];
     cell.moments.rigidity_j = table.rigidity_j.empty() ? params_[b].rigidity_j : table.rigidity_j[local];
     cell.moments.bulk_j = table.bulk_j.empty() ? params_[b].bulk_j : table.bulk_j[local];

@@ -30,9 +30,9 @@ constexpr double kDashpotMargin = 0.94;
 /// strainFactor(): up to kStrainedStretch, and beyond, where shear asks for more (docs/physics.md 2).
 constexpr double kPerStretch = 0.4, kPerMore = 0.8;
 
-/// lawFactor(): what strain takes from the substep, times this, as it grows within the tick too; in steps of a
-/// twentieth, since substeps that change in every tick make small forces flicker.
-constexpr double kStrainMargin = 1.5, kPerFactor = 20;
+/// lawFactor(): what strain takes from the substep, times this, as it grows within the tick too; kWithin of it is
+/// within kOfLimit. In steps of a twentieth, since substeps that change in every tick make small forces flicker.
+constexpr double kStrainMargin = 1.5, kWithin = 0.9, kPerFactor = 20;
 
 /// Nodes that may move, with their masses.
 struct Movers {
@@ -158,7 +158,8 @@ double strainFactor(double stretch) {
 }
 
 double lawFactor(double stiffening) {
-  return std::ceil(kPerFactor * (1 + kStrainMargin * (std::sqrt(stiffening) - 1))) / kPerFactor;
+  const double factor = kWithin * (1 + kStrainMargin * (std::sqrt(stiffening) - 1));
+  return std::ceil(kPerFactor * std::max(1.0, factor)) / kPerFactor;
 }
 
 double measuredSubstep_s(const SolverConfig& config, double dashpot_ratio, double dt_safe_s, double dt_limit_s,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/ticks/tick_plan.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "model/scene/feature_rules.h"
@@ -16,6 +17,9 @@ namespace viscera {
 namespace {
 
 constexpr int kMostLonger = 2;  // times as long as proven: measured substeps were found 1.6 to 1.8 times (physics.md 2)
+
+/// Substeps that strained cells of a law may have, with motions of tools for each: 1 MB.
+constexpr int kMostByStrain = 4000;
 
 /// Where the limit will be measured, twice as many proven substeps at rest as there may be: the measured ones may do.
 SubstepPlan planned(const Model& model, const SolverConfig& asked, double dt_safe_s, bool allow_unstable) {
@@ -35,13 +39,16 @@ SubstepPlan planned(const Model& model, const SolverConfig& asked, double dt_saf
 
 TickPlan planTicks(const Model& model, const Scene& scene, const SolverOptions& options) {
   requireFeatures(scene);
+  if (hasLaw(model) && scene.solver.integrator != Integrator::kLeapfrog)
+    throw SceneError("the model was built with material.law: neo_hookean, which needs solver.integrator leapfrog");
   TickPlan plan;
   plan.tick_s = 1 / scene.solver.tick_hz;
   plan.dt_safe_s = safeTimeStep(model);
   plan.substeps = planned(model, scene.solver, plan.dt_safe_s, options.allow_unstable);
   if (scene.solver.governor)
     plan.recovery_substeps = std::max(1, plan.substeps.strained / SolverBackend::kRecoveryIterations);
-  if (hasLaw(model) && scene.solver.substeps == 0 && plan.governed()) plan.most_by_strain = scene.solver.max_substeps;
+  if (hasLaw(model) && scene.solver.substeps == 0 && plan.governed())
+    plan.most_by_strain = std::min(scene.solver.max_substeps, std::max(kMostByStrain, plan.substeps.strained));
   plan.tools = !scene.styluses.empty();
   if (surroundingsOf(model, scene).any()) plan.surroundings.emplace(model, scene);
   return plan;

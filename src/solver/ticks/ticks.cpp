@@ -204,7 +204,7 @@ void Ticks::reset() {
   processes_.reset();
   pulls_.clear();
   told_ = {};
-  stretch_ = stiffening_ = 0;
+  stretch_ = stiffening_ = last_stiffening_ = 0;
   folds_.reset();
   looks_for_folds_ = false;
   dt_safe_s_ = safeTimeStep(model_);
@@ -237,6 +237,7 @@ void Ticks::persistSubsteps(Archive& archive) {
   archive.value(limit_s);
   archive.value(stretch_);
   archive.value(stiffening_);
+  archive.value(last_stiffening_);
   archive.value(substeps_);
   archive.value(substeps_done_);
   archive.value(springs_cut_);
@@ -251,6 +252,7 @@ void Ticks::persistSubsteps(Archive& archive) {
   requireInTicks("stable substep [s]", dt_safe_s_, least_safe_s, kAny);
   requireInTicks("measured stable substep [s]", limit_s, kLeastMeasured * dt_limit_s_, dt_limit_s_ / kLeastMeasured);
   requireInTicks("stiffening", stiffening_, 0, layout::kMostStiffening);
+  requireInTicks("last stiffening", last_stiffening_, 0, layout::kMostStiffening);
   requireInTicks("stretch", stretch_, 0, std::numeric_limits<float>::max());
   requireInTicks("calm substeps", substeps_.calm, 1, most_substeps_);
   requireInTicks("strained substeps", substeps_.strained, 1, most_substeps_);
@@ -328,8 +330,12 @@ bool Ticks::heed(const Watch::Verdict& verdict) {
 
 /// Rounded down: substeps that change in every tick make small forces flicker, and there is a margin for that.
 void Ticks::noteStretch(const layout::TickStats& stats) {
+  // What tools squeeze is stiffer still by the ticks that it is heeded in.
   const double stiffening = static_cast<double>(floatFromBits(stats.max_stiffening_bits));
-  stiffening_ = std::max(stiffening, kSlowlyBack * stiffening_);
+  const double grown = std::max(0.0, stiffening - last_stiffening_) * (1 + backend_->lag());
+  last_stiffening_ = stiffening;
+  const double most = static_cast<double>(layout::kMostStiffening);
+  stiffening_ = std::min(most, std::max(stiffening + grown, kSlowlyBack * stiffening_));
   stretch_ = std::floor(static_cast<double>(floatFromBits(stats.max_stretch_bits)) / kStretchSteps) * kStretchSteps;
 }
 

@@ -89,7 +89,9 @@ class Ticks : public Solver {
   float edge_reach_m_;
   double dt_limit_s_ = 0;  ///< measured at the start; 0 where it is not
   double dashpot_ratio_;   ///< the largest
-  double stiffening_ = 0;  ///< of cells of a hyperelastic law, the largest of late; 0 where substeps do not heed it
+  /// Of cells of a hyperelastic law: what substeps heed, the largest of late and what is to be feared, and that of the
+  /// last good tick.
+  double stiffening_ = 0, last_stiffening_ = 0;
   double stretch_ = 0;     ///< largest of the last good tick, rounded down
   SubstepPlan substeps_;
   int recovery_substeps_, most_substeps_;

@@ -54,7 +54,7 @@ std::vector<layout::NodeBits> allNodes(const Model& model) {
   std::vector<layout::NodeBits> out;
   out.reserve(model.slots());
   for (size_t b = 0; b < model.bodies.size(); ++b) {
-    const bool of_law = model.bodies[b].material.law != Law::kSprings;
+    const bool of_law = model.bodies[b].material.law == Law::kNeoHookean;
     for (layout::NodeBits bits : model.bodies[b].lattice.nodes) {
       bits.hi |= static_cast<uint32_t>(b) << layout::kBodyShift;
       if (of_law && bits.lo & layout::kCellBit) bits.lo |= layout::kLawCellBit;

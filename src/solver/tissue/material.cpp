@@ -113,6 +113,7 @@ layout::BodyParams bodyParams(const Body& body, double dt_safe_s) {
   params.bulk_j = static_cast<float>(e.bulk_j);
   if (material.cells == Cells::kMoments) params.rigidity_j = static_cast<float>(e.rigidity_j);
   params.law = material.law == Law::kNeoHookean ? layout::kLawNeoHookean : layout::kLawSprings;
+  if (params.law != layout::kLawSprings) params.stiffening = static_cast<float>(material.stiffening);
   params.connections = !body.network              ? layout::kImplicit
                        : body.network->of_lattice ? layout::kExplicitLattice
                                                   : layout::kNetwork;

@@ -55,7 +55,9 @@ TEST(Law, ForcesAndStiffnessAreDerivativesOfTheEnergy) {
                          [](const Vector3d& p) { return (p - Vector3d(1.6, 1.4, 1.5)).norm() < 1.3; });
   ball.material.law = Law::kNeoHookean;
   ball.material.poisson_ratio = kNu;
-  for (const Model& model : {lawBlockModel(), modelOf({ball})}) {
+  Body stiffening = ball;
+  stiffening.material.stiffening = 4;
+  for (const Model& model : {lawBlockModel(), modelOf({ball}), modelOf({stiffening})}) {
     const ReferenceLattice lattice(model);
     for (const double size : {0.05, 0.3, 1.0}) {
       const HostState state = randomState(model, size * kLawBlockSpacing_m, 0, 5);

@@ -30,6 +30,7 @@ enum class Cells {
 
 /// What the cells of a lattice are made of (docs/physics.md 1).
 enum class Law {
+  kAuto,       ///< what lawOf() (structure_rules.h) says
   kSprings,    ///< springs, with what `cells` adds to them
   kNeoHookean  ///< a hyperelastic energy per cell, of its deformation gradient
 };
@@ -83,7 +84,8 @@ struct MaterialConfig {
   double drag_per_s = 4;
   double dashpot_ratio = 0.2;
   Weights weights = Weights::kCell;
-  Law law = Law::kSprings;
+  Law law = Law::kAuto;
+  double stiffening = 0;  ///< b of mu/(2 b) (exp(b (I1 - 3)) - 1), the neo-Hookean law's shear energy
   Cells cells = Cells::kAuto;
   bool thin_walls = false;  ///< walls of few cells bend as the tissue around each cell lets them
   std::string tissue;       ///< preset (docs/tissues.md) of those of the first three that the scene does not give

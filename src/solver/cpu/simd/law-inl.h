@@ -10,6 +10,7 @@
 #define VISCERA_SOLVER_CPU_LAW_INL_H
 #endif
 
+#include "hwy/contrib/math/math-inl.h"
 #include "hwy/highway.h"
 #include "layout/law.h"
 #include "solver/cpu/simd/cell_motion-inl.h"
@@ -18,7 +19,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
-using layout::kLawAlternating, layout::kLeastVolume, layout::kMostStiffening;
+using layout::kMostExponent, layout::kLawAlternating, layout::kLeastVolume, layout::kMostStiffening;
 
 // Displacements are scaled by 1 / (4 h) as they are loaded, so that a cell's motion is made of plain sums: D of the
 // mean edges, half of the hourglass motions H, and a fourth of T = sqrt(8) H_xyz.
@@ -29,6 +30,8 @@ struct LawBody {
   V bulk;                  ///< K / mu
   V along, aside;          ///< plane stress over 3, as the second moments of full cells
   V poisson;               ///< lambda / (lambda + 2 mu)
+  V stiffening;            ///< b
+  bool stiffens;           ///< it is not 0
   float scale, dashpot_s;  ///< 1 / (4 h), and 0 without a dashpot
 };
 /// @param ratio  lambda/mu - 1
@@ -40,6 +43,8 @@ HWY_INLINE LawBody lawBodyOf(const layout::BodyParams& body, V ratio, bool dashp
           hn::Mul(set(4.0f / 3), hn::Mul(hn::Add(lambda, set(1)), per)),
           hn::Mul(set(2.0f / 3), hn::Mul(lambda, per)),
           hn::Mul(lambda, per),
+          set(body.stiffening),
+          body.stiffening != 0,
           scale,
           dashpot ? body.dashpot_s : 0};
 }
@@ -122,6 +127,15 @@ HWY_INLINE V sizeOf(const Columns& d) {
   return hn::MulAdd(set(2), trace, hn::Add(dot(d.a, d.a), hn::Add(dot(d.b, d.b), dot(d.c, d.c))));
 }
 
+/// x of the stiffening law. @param size  |F|^2 - 3
+HWY_INLINE V shearOf(V phi, V size) {
+  return hn::MulSub(phi, hn::Add(size, set(3)), set(3));
+}
+/// How much more shear resists, at x.
+inline HWY_NOINLINE V stifferAt(const LawBody& body, V x) {
+  return hn::Exp(Tag(), hn::Min(hn::Mul(body.stiffening, x), set(kMostExponent)));
+}
+
 /// mu dW/dF. @param c, e, v  of d
 template <bool kAny>
 HWY_INLINE Columns lawStress(const LawBody& body, V mu, const Columns& d, const Columns& c, V e, const Volume& v) {
@@ -132,7 +146,8 @@ HWY_INLINE Columns lawStress(const LawBody& body, V mu, const Columns& d, const 
     off = hn::IfThenElse(below, hn::MulSub(v.slope, hn::MulAdd(third, size, one), one), off);
     y = hn::IfThenElse(below, hn::Sub(one, v.inverse), y);
   }
-  const V scale = hn::Mul(mu, v.phi);
+  V scale = hn::Mul(mu, v.phi);
+  if (HWY_UNLIKELY(body.stiffens)) scale = hn::Mul(scale, stifferAt(body, shearOf(v.phi, size)));
   const V pressure = hn::Mul(hn::Mul(hn::Mul(set(0.5f), body.bulk), mu), hn::Add(e, y));
   const V kappa = hn::NegMulAdd(scale, off, pressure), rest = hn::Sub(kappa, scale);
   Columns p = {mulAdd(rest, c.a, scale * d.a), mulAdd(rest, c.b, scale * d.b), mulAdd(rest, c.c, scale * d.c)};

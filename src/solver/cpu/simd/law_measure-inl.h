@@ -19,6 +19,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
+/// (exp(b x) - 1) / b, straight from b x = kMostExponent on; x without stiffening.
+HWY_INLINE V shearEnergy(const LawBody& body, V x) {
+  if (!body.stiffens) return x;
+  const V y = hn::Mul(body.stiffening, x), least = hn::Min(y, set(kMostExponent));
+  const V straight = hn::Mul(hn::Exp(Tag(), least), hn::Sub(y, least));
+  return hn::Div(hn::Add(hn::Expm1(Tag(), least), straight), body.stiffening);
+}
+
 /// W over mu.
 HWY_INLINE V lawDensity(const LawBody& body, const Columns& d, V e) {
   const V one = set(1), two = set(2), least = set(kLeastVolume), j = hn::Add(one, e), size = sizeOf(d);
@@ -30,7 +38,8 @@ HWY_INLINE V lawDensity(const LawBody& body, const Columns& d, V e) {
   // J^2 - 1 - 2 ln J, its logarithm going on straight below kLeastVolume
   const V straight = hn::Add(logarithm, hn::Div(hn::Sub(j, hn::Max(j, least)), least));
   const V volume = hn::NegMulAdd(two, straight, hn::Mul(e, hn::Add(e, two)));
-  return hn::MulAdd(hn::Mul(set(0.25f), body.bulk), volume, hn::Mul(set(0.5f), hn::IfThenElse(below, squeezed, shape)));
+  return hn::MulAdd(hn::Mul(set(0.25f), body.bulk), volume,
+                    hn::Mul(set(0.5f), shearEnergy(body, hn::IfThenElse(below, squeezed, shape))));
 }
 
 /// Largest row sum of |M|^T |M| for M = 1 + m: at least the square of its largest stretch.
@@ -47,13 +56,21 @@ HWY_INLINE V largestOf(const Columns& m) {
 HWY_INLINE V stiffeningOf(const LawBody& body, const Columns& d, const Columns& c, V e) {
   const V one = set(1), zero = hn::Zero(Tag()), j = hn::Add(e, one);
   const Volume v = volumeOf<true>(e);
-  const V size = hn::Add(set(3), sizeOf(d)), slope = hn::Mul(v.phi, v.slope);
+  const V size = hn::Add(set(3), sizeOf(d)), x = hn::MulSub(v.phi, size, set(3)), across = largestOf(c);
+  const V shear = body.stiffens ? hn::Mul(v.phi, stifferAt(body, x)) : v.phi, slope = hn::Mul(shear, v.slope);
   const V pressing = hn::MulAdd(hn::Mul(set(5.0f / 9), hn::Mul(slope, v.slope)), size,
                                 hn::Mul(hn::Mul(set(0.5f), body.bulk), hn::MulAdd(v.inverse, v.inverse, one)));
-  V waves = hn::MulAdd(pressing, largestOf(c), v.phi);
+  V waves = hn::MulAdd(pressing, across, shear);
   waves = hn::NegMulAdd(hn::Mul(set(4.0f / 3), slope), hn::Max(j, zero), waves);
   const V turned = hn::MulAdd(set(2.0f / 3), slope, hn::Mul(hn::Mul(set(0.5f), body.bulk), v.inverse));
   waves = hn::IfThenElse(hn::Lt(j, set(kLeastVolume)), hn::MulAdd(turned, hn::Sqrt(size), waves), waves);
+  if (body.stiffens) {  // along d x / d F = 2 phi (F - size/(3 J) C)
+    const V y = hn::Mul(body.stiffening, x), third = hn::Mul(set(1.0f / 3), hn::Mul(size, v.inverse));
+    const V longest = hn::Max(largestOf(d), hn::Mul(hn::Mul(third, third), across));
+    const V more = hn::Mul(hn::Mul(set(2), hn::Mul(body.stiffening, v.phi)), hn::Mul(shear, longest));
+    const M grows = hn::And(hn::Gt(y, zero), hn::Lt(y, set(kMostExponent)));
+    waves = hn::Add(waves, hn::IfThenElseZero(grows, more));
+  }
   // lambda/mu + 2 = K/mu + 4/3
   return hn::Max(one, hn::Div(waves, hn::Add(body.bulk, set(4.0f / 3))));
 }
@@ -85,10 +102,13 @@ inline HWY_NOINLINE LawMeasured measureLaw(const CellJob& job, const layout::Bod
   const Bends k = lawBends<false>(body, m, s);
   const Columns g = atCentroid(body.poisson, s, m.centroid2);
   const Columns star = {timesOf(d, g.a) + d.a, timesOf(d, g.b) + d.b, timesOf(d, g.c) + d.c};
-  V energy = lawDensity(body, star, dilationOf(star, cofactorsOf(star)));
+  const Columns of_star = cofactorsOf(star);
+  const V e_star = dilationOf(star, of_star);
+  V energy = lawDensity(body, star, e_star);
   energy = hn::MulAdd(set(0.5f), hn::Add(dot(k.x, s.x), hn::Add(dot(k.y, s.y), dot(k.z, s.z))), energy);
   energy = hn::MulAdd(set(kLawAlternating), dot(q.hxyz, q.hxyz), energy);
-  return {hn::Mul(rigidity, energy), hn::IfThenElseZero(there, stiffeningOf(body, d, c, e))};
+  const V stiffening = hn::Max(stiffeningOf(body, d, c, e), stiffeningOf(body, star, of_star, e_star));
+  return {hn::Mul(rigidity, energy), hn::IfThenElseZero(there, stiffening)};
 }
 
 /// Energy of the springs that broken cells have left [J]. @param k  as of addBroken()   @param n  displacements [m]

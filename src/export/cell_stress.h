@@ -1,0 +1,41 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "viscera/model/body/elasticity.h"
+
+namespace viscera {
+
+/// Stress of a cell at the centroid of its tissue: Cauchy's, of large strain.
+struct CellStress {
+  double energy_j_per_m3;  ///< of the volume at rest
+  double von_mises_pa;
+  Eigen::Vector3d principal_pa;  ///< largest first; pulling above 0
+};
+
+/// Computes the stress of the cells of one body in a state, by its law: neo-Hookean, or of springs that of St. Venant
+/// and Kirchhoff with their constants (docs/physics.md 1).
+class CellStresses {
+ public:
+  /// @param body  with cells; must outlive this
+  explicit CellStresses(const Body& body);
+
+  /// @param cell  slot of its lowest corner, of a cell that is there   @param u_m  displacements of the corners: bit 0
+  /// of the index x, bit 1 y, bit 2 z
+  CellStress at(uint32_t cell, const std::array<Vector3d, 8>& u_m) const;
+
+ private:
+  struct Lame {
+    double lambda, mu;
+  };
+  const Body& body_;
+  std::vector<Lame> lames_;                   ///< [parts + 1] of no part, then by label
+  std::vector<Eigen::Matrix3d> prestresses_;  ///< [slots] over mu, or none
+  CellMoments moments_;
+};
+
+}  // namespace viscera

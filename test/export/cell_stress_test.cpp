@@ -1,0 +1,64 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "export/cell_stress.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/lattices.h"
+
+using namespace viscera;
+using namespace viscera::test;
+
+namespace {
+
+constexpr double kEdge_m = 0.01, kStretch = 1.2;
+
+/// Corners of a cell whose x is stretched, turned by a quarter about z.
+std::array<Vector3d, 8> stretchedAndTurned() {
+  std::array<Vector3d, 8> out;
+  for (size_t c = 0; c < 8; ++c) {
+    const Vector3d rest = kEdge_m * Vector3d(c & 1, c >> 1 & 1, c >> 2 & 1);
+    out[c] = Vector3d(-rest.y(), kStretch * rest.x(), rest.z()) - rest;
+  }
+  return out;
+}
+
+}  // namespace
+
+/// By hand: mu = 20e3 / 2.6, K = 20e3 / 1.2 at nu 0.3; J = l, B = (l^2, 1, 1).
+TEST(CellStress, OfTheNeoHookeanLawIsCauchysWhicheverWayTheCellIsTurned) {
+  Body body = boxBody({2, 2, 2}, kEdge_m);
+  body.material.young_modulus_pa = 20e3;
+  body.material.poisson_ratio = 0.3;
+  body.material.cells = Cells::kMoments;
+  body.material.law = Law::kNeoHookean;
+  const double mu = 20e3 / 2.6, bulk = 20e3 / 1.2, l = kStretch;
+  for (const double b : {0.0, 4.0}) {
+    body.material.stiffening = b;
+    const double x = std::pow(l, -2.0 / 3) * (l * l + 2) - 3, shear = mu * std::exp(b * x) * std::pow(l, -5.0 / 3);
+    const double pressure = bulk / 2 * (l - 1 / l), mean = (l * l + 2) / 3;
+    const CellStress stress = CellStresses(body).at(body.lattice.active_slots[0], stretchedAndTurned());
+    constexpr double kRounding = 1e-9;
+    EXPECT_NEAR(stress.principal_pa[0], shear * (l * l - mean) + pressure, kRounding * mu);
+    EXPECT_NEAR(stress.principal_pa[1], shear * (1 - mean) + pressure, kRounding * mu);
+    EXPECT_NEAR(stress.principal_pa[2], shear * (1 - mean) + pressure, kRounding * mu);
+    EXPECT_NEAR(stress.von_mises_pa, shear * (l * l - 1), kRounding * mu);
+    const double energy = mu / 2 * (b == 0 ? x : std::expm1(b * x) / b) + bulk / 4 * (l * l - 1 - 2 * std::log(l));
+    EXPECT_NEAR(stress.energy_j_per_m3, energy, kRounding * mu);
+  }
+}
+
+TEST(CellStress, OfRestIsNothing) {
+  for (const Law law : {Law::kSprings, Law::kNeoHookean}) {
+    Body body = boxBody({2, 2, 2}, kEdge_m);
+    body.material.law = law;
+    body.material.cells = Cells::kMoments;
+    std::array<Vector3d, 8> still;
+    still.fill(Vector3d::Zero());
+    const CellStress stress = CellStresses(body).at(body.lattice.active_slots[0], still);
+    EXPECT_NEAR(stress.von_mises_pa, 0, 1e-9);
+    EXPECT_NEAR(stress.principal_pa.norm(), 0, 1e-9);
+  }
+}
