@@ -3,7 +3,7 @@
 //
 // leapfrog.comp - advance every active node by one leapfrog substep.   Owner: solver/gpu/steps/leapfrog_pass.h   physics.md 2, 5
 // in  displacement, velocity [slots]     out  displacement, velocity [slots]; impulses [kMaxStyluses * slots]; nodes for edges.comp
-// Features: LATTICE, NETWORK, PARTS, VOLUME, LAW (elastic.glsl), DASHPOT (axial dashpot), PREDICTED (of lattices, mild springs pull where
+// Features: LATTICE, NETWORK, PARTS, VOLUME, LAW (elastic.glsl), NO_SPRINGS (all bodies obey a law), DASHPOT (axial dashpot), PREDICTED (of lattices, mild springs pull where
 // their ends will be instead), TOOLS (probe and held nodes), COMPENSATED (Kahan's sums of u and v), AWAKE (only nodes of bricks that
 // are awake, as awake_bricks.comp lists them).
 #ifdef LOADS
@@ -63,12 +63,14 @@ vec3 elasticForce(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 v) {
   force += (k * s.extension) * s.direction;                                         \
   DASHPOT_FORCE(k, n, s)
 #endif
+#ifndef NO_SPRINGS
 #ifdef LAW
   if (body.law == kLawSprings) {
     FOR_EACH_LINK
   }
 #else
   FOR_EACH_LINK
+#endif
 #endif
 #undef VISIT_LINK
 #ifdef VOLUME

@@ -120,10 +120,10 @@ void main() {
       elastic += lawPull(q, cellMoments(slot), rigidity, bulk, body.stiffening).energy;
       uint stiffening = floatBitsToUint(lawStiffening(q, cellMoments(slot), bulk / rigidity, body.stiffening));
       if (stiffening > stats.max_stiffening_bits) atomicMax(stats.max_stiffening_bits, stiffening);
-    } else
+    }
 #endif
-#ifdef VOLUME
-    elastic += cellEnergy(at, e, h, cellBulk(slot, body), cellRigidity(slot, body), cellMoments(slot));
+#if defined(VOLUME) && !defined(NO_SPRINGS)
+    if (!of_law) elastic += cellEnergy(at, e, h, cellBulk(slot, body), cellRigidity(slot, body), cellMoments(slot));
 #endif
     if (e < -1.0f && (bits.lo & kSeveredBit) == 0u) atomicAdd(stats.inverted, 1u);
   }

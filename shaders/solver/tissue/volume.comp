@@ -99,6 +99,7 @@ void main() {
     return;
   }
 #endif
+#ifndef NO_SPRINGS  // software rasterisers run what no cell needs too
   CellForces f = {vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f)};
   if ((bits.lo & kCellBit) != 0u) {
     BodyParams body = bodies[bodyOf(bits)];
@@ -114,5 +115,6 @@ void main() {
     f = cellForces(at, s, volumePressure(bulk, s.e) * quarter, h, bulk, cellRigidity(slot, body), cellMoments(slot));
   }
   LEAVE_CELL_FORCES(slot, f, 0.0f)
+#endif
 }
 #endif

@@ -26,6 +26,7 @@ std::vector<std::string> FeatureSet::defines() const {
   if (volume) out.push_back("VOLUME");
   if (moments) out.push_back("MOMENTS");
   if (law) out.push_back("LAW");
+  if (!springs) out.push_back("NO_SPRINGS");
   if (thin_walls) out.push_back("THIN_WALLS");
   if (parts) out.push_back("PARTS");
   if (compensated) out.push_back("COMPENSATED");
@@ -42,6 +43,8 @@ FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint3
   features.network = model.hasNetwork();
   features.moments = hasMoments(model);
   features.law = hasLaw(model);
+  features.springs = std::any_of(model.bodies.begin(), model.bodies.end(),
+                                 [](const Body& body) { return body.material.law != Law::kNeoHookean; });
   features.thin_walls = features.moments && hasBends(model);
   features.volume = features.moments || hasVolumeEnergy(model);
   features.parts = isHeterogeneous(model);

@@ -24,6 +24,7 @@ struct FeatureSet {
   bool volume = false;       ///< cells have energies of their own: of volume (nu other than 1/4), by moments
   bool moments = false;      ///< some have the latter
   bool law = false;          ///< some of these obey a hyperelastic law
+  bool springs = true;       ///< something is made of springs: not all bodies obey one
   bool thin_walls = false;   ///< some of these lie in thin walls that bend as such
   bool parts = false;        ///< strengths differ within a body
   bool compensated = false;  ///< u and v are summed with Kahan's compensation
