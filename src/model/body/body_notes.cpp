@@ -60,7 +60,8 @@ std::string latticeNote(const Lattice& lattice, size_t fixed_nodes) {
   out << ", " << lattice.fills.size() << " cells tissue in part";
   const long percent = std::lround(100 * thinShare(lattice));
   if (percent > 0)
-    out << ", " << percent << " % of them in walls of less than " << kFewCells << " cells (material.thin_walls)";
+    out << ", " << percent << " % of them in walls of less than " << kFewCells
+        << " cells (law springs with material.thin_walls bends them as thin walls)";
   return out.str();
 }
 

@@ -101,6 +101,8 @@ constexpr Rule kRules[] = {
      in(Integrator::kLeapfrog), in(Backend::kAuto, Backend::kCpu), false},
     {"a stylus with mode cautery", nullptr, [](const Scene& scene) { return mayBurn(scene.styluses); }, kAll,
      in(Integrator::kLeapfrog)},
+    {"material.stiffening above 0", [](const BodyConfig& b) { return b.material.stiffening > 0; }, nullptr,
+     in(Structure::kLattice), in(Integrator::kLeapfrog), kAll, true, "springs do not stiffen"},
     {"material.law: neo_hookean", [](const BodyConfig& b) { return b.material.law == Law::kNeoHookean; }, nullptr,
      in(Structure::kLattice), in(Integrator::kLeapfrog)},
 };

@@ -332,7 +332,7 @@ bool Ticks::heed(const Watch::Verdict& verdict) {
 void Ticks::noteStretch(const layout::TickStats& stats) {
   // What tools squeeze is stiffer still by the ticks that it is heeded in.
   const double stiffening = static_cast<double>(floatFromBits(stats.max_stiffening_bits));
-  const double grown = std::max(0.0, stiffening - last_stiffening_) * (1 + backend_->lag());
+  const double grown = std::max(0.0, stiffening - std::max(1.0, last_stiffening_)) * (1 + backend_->lag());
   last_stiffening_ = stiffening;
   const double most = static_cast<double>(layout::kMostStiffening);
   stiffening_ = std::min(most, std::max(stiffening + grown, kSlowlyBack * stiffening_));

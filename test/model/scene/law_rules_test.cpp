@@ -62,6 +62,9 @@ TEST(LawRules, WhatItDoesNotGoWithIsNamed) {
         << with;
   EXPECT_TRUE(names(faultOf("law: neo_hookean", ", structure: explicit"), "structure lattice"));
   EXPECT_TRUE(names(faultOf("law: springs, stiffening: 2"), "material.stiffening needs material.law: neo_hookean"));
+  Scene stiffening = boxScene("stiffening: 2");
+  stiffening.solver.integrator = Integrator::kPd;  // which has springs
+  EXPECT_THROW(requireFeatures(stiffening), SceneError);
   Scene pd = boxScene("law: neo_hookean");
   pd.solver.integrator = Integrator::kPd;
   try {
