@@ -29,6 +29,7 @@ namespace {
 
 constexpr size_t kFinishedKept = 3;    // ticks whose measurements wait to be asked for
 constexpr double kStretchSteps = 0.1;  // in which the substep follows the stretch
+constexpr double kAtRest = 1;          // stiffening of cells that are not strained
 constexpr double kSlowlyBack = 0.9;    // in a tick, of what strain asks of the substep
 constexpr double kWorthwhile = 1.01;   // a stable substep must have grown by this factor to be taken
 // What is read from a saved state, over the same of this machine: of computed and of measured stable substeps.
@@ -63,6 +64,7 @@ Ticks::Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::
                  static_cast<size_t>(SolverBackend::kGoodStates + backend_->lag())),
       folds_(plan.tick_s) {
   finished_.reserve(kFinishedKept);
+  last_stiffening_ = kAtRest;
   if (measuresLimit(model, config_)) dt_limit_s_ = measureLimit_s(*backend_, model);
   planAnew();
   if (dt_limit_s_ > 0 && substeps_.calm > config_.max_substeps)
@@ -204,7 +206,8 @@ void Ticks::reset() {
   processes_.reset();
   pulls_.clear();
   told_ = {};
-  stretch_ = stiffening_ = last_stiffening_ = 0;
+  stretch_ = stiffening_ = 0;
+  last_stiffening_ = kAtRest;
   folds_.reset();
   looks_for_folds_ = false;
   dt_safe_s_ = safeTimeStep(model_);
@@ -226,6 +229,7 @@ void Ticks::writeState(const HostState& state, bool staggered) {
   if (staggered && last_dt_s_ == 0) last_dt_s_ = dt_s();
   if (staggered) recovering_ = false;
   ++cut_revision_;
+  last_stiffening_ = 0;  // it may have come there in any time
   if (watch_) noteStretch(watch_->restart());
 }
 
@@ -332,7 +336,7 @@ bool Ticks::heed(const Watch::Verdict& verdict) {
 void Ticks::noteStretch(const layout::TickStats& stats) {
   // What tools squeeze is stiffer still by the ticks that it is heeded in.
   const double stiffening = static_cast<double>(floatFromBits(stats.max_stiffening_bits));
-  const double grown = std::max(0.0, stiffening - std::max(1.0, last_stiffening_)) * (1 + backend_->lag());
+  const double grown = std::max(0.0, stiffening - last_stiffening_) * (1 + backend_->lag());
   last_stiffening_ = stiffening;
   const double most = static_cast<double>(layout::kMostStiffening);
   stiffening_ = std::min(most, std::max(stiffening + grown, kSlowlyBack * stiffening_));
