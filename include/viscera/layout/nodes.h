@@ -55,10 +55,11 @@ struct BodyParams {
   float stiffening;         // b of the neo-Hookean law's exponential (law.glsl); 0: none
   uint pad_x, pad_y;        // to whole vectors, as std140 has arrays of structs
 };
+// Law of a body's cells: springs, and what they lack; or a neo-Hookean energy (law.glsl), where springs act only in cells that have lost one.
+const uint kLawSprings = 0u;
+const uint kLawNeoHookean = 1u;
 // Connections of a body: springs of a lattice by offset and counts in NodeBits; the same lattice with its springs as links;
 // or any graph of links, where the low 18 bits of NodeBits.lo say how many of a node's links are whole.
-const uint kLawSprings = 0u;
-const uint kLawNeoHookean = 1u;  // springs act only in cells that have lost one (law.glsl)
 const uint kImplicit = 0u;
 const uint kExplicitLattice = 1u;
 const uint kNetwork = 2u;
