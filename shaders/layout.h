@@ -8,7 +8,6 @@
 #include "layout/bindings.h"
 #include "layout/edge_nodes.h"
 #include "layout/law.h"
-#include "layout/moments.h"
 #include "layout/network_skin.h"
 #include "layout/overlay.h"
 #include "layout/surface_node.h"

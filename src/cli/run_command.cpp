@@ -50,7 +50,6 @@ Json metricsOf(const Session& session, const layout::TickStats& stats, const std
   metrics.wall_s = wall_s;
   metrics.state_hash = session.stateHash();
   metrics.extremes = session.extremes();
-  metrics.unfolded = session.solver().health().unfolded;
   metrics.facts = session.facts();
   metrics.images = counters.renders;
   metrics.images_skipped = counters.skipped;

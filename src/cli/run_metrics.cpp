@@ -53,7 +53,6 @@ nlohmann::ordered_json toJson(const RunMetrics& metrics) {
   out["nonfinite"] = metrics.extremes.nonfinite;
   out["nodes_crowded"] = metrics.extremes.crowded;
   out["governor_trips"] = metrics.extremes.governor_trips;
-  out["nodes_unfolded"] = metrics.unfolded;
   out["ticks_held_back"] = metrics.extremes.held_back;
   out["peak_force_n"] = metrics.extremes.peak_force_n;
   for (const FactGroup& group : metrics.facts) out[group.name] = toJson(group.facts);

@@ -15,7 +15,6 @@ struct RunMetrics {
   std::string scene;
   const Model& model;
   uint64_t springs_cut = 0, substeps = 0, state_hash = 0;
-  uint64_t unfolded = 0;                    ///< nodes of tissue that was left turned inside out, put back
   uint64_t images = 0, images_skipped = 0;  ///< drawn; overtaken before they were
   double dt_s = 0, dt_safe_s = 0, dt_limit_s = 0, simulated_s = 0, wall_s = 0;
   FactGroups facts = {};  ///< of what lives in the tissue

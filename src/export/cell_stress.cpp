@@ -8,19 +8,12 @@
 
 #include "layout/law.h"
 #include "math/decompositions.h"
-#include "model/fracture/prestress.h"
 
 namespace viscera {
 
 namespace {
 
 using Eigen::Matrix3d;
-
-/// The strain of small size that gives a stress. @param stress  over mu
-Matrix3d strainOf(const Matrix3d& stress, double lambda, double mu) {
-  const double volume = lambda / (3 * lambda + 2 * mu);
-  return 0.5 * (stress - volume * stress.trace() * Matrix3d::Identity());
-}
 
 /// A cell's motion over h (docs/physics.md 1): its mean edges, and its hourglass motions by the axis that they leave
 /// out.
@@ -67,28 +60,29 @@ CellStress stressOf(const Matrix3d& cauchy, double energy_j_per_m3) {
   return {energy_j_per_m3, std::sqrt(1.5) * shear.norm(), principalValues(cauchy).reverse()};
 }
 
-/// sigma = mu exp(b x) J^(-5/3) (B - tr B / 3) + K/2 (J - 1/J), B = F F^T, x = J^(-2/3) tr B - 3. @param stiffening  b
-CellStress neoHookean(const Matrix3d& f, double lambda, double mu, double stiffening) {
+/// sigma = mu exp(b x) J^(-5/3) (B - tr B / 3) + K/2 (J - 1/J) + F S F^T / J, B = F F^T, x = J^(-2/3) tr B - 3.
+/// @param stiffening  b   @param prestress  S over mu
+CellStress neoHookean(const Matrix3d& f, double lambda, double mu, double stiffening, const Matrix3d& prestress) {
   const double j = std::max(volumeOf(f), static_cast<double>(layout::kLeastVolume)), bulk = lambda + 2.0 / 3 * mu;
   const Matrix3d b = f * f.transpose(), even = Matrix3d::Identity();
   const double x = std::pow(j, -2.0 / 3) * b.trace() - 3, most = static_cast<double>(layout::kMostExponent);
   const double y = stiffening * x, least = std::min(y, most), stiffer = std::exp(least);
   const double shear = stiffening == 0 ? x : (std::expm1(least) + stiffer * (y - least)) / stiffening;
-  const Matrix3d cauchy =
-      mu * stiffer * std::pow(j, -5.0 / 3) * (b - b.trace() / 3 * even) + bulk / 2 * (j - 1 / j) * even;
-  return stressOf(cauchy, mu / 2 * shear + bulk / 4 * (j * j - 1 - 2 * std::log(j)));
+  const Matrix3d cauchy = mu * stiffer * std::pow(j, -5.0 / 3) * (b - b.trace() / 3 * even) +
+                          bulk / 2 * (j - 1 / j) * even + mu / j * f * prestress * f.transpose();
+  const double of_prestress = mu / 2 * prestress.cwiseProduct(f.transpose() * f - even).sum();
+  return stressOf(cauchy, mu / 2 * shear + bulk / 4 * (j * j - 1 - 2 * std::log(j)) + of_prestress);
 }
 
-/// @param prestrain  at rest
-CellStress saintVenant(const Matrix3d& f, const Matrix3d& prestrain, double lambda, double mu) {
-  const Matrix3d strain = 0.5 * (f.transpose() * f - Matrix3d::Identity()) + prestrain;
+CellStress saintVenant(const Matrix3d& f, double lambda, double mu) {
+  const Matrix3d strain = 0.5 * (f.transpose() * f - Matrix3d::Identity());
   const Matrix3d second = lambda * strain.trace() * Matrix3d::Identity() + 2 * mu * strain;
   return stressOf(f * second * f.transpose() / volumeOf(f), 0.5 * second.cwiseProduct(strain).sum());
 }
 
 }  // namespace
 
-CellStresses::CellStresses(const Body& body) : body_(body), prestresses_(cellPrestresses(body)) {
+CellStresses::CellStresses(const Body& body) : body_(body) {
   const auto lameOf = [](double young_pa, double nu) {
     return Lame{young_pa * nu / ((1 + nu) * (1 - 2 * nu)), young_pa / (2 * (1 + nu))};
   };
@@ -107,16 +101,17 @@ CellStress CellStresses::at(uint32_t cell, const std::array<Vector3d, 8>& u_m) c
   const size_t label = lattice.cell_labels.empty() ? 0 : lattice.cell_labels[cell];
   const Lame& lame = lames_[std::min(label, lames_.size() - 1)];
   const Motion motion = motionOf(u_m, lattice.spacing_m);
-  if (body_.material.law != Law::kNeoHookean) {
-    const Matrix3d prestrain =
-        prestresses_.empty() ? Matrix3d(Matrix3d::Zero()) : strainOf(prestresses_[cell], lame.lambda, lame.mu);
-    return saintVenant(motion.edges, prestrain, lame.lambda, lame.mu);
-  }
+  if (body_.material.law != Law::kNeoHookean) return saintVenant(motion.edges, lame.lambda, lame.mu);
   const uint32_t which = moments_.of_cell.empty() ? 0 : moments_.of_cell[cell];
   const Vector3d centroid = which == 0 ? Vector3d(Vector3d::Zero())
                                        : Vector3d(moments_.fills[which - 1].first / moments_.fills[which - 1].share);
+  Matrix3d prestress = Matrix3d::Zero();
+  if (!body_.prestress.empty()) {
+    const std::array<float, 6>& s = body_.prestress[cell];
+    prestress << s[0], s[5], s[4], s[5], s[1], s[3], s[4], s[3], s[2];
+  }
   return neoHookean(gradientAt(motion, centroid, lame.lambda / (lame.lambda + 2 * lame.mu)), lame.lambda, lame.mu,
-                    body_.material.stiffening);
+                    body_.material.stiffening, prestress);
 }
 
 }  // namespace viscera

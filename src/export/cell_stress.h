@@ -34,7 +34,6 @@ class CellStresses {
   };
   const Body& body_;
   std::vector<Lame> lames_;                   ///< [parts + 1] of no part, then by label
-  std::vector<Eigen::Matrix3d> prestresses_;  ///< [slots] over mu, or none
   CellMoments moments_;
 };
 

@@ -14,7 +14,7 @@ namespace viscera::gpu {
 
 /// What the GPU works on, as far as it is timed.
 enum class Stage {
-  kVolume,
+  kCells,
   kStep,
   kCut,
   kMeasure,

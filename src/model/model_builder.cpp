@@ -82,10 +82,12 @@ Body buildLatticeBody(const BodyConfig& config, const Scene& scene, const Tissue
   body.skin = bindSkin(surface, body.lattice, solid, config.mapping, progress);
   body.skin.can_be_cut = can_be_cut;
   body.notes.push_back(skinNote(body.skin));
-  if (config.structure != Structure::kExplicit) return body;
+  if (config.structure != Structure::kExplicit) {
+    addCellPrestress(body);
+    return body;
+  }
   body.network = latticeNetwork(body, config.bending_ratio);
   body.notes.push_back(linksNote(*body.network));
-  addPrestress(body);
   return body;
 }
 
@@ -96,7 +98,7 @@ Body buildNetworkBody(const BodyConfig& config, const Tissue& tissue, bool can_b
   const size_t fixed_nodes = fixNodes(config, parts, body);
   body.notes.push_back(networkNote(body, fixed_nodes));
   addToughnessNotes(body);
-  addPrestress(body);
+  addSheetPrestress(body);
   addPiecesNote(config, body);
   if (progress) progress("extract skin", 0);
   body.skin = bindNetworkSkin(*body.network, can_be_cut);

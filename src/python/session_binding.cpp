@@ -142,7 +142,6 @@ py::dict diagnostics(const Facts& facts) {
   out["nonfinite"] = facts.extremes.nonfinite;
   out["nodes_crowded"] = facts.extremes.crowded;
   out["governor_trips"] = facts.extremes.governor_trips;
-  out["nodes_unfolded"] = facts.health.unfolded;
   out["ticks_held_back"] = facts.extremes.held_back;
   out["peak_force_n"] = facts.extremes.peak_force_n;
   out["backend"] = facts.backend;

@@ -14,7 +14,7 @@ namespace viscera {
 // and the bytes, the name, the bytes. All little-endian.
 
 /// Of the format and of what sections hold: grows with either, as older files cannot be read then.
-constexpr uint32_t kStateVersion = 6;
+constexpr uint32_t kStateVersion = 7;
 
 /// Written beside the file and put in its place when all of it is on the disk: whatever happens on the way, the file is
 /// the old one or the new one. @throws Error

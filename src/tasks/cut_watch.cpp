@@ -85,7 +85,6 @@ std::vector<Vector3d> CutWatch::fresh(const CutState& cuts) {
       const NetworkSpring& it = body.network->springs[i];
       if (spring >= cuts.spring_cut.size() || cuts.spring_cut[spring] == 0 || seen_springs_[spring]) continue;
       seen_springs_[spring] = true;
-      ++springs_;
       if (!hasOwnNetwork(body) || it.against_bending) continue;
       const Vector3d &from = body.network->positions_m[it.a], &to = body.network->positions_m[it.b];
       out.push_back(from + shareAlong(cuts.spring_cut[spring]) * (to - from));
@@ -97,8 +96,7 @@ std::vector<Vector3d> CutWatch::fresh(const CutState& cuts) {
         const size_t at = offset + size_t{3} * slot + static_cast<size_t>(axis);
         if (at >= cuts.axial_cut.size() || cuts.axial_cut[at] == 0 || seen_axial_[at]) continue;
         seen_axial_[at] = true;
-        ++springs_;
-        out.push_back(body.lattice.restPosition(slot) +
+          out.push_back(body.lattice.restPosition(slot) +
                       shareAlong(cuts.axial_cut[at]) * body.lattice.spacing_m * Vector3d::Unit(axis));
       }
     }

@@ -17,12 +17,10 @@ class CutWatch {
   /// The points, tissue frame [m], of springs that were whole when this was asked last. Those against bending have
   /// none.
   std::vector<Vector3d> fresh(const CutState& cuts);
-  size_t springs() const { return springs_; }  ///< that were seen cut, those against bending too
 
  private:
   const Model& model_;
   std::vector<bool> seen_springs_, seen_axial_;
-  size_t springs_ = 0;
 };
 
 /// Whether two places of tissue hang together, by paths of whole springs.

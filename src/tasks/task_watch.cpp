@@ -69,9 +69,8 @@ void TaskWatch::stepped(Session& session, const StylusSamples& samples) {
   tick.motions = session.motions();
   tick.tick_s = session.tick_s();
   if (judge_->heedsCuts() && session.solver().readCuts(cuts_)) {  // whatever cuts: blades, heat, sutures, tears
-    const size_t before = cut_watch_->springs();
     tick.cuts_m = cut_watch_->fresh(cuts_);
-    tick.apart = cut_watch_->springs() > before && judge_->isApart(cuts_);
+    tick.apart = judge_->isApart(cuts_);
   }
   if (judge_->heedsThreads()) {
     tick.threads = seenThreads(session);

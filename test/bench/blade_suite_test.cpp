@@ -39,9 +39,9 @@ TEST(BladeSuite, WorkIsToughnessTimesAreaWhateverTheSpacing) {
   expectLaw(trialOf(0.003, 20e3, 100));
 }
 
-TEST(BladeSuite, SoDoCellsOfSpringsAlone) {
+TEST(BladeSuite, SoItIsOfSprings) {
   BladeTrial trial = trialOf(0.004, 50e3, 200);
-  trial.cells = Cells::kSprings;
+  trial.law = Law::kSprings;
   expectLaw(trial);
 }
 

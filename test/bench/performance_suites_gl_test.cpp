@@ -78,8 +78,8 @@ TEST_F(PerformanceSuite, SpeedHasARowOfEachPartOnEachBackend) {
   EXPECT_EQ(rows("sessions").size(), 6u);
   EXPECT_EQ(rows("ticks").size(), 4u);
   EXPECT_GE(rows("stages").size(), 12u);
-  for (const std::string feature : {"dashpot", "energy of volume", "strengths by part", "contacts", "cuts", "cautery",
-                                    "compensated sums", "governor", "cut state", "fixed nodes"})
+  for (const std::string feature : {"dashpot", "strengths by part", "contacts", "cuts", "cautery", "compensated sums",
+                                    "governor", "cut state", "fixed nodes"})
     EXPECT_EQ(rowsWith("features", {feature}), 2u) << feature;
   EXPECT_EQ(rowsWith("cells", {"cube, full cells"}), 3u);  // one thread, all threads, GPU
   EXPECT_EQ(rowsWith("cells", {"heart"}), 3u);
@@ -136,13 +136,13 @@ TEST_F(PerformanceSuite, GpuHasEveryPart) {
   EXPECT_EQ(rows("reads").size(), 5u);
   EXPECT_EQ(rowsWith("checks", {",ok"}), 3u) << ending_.out;
   EXPECT_EQ(rows("limits").size(), 2u);
-  EXPECT_EQ(rowsWith("kernels", {"leapfrog.comp"}), 5u);  // with and without dashpot, nu, moments
-  EXPECT_EQ(rowsWith("kernels", {"volume.comp"}), 3u);
+  EXPECT_EQ(rowsWith("kernels", {"leapfrog.comp"}), 6u);  // springs and a law, with and without tables, a probe
+  EXPECT_EQ(rowsWith("kernels", {"cell_forces.comp"}), 3u);
   EXPECT_EQ(rows("faces").size(), 3u);
   EXPECT_EQ(rowsWith("faces", {"10000000,,,,,"}), 1u) << "left out, with a reason";
   EXPECT_EQ(rows("flight").size(), 4u);
   EXPECT_EQ(rows("live").size(), 2u);
-  EXPECT_EQ(rows("bytes").size(), 5u);
+  EXPECT_EQ(rows("bytes").size(), 4u);
 }
 
 TEST_F(PerformanceSuite, GpuNamesItsPartsWhereOneIsAskedForThatIsNotThere) {

@@ -29,7 +29,7 @@ TEST(PrestressSlit, OfTrianglesOpensByTheLaw) {
 
 TEST(PrestressSlit, OfALatticeOpensByTheLaw) {
   SlitTrial trial;
-  trial.structure = Structure::kExplicit;
+  trial.structure = Structure::kLattice;
   trial.spacing_m = trial.half_m / 6.5;
   trial.radius = 4;
   trial.thickness_m = trial.spacing_m;

@@ -59,8 +59,8 @@ void expectStabilityLimits(const std::string& backend) {
   EXPECT_EQ(ending.status, 0) << ending.out << ending.err;
   EXPECT_EQ(bool(test::says(ending.out, {"alone, as there is no OpenGL context"})), on_cpu);
   EXPECT_TRUE(test::says(ending.out, {"extreme starts", "what tools do", "random cuts", "state hash", ", 0 missed"}));
-  for (const char* table : {"starts", "starts_moments", "fractions", "tools", "cuts", "ratios", "rest", "units", "far",
-                            "sizes", "hashes", "hashes_moments"}) {
+  for (const char* table : {"starts", "starts_law", "fractions", "tools", "cuts", "ratios", "rest", "units", "far",
+                            "sizes", "hashes", "hashes_law"}) {
     const std::string rows = test::readFile(folder.file(std::string("stability_") + table + ".csv"));
     EXPECT_TRUE(test::says(rows, {"\n" + backend + ","})) << table << ":\n" << rows;
   }

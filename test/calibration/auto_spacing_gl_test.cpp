@@ -118,7 +118,7 @@ TEST_F(AutoSpacing, IsAcceptedByTheSolverWhereItsLimitsDecide) {
 
 TEST_F(AutoSpacing, IsNoCoarserThanTheWallsOfThePhantomHoweverSlowTheMachine) {
   scene_.bodies[0].source = TissueSource::kPhantom;
-  scene_.bodies[0].material.cells = Cells::kSprings;
+  scene_.bodies[0].material.law = Law::kSprings;
   scene_.solver.real_time_factor = 1000;
   const Scene scene = chosen();
   EXPECT_NEAR(scene.bodies[0].spacing_m, 0.042 * scene.bodies[0].phantom_length_m, 1e-9);

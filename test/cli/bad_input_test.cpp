@@ -61,6 +61,7 @@ TEST_F(BadInput, KeysAndValuesThatWereRemoved) {
                      {"'solver.integrator: " + integrator + "' was removed", "use leapfrog"});
   expectRunRefusal({"--set", "bodies[0].structure=tetrahedra"}, {"was removed", "use lattice", "Gmsh"});
   expectRunRefusal({"--set", "solver.spring_forces=edge"}, {"'solver.spring_forces' was removed", "leave it out"});
+  expectRunRefusal({"--set", "bodies[0].material.cells=moments"}, {"material.cells' was removed", "material.law"});
   for (const std::string key : {"search=grid", "partitions=2", "window=8"})
     expectRunRefusal({"--set", "collision." + key}, {"was removed", "the search for contacts is complete"});
   expectRefusal({"settle", folder_.file("none.yaml")}, {folder_.file("none.yaml")});

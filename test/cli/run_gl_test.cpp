@@ -146,36 +146,12 @@ TEST_F(Run, NodesTooCrowdedForContactsAreCounted) {
   }
 }
 
-/// A ball of two cells' width goes in at the front and out at the side. Cells by moments come back by themselves.
-TEST_F(Run, NodesThatWereUnfoldedAreCounted) {
-  const std::string through = folder_.write("through.yaml",
-                                            "strokes:\n"
-                                            "  - stylus: left\n"
-                                            "    anchor: {from_m: [0.001, -0.3, 0.001], towards_m: [0.001, 0, 0.001]}\n"
-                                            "    keys:\n"
-                                            "      - {t_s: 0, position_m: [0, 0, 0.02]}\n"
-                                            "      - {t_s: 0.2, position_m: [0, 0, -0.022]}\n"
-                                            "      - {t_s: 0.8, position_m: [0.08, 0, -0.022]}\n");
-  for (const std::string backend : {"gpu", "cpu"}) {
-    const auto unfolded = [&](const std::string& cells) {
-      std::vector<std::string> options = {"--strokes", through, "--seconds", "2.5", "--no-view"};
-      for (const std::string& key :
-           {"solver.backend=" + backend, "bodies[0].material.cells=" + cells,
-            std::string("environment.gravity_m_per_s2=[0, 0, 0]"), std::string("styluses[0].probe.radius_m=0.01")})
-        options.insert(options.end(), {"--set", key});
-      return metricsOf(run(options))["nodes_unfolded"];
-    };
-    EXPECT_GT(unfolded("springs"), 0) << backend;
-    EXPECT_EQ(unfolded("moments"), 0) << backend;
-  }
-}
-
 TEST_F(Run, LastLineIsAnObjectWithAllMeasurements) {
   const Json metrics = metricsOf(run({"--seconds", "0.1"}));
   ASSERT_TRUE(metrics.is_object());
   for (const char* key : {"nodes", "springs", "springs_cut", "faces", "steps", "dt_s", "dt_safe_s", "dt_limit_s",
                           "real_time_factor", "node_updates_per_s", "max_stretch", "nonfinite", "nodes_crowded",
-                          "governor_trips", "nodes_unfolded", "ticks_held_back", "peak_force_n"}) {
+                          "governor_trips", "ticks_held_back", "peak_force_n"}) {
     ASSERT_TRUE(metrics.contains(key)) << key;
     EXPECT_TRUE(metrics[key].is_number()) << key;
   }

@@ -32,7 +32,6 @@ TEST(CellStress, OfTheNeoHookeanLawIsCauchysWhicheverWayTheCellIsTurned) {
   Body body = boxBody({2, 2, 2}, kEdge_m);
   body.material.young_modulus_pa = 20e3;
   body.material.poisson_ratio = 0.3;
-  body.material.cells = Cells::kMoments;
   body.material.law = Law::kNeoHookean;
   const double mu = 20e3 / 2.6, bulk = 20e3 / 1.2, l = kStretch;
   for (const double b : {0.0, 4.0}) {
@@ -54,7 +53,6 @@ TEST(CellStress, OfRestIsNothing) {
   for (const Law law : {Law::kSprings, Law::kNeoHookean}) {
     Body body = boxBody({2, 2, 2}, kEdge_m);
     body.material.law = law;
-    body.material.cells = Cells::kMoments;
     std::array<Vector3d, 8> still;
     still.fill(Vector3d::Zero());
     const CellStress stress = CellStresses(body).at(body.lattice.active_slots[0], still);

@@ -91,7 +91,7 @@ TEST_P(GpuErrorsOfBlocks, CountAsTheDriverDoes) {
   limits.loads = GetParam();
   pretendDriverLimits(limits);
   std::vector<std::string> tabulated = kAhead, texels = kAhead;
-  tabulated.insert(tabulated.end(), {"NETWORK", "PARTS", "MOMENTS", "VOLUME"});
+  tabulated.insert(tabulated.end(), {"NETWORK", "PARTS", "LAW"});
   texels.push_back("TEXELS");
   for (const auto& features : {kAhead, tabulated, texels}) {
     for (const char* kernel : {"collision_meet.comp", "measure.comp"}) {

@@ -61,15 +61,15 @@ TEST_F(StageClockTest, TimeBelongsToTheInnermostStageAndOutsideOfStagesToNone) {
   const ScriptedTime time;
   StageClock clock(16);
   {
-    const TimedStage step(Stage::kStep);      // 1 ns
-    const TimedStage volume(Stage::kVolume);  // 2 ns, then the step again for 4 ns, 8 of none
+    const TimedStage step(Stage::kStep);    // 1 ns
+    const TimedStage cells(Stage::kCells);  // 2 ns, then the step again for 4 ns, 8 of none
   }
   { const TimedStage step(Stage::kStep); }
   const auto& times = clock.collect();
-  EXPECT_EQ(ns(of(times, Stage::kVolume)), 2);
+  EXPECT_EQ(ns(of(times, Stage::kCells)), 2);
   EXPECT_EQ(ns(of(times, Stage::kStep)), 1 + 4 + 16);
   EXPECT_EQ(of(times, Stage::kStep).count, 2u);
-  EXPECT_EQ(of(times, Stage::kVolume).count, 1u);
+  EXPECT_EQ(of(times, Stage::kCells).count, 1u);
   EXPECT_EQ(of(times, Stage::kCut).count, 0u);
 }
 

@@ -20,7 +20,7 @@ std::set<std::array<double, 3>> fixedPositions(const Lattice& lattice) {
 
 TEST(FixedNodes, FixedShapesAreInTheBodysFrame) {
   BodyConfig config = boxConfig({0.04, 0.04, 0.04}, 0.01);
-  config.material.cells = Cells::kSprings;
+  config.material.law = Law::kSprings;
   config.position_m = {0.5, -0.25, 0.125};
   FixedConfig plane;
   plane.shape = FixedShape::kPlane;
@@ -79,7 +79,6 @@ FixedConfig planeAt(const Vector3d& point_m, const Vector3d& normal) {
 TEST(FixedNodes, NodesOfAMeshLieOnThePlaneThatHoldsIt) {
   for (const double z : {0.0, 0.0123, 0.0277, 0.031}) {
     BodyConfig config = meshConfig(sphereMesh(Vector3f::Zero(), 0.04f, 24), 0.01);
-    config.material.cells = Cells::kMoments;
     config.position_m = {0.1, 0.2, 0.3};
     config.fixed = {planeAt({0, 0, z}, {0, 0, -1})};
     const Lattice lattice = build(config).lattice;
@@ -100,7 +99,6 @@ TEST(FixedNodes, NodesOfAMeshLieOnThePlaneThatHoldsIt) {
 
 TEST(FixedNodes, NodesNearerThanHalfACellToASlopingPlaneAreHeld) {
   BodyConfig config = meshConfig(sphereMesh(Vector3f::Zero(), 0.04f, 24), 0.01);
-  config.material.cells = Cells::kMoments;
   const Vector3d normal = Vector3d(1, 2, 3).normalized(), point(0.002, -0.01, 0.003);
   config.fixed = {planeAt(point, normal)};
   const Lattice lattice = build(config).lattice;

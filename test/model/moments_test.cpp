@@ -250,8 +250,9 @@ Solid filled(const BodyConfig& config) {
 TEST(Moments, ABoxAsABodyKeepsItsSize) {
   BodyConfig config = boxConfig({0.05, 0.03, 0.02}, 0.01);
   config.position_m = {0.0123, -0.02, 0.4};
+  config.material.law = Law::kSprings;
   const Solid springs = filled(config);
-  config.material.cells = Cells::kMoments;
+  config.material.law = Law::kNeoHookean;
   Solid solid = filled(config);
   EXPECT_EQ(solid.labels, springs.labels);
   EXPECT_EQ(solid.origin_m, springs.origin_m);
@@ -270,7 +271,6 @@ TEST(Moments, ABoxAsABodyKeepsItsSize) {
 
 TEST(Moments, EverySourceHasItsVolumeAtAnySpacingAndPlace) {
   BodyConfig config = phantomConfig(0.002);
-  config.material.cells = Cells::kMoments;
   const double heart_m3 = filled(config).volumeM3();
   for (const double h : {0.006, 0.004, 0.003}) {
     config.spacing_m = h;
@@ -295,7 +295,6 @@ TEST(Moments, NodesKnowHowDeepBelowTheSurfaceTheyLie) {
   BodyConfig box = boxConfig({0.043, 0.031, 0.022}, 0.005);
   box.rotation_deg = {10, 20, 30};
   for (BodyConfig config : {ball, mesh, box}) {
-    config.material.cells = Cells::kMoments;
     config.position_m = kSomewhere;
     const Lattice lattice = build(config).lattice;
     ASSERT_EQ(lattice.depth_m.size(), lattice.nodes.size());
@@ -316,7 +315,6 @@ TEST(Moments, NodesKnowHowDeepBelowTheSurfaceTheyLie) {
 
 TEST(Moments, NodesAreCountedOfTheCellsThatWillBe) {
   BodyConfig config = phantomConfig(0);
-  config.material.cells = Cells::kMoments;
   config.target_nodes = 3000;
   const Body body = build(config);
   EXPECT_NEAR(body.lattice.active_slots.size(), 3000, 60);

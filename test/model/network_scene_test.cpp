@@ -142,8 +142,8 @@ TEST(NetworkScene, MeshesAreRefinedToOneSpacing) {
 }
 
 TEST(NetworkScene, ABallIsFilledOrHollow) {
-  const Body solid = bodyOf(
-      "source: ball, ball_radius_m: 0.05, spacing_m: 0.005, position_m: [0.5, 0, 0], material: {cells: springs}");
+  const Body solid =
+      bodyOf("source: ball, ball_radius_m: 0.05, spacing_m: 0.005, position_m: [0.5, 0, 0], material: {law: springs}");
   EXPECT_FALSE(solid.network.has_value());
   const double volume_m3 = 4.0 / 3 * std::acos(-1.0) * 0.05 * 0.05 * 0.05;
   size_t eighths = 0;
@@ -156,7 +156,7 @@ TEST(NetworkScene, ABallIsFilledOrHollow) {
 
 TEST(NetworkScene, AnExplicitLatticeIsTheLatticeWithLinks) {
   const std::string source = "source: phantom, spacing_m: 0.006, fixed: [{shape: part, part: aorta}]";
-  const Body implicit = bodyOf(source), body = bodyOf(source + ", structure: explicit");
+  const Body implicit = bodyOf(source + ", material: {law: springs}"), body = bodyOf(source + ", structure: explicit");
   ASSERT_TRUE(body.network.has_value());
   EXPECT_TRUE(body.network->of_lattice);
   EXPECT_EQ(body.lattice.active_slots, implicit.lattice.active_slots);
@@ -179,7 +179,7 @@ TEST(NetworkScene, WhatDoesNotGoTogetherIsRefused) {
   expectRefused<SceneError>("source: ball, structure: tetrahedra",
                             {"s.yaml:1", "'bodies[0].structure: tetrahedra' was removed: use lattice", ".msh file"});
   expectRefused<SceneError>(ball + ", material: {poisson_ratio: 0.3}",
-                            {"material.poisson_ratio needs structure lattice or explicit, not surface", "1/3"});
+                            {"poisson_ratio other than 0.25", "needs structure lattice, not surface", "1/3"});
   expectRefused<SceneError>(ball + ", material: {weights: paper}", {"weights: paper needs structure lattice"});
   expectRefused<SceneError>(ball + ", parts: [{part: a}]", {"parts needs structure lattice or explicit"});
   expectRefused<SceneError>(ball + ", skin: volume", {"skin other than auto needs structure lattice or explicit"});

@@ -70,7 +70,6 @@ TEST_P(AppearingAbove, InTheAirWithinACellOfTheSkinPushesAtOnce) {
   BodyConfig& body = low.bodies[0];
   body.spacing_m = 0.005;                       // the probe is no finer
   body.box_size_m.z() -= 0.9 * body.spacing_m;  // the lowest cells and the highest are tissue to 0.55
-  body.material.cells = Cells::kMoments;
   body.fixed[0].point_m.z() = -0.5 * body.box_size_m.z();
   Session session(low, context_);
   const double skin_m = 0.5 * body.box_size_m.z(), begin_m = skin_m + low.styluses[0].probe.radius_m + 0.0005;

@@ -27,32 +27,37 @@ TEST(Features, PlainSceneAsksForNoneOfThem) {
   Body body = test::boxBody({1, 1, 1}, 0.01);
   body.material.dashpot_ratio = 0;
   const FeatureSet features = featuresOf(body);
-  for (const char* name : {"DASHPOT", "PREDICTED", "VOLUME", "PARTS", "COMPENSATED"})
+  for (const char* name : {"DASHPOT", "PREDICTED", "LAW", "NO_SPRINGS", "PARTS", "COMPENSATED"})
     EXPECT_FALSE(has(features, name)) << name;
   EXPECT_TRUE(has(features, "SINGLE_BODY"));
 }
 
-TEST(Features, SpringsArePredictedWhereTheyHaveDashpotsAndNoCellIsByMoments) {
+TEST(Features, SpringsArePredictedWhereTheyHaveDashpotsAndThereAreSome) {
   Body body = test::boxBody({1, 1, 1}, 0.01);
   body.material.dashpot_ratio = 0.2;
-  body.material.cells = Cells::kSprings;
+  body.material.law = Law::kSprings;
   EXPECT_TRUE(has(featuresOf(body), "PREDICTED"));
-  body.material.cells = Cells::kMoments;
+  body.material.law = Law::kNeoHookean;
   EXPECT_FALSE(has(featuresOf(body), "PREDICTED"));
 }
 
-TEST(Features, VolumeIsThereForAnyPoissonsRatioButAQuarter) {
-  Body body = test::boxBody({1, 1, 1}, 0.01);
-  for (double nu : {0.0, 0.2499, 0.2501, 0.49}) {
-    body.material.poisson_ratio = nu;
-    EXPECT_TRUE(has(featuresOf(body), "VOLUME")) << nu;
+TEST(Features, LawIsThereWhereABodyObeysOneAndSpringsAreNotWhereAllDo) {
+  const Body springs = test::boxBody({1, 1, 1}, 0.01);
+  for (const double nu : {0.0, 0.25, 0.49}) {
+    const FeatureSet features = featuresOf(test::ofLaw(springs, nu));
+    EXPECT_TRUE(has(features, "LAW")) << nu;
+    EXPECT_TRUE(has(features, "NO_SPRINGS")) << nu;
   }
-  body.material.poisson_ratio = 0.25;
-  EXPECT_FALSE(has(featuresOf(body), "VOLUME"));
-  PartConfig part;
-  part.poisson_ratio = 0.4;
-  body.parts = {part};
-  EXPECT_TRUE(has(featuresOf(body), "VOLUME"));
+  EXPECT_FALSE(has(featuresOf(springs), "LAW"));
+  const FeatureSet both = featuresOf(test::modelOf({springs, test::ofLaw(springs)}), Scene{}, 1e-3);
+  EXPECT_TRUE(has(both, "LAW"));
+  EXPECT_FALSE(has(both, "NO_SPRINGS"));
+}
+
+TEST(Features, PartsAreThereWhereStrengthsDifferWithinABody) {
+  Body body = test::boxBody({1, 1, 1}, 0.01);
+  EXPECT_FALSE(has(featuresOf(body), "PARTS"));
+  body.parts = {PartConfig{}};
   EXPECT_TRUE(has(featuresOf(body), "PARTS"));
 }
 

@@ -22,9 +22,7 @@ Body startBody(Shape shape, double nu) {
                   ? momentBody({5, 5, 5}, kStartSpacing_m,
                                [](const Vector3d& p) { return (p - Vector3d(2.6, 2.3, 2.4)).norm() < 1.9; })
                   : boxBody(Vector3i::Constant(shape == Shape::kCell ? 1 : 3), kStartSpacing_m);
-  body.material.cells = Cells::kMoments;
-  body.material.law = Law::kNeoHookean;
-  body.material.poisson_ratio = nu;
+  body = ofLaw(body, nu);
   body.material.dashpot_ratio = 0.2;
   body.material.drag_per_s = 4;
   return body;

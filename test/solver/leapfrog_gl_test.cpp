@@ -70,7 +70,6 @@ TEST_P(Integrate, ADashpotTakesFromAModeWhatItsFrequencySays) {
   // The velocity is half a substep old, at most z/2 = 0.02 of the energy at either end, of which more than e^2 is lost.
   constexpr double kLogarithm = 0.04;
   Body body = boxBody({1, 1, 1}, 0.01);
-  body.material.cells = Cells::kSprings;
   body.material.drag_per_s = 0;
   body.material.dashpot_ratio = 0.2;
   const Model model = modelOf({body});
@@ -102,7 +101,6 @@ TEST_P(Integrate, PredictedSpringsKeepMomentumAndSlowATurnBySoMuch) {
   constexpr int kTicks = 100;
   constexpr double kRounding = 1e-5;  // of float32 sums over the block
   Body body = boxBody({3, 4, 3}, 0.01);
-  body.material.cells = Cells::kSprings;
   body.material.drag_per_s = 0;
   body.material.dashpot_ratio = 0.2;
   const Model model = modelOf({body});
@@ -142,46 +140,13 @@ TEST_P(Integrate, PredictedSpringsKeepMomentumAndSlowATurnBySoMuch) {
   EXPECT_NEAR(std::log(before / angular()) / lost, 1, 0.1);
 }
 
-TEST_P(Integrate, MatchesReferenceWithVolumesOfAnyPoissonRatio) {
-  for (const double poisson_ratio : {0.0, 0.4, 0.49}) {
-    SCOPED_TRACE(poisson_ratio);
-    Body body = boxBody({5, 6, 4}, 0.01);
-    body.material.poisson_ratio = poisson_ratio;
-    expectLikeReference(modelOf({body}), Vector3d(0.3, -0.2, -9.81));
-  }
+TEST_P(Integrate, MatchesReferenceOfABlock) {
+  expectLikeReference(modelOf({boxBody({5, 6, 4}, 0.01)}), Vector3d(0.3, -0.2, -9.81));
 }
 
-TEST_P(Integrate, VolumesMatchTheReferenceWhereTheyAreInvertedOrTorn) {
-  for (const double poisson_ratio : {0.1, 0.45}) {
-    SCOPED_TRACE(poisson_ratio);
-    Body body = boxBody({4, 4, 4}, 0.01);
-    body.material.poisson_ratio = poisson_ratio;
-    body.lattice.nodes[static_cast<size_t>(body.lattice.slotAt({1, 2, 1}))].lo &= ~layout::kCellBit;
-    const Model model = modelOf({body});
-    expectSameSubstep(model, randomState(model, 2 * body.lattice.spacing_m, 1, 5));
-  }
-}
-
-/// Squeezed along an axis, mirrored, which strains nothing, and at random; full cells and partial ones.
-TEST_P(Integrate, CrushedCellsMatchTheReference) {
-  const auto all = [](const Vector3d&) { return true; };
-  const auto some = [](const Vector3d& p) { return p.dot(Vector3d(1, 0.7, 0.4)) < 4.6; };
-  for (const bool full : {true, false}) {
-    const Model model = modelOf({full ? momentBody({4, 4, 4}, 0.01, all) : momentBody({4, 4, 4}, 0.01, some)});
-    const Lattice& lattice = model.bodies[0].lattice;
-    for (int kind = 0; kind < 3; ++kind) {
-      SCOPED_TRACE(::testing::Message() << (full ? "full, " : "partial, ") << kind);
-      const double random = kind == 2 ? 0.4 : 0.02;
-      HostState start = randomState(model, random * lattice.spacing_m, 0.1, 5);
-      for (const uint32_t slot : lattice.active_slots) {
-        const Vector3d x = lattice.restPosition(slot);
-        layout::vec4& u = start.displacement_m[slot];
-        if (kind == 0) u.z -= static_cast<float>(0.7 * x.z());
-        if (kind == 1) u.x -= static_cast<float>(2 * x.x());
-      }
-      expectSameSubstep(model, start);
-    }
-  }
+TEST_P(Integrate, SpringsFarFromRestMatchTheReference) {
+  const Model model = modelOf({boxBody({4, 4, 4}, 0.01)});
+  expectSameSubstep(model, randomState(model, 0.02, 1, 5));
 }
 
 TEST_P(Integrate, MatchesReferenceWithPartsAndTheirInterface) {
@@ -191,7 +156,7 @@ TEST_P(Integrate, MatchesReferenceWithPartsAndTheirInterface) {
     uint16_t& label = body.lattice.cell_labels[slot];
     if (label && body.lattice.nodeAt(slot).x() >= 3) label = 2;
   }
-  body.parts = {{"valve", 200e3, 0.4, 3000}};
+  body.parts = {{"valve", 200e3, 0.25, 3000}};
   for (const Weights weights : {Weights::kCell, Weights::kPaper}) {
     body.material.weights = weights;
     expectLikeReference(modelOf({body}), Vector3d(0, 0, -9.81));

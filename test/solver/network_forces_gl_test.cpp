@@ -73,9 +73,7 @@ TEST_P(NetworkForces, VanishAtRest) {
 }
 
 TEST_P(NetworkForces, OfALatticeOfLinksAreTheImplicitOnes) {
-  Body box = undamped(boxBody({6, 5, 7}, 0.01)), full = box;
-  full.material.poisson_ratio = 0.45;
-  for (const Body& body : {box, full, undamped(twoPartBody())}) {
+  for (const Body& body : {undamped(boxBody({6, 5, 7}, 0.01)), undamped(twoPartBody())}) {
     const Model implicit = modelOf({body}), links = modelOf({withLinks(body)});
     const HostState state = scatteredState(implicit, 1e-3, 0, 11);
     HostState of_links = restState(links);

@@ -40,8 +40,7 @@ inline Body withLinks(Body body, double bending_ratio = 0) {
 
 /// A lattice, a cloth, a graph and a lattice of links, all of which differ in everything.
 inline Model mixedModel() {
-  Body box = boxBody({4, 3, 5}, 0.01);
-  box.material.poisson_ratio = 0.4;
+  const Body box = boxBody({4, 3, 5}, 0.01);
   Body links = withLinks(box);
   links.material.drag_per_s = 20;
   GraphOptions options;

@@ -142,21 +142,8 @@ TEST_P(Pd, MatchesReferenceAtEverySize) {
   }
 }
 
-TEST_P(Pd, MatchesReferenceWithVolumesOfAnyPoissonRatio) {
-  for (const double poisson_ratio : {0.0, 0.45, 0.49}) {
-    SCOPED_TRACE(poisson_ratio);
-    Body body = boxBody({4, 4, 4}, 0.01);
-    body.material.poisson_ratio = poisson_ratio;
-    expectLikeReference(modelOf({body}), Vector3d(0, 0, -9.81));
-  }
-}
-
-TEST_P(Pd, MatchesReferenceWithMoments) {
-  for (const Body& body : momentBodies()) expectLikeReference(modelOf({body}), Vector3d(0, 0, -9.81));
-}
-
-TEST_P(Pd, EnergyStaysBelowItsStartWithMoments) {
-  expectEnergyBoundWithMoments(GetParam(), Integrator::kPd);
+TEST_P(Pd, MatchesReferenceOfABlock) {
+  expectLikeReference(modelOf({boxBody({4, 4, 4}, 0.01)}), Vector3d(0, 0, -9.81));
 }
 
 TEST_P(Pd, MatchesReferenceWithPartsAndFixedNodes) {
@@ -164,17 +151,12 @@ TEST_P(Pd, MatchesReferenceWithPartsAndFixedNodes) {
 }
 
 TEST_P(Pd, EnergyStaysBelowItsStartWhateverTheStart) {
-  for (const double poisson_ratio : {0.25, 0.45}) {
-    for (const double fraction : {1.0, 10.0, 100.0})
-      expectEnergyBound(GetParam(), Integrator::kPd, poisson_ratio, fraction);
-  }
-  expectEnergyBound(GetParam(), Integrator::kPd, 0.49,
-                    0.5);  // too few sweeps: without the bound at the end of a substep 1.4 of the start
+  for (const double fraction : {0.5, 1.0, 10.0, 100.0}) expectEnergyBound(GetParam(), Integrator::kPd, fraction);
 }
 
 /// One sweep is far from a solution: what it leaves of the velocities has more energy than the start, and is not taken.
 TEST_P(Pd, EnergyStaysBelowItsStartWithTooFewIterations) {
-  expectEnergyBound(GetParam(), Integrator::kPd, 0.49, 0.2, 1);  // 1.09 of its start where the last share is not chosen
+  expectEnergyBound(GetParam(), Integrator::kPd, 0.2, 1);
 }
 
 TEST_P(Pd, FallsFreelyHoweverLongTheSubstep) {
@@ -188,30 +170,25 @@ TEST_P(Pd, FallsFreelyHoweverLongTheSubstep) {
 }
 
 TEST_P(Pd, ToolsActLikeTheReferences) {
-  for (const double poisson_ratio : {0.25, 0.4}) {
-    // Absolute positions of tools, rounded at 6e-8 of 0.05 m, on displacements of 3e-3 m.
-    expectToolsLikeReference(GetParam(), Integrator::kPd, kPdIterations, poisson_ratio, 1e-5);
-  }
+  // Absolute positions of tools, rounded at 6e-8 of 0.05 m, on displacements of 3e-3 m.
+  expectToolsLikeReference(GetParam(), Integrator::kPd, kPdIterations, 1e-5);
 }
 
 TEST_P(Pd, RecoveryKeepsTheEnergyBound) {
   constexpr int kIterationsOfRecovery = 20, kRecovered = 8;  // substeps
   constexpr double kAllowed = 0.01;                          // of the start: the stability suite's limit
   constexpr double kNothing_j = 1e-9;                        // as in expectEnergyBound()
-  for (const double poisson_ratio : {0.25, 0.45}) {
-    Body body = boxBody({3, 3, 3}, 0.01);
-    body.material.poisson_ratio = poisson_ratio;
-    body.material.drag_per_s = 0;
-    const Model model = modelOf({body});
-    for (const double fraction : {1.0, 10.0, 100.0}) {
-      const auto alone = pdAlone(GetParam(), model, fraction);
-      for (const Abuse abuse : kAbuses) {
-        SCOPED_TRACE(::testing::Message() << poisson_ratio << " " << fraction << " " << static_cast<int>(abuse));
-        const double start_j = energyOf(model, abusedState(model, abuse));
-        for (const HostState& end : alone->recover(abusedState(model, abuse), kIterationsOfRecovery, kRecovered)) {
-          ASSERT_TRUE(isFinite(end));
-          ASSERT_LE(energyOf(model, end), start_j + kAllowed * std::abs(start_j) + kNothing_j);
-        }
+  Body body = boxBody({3, 3, 3}, 0.01);
+  body.material.drag_per_s = 0;
+  const Model model = modelOf({body});
+  for (const double fraction : {1.0, 10.0, 100.0}) {
+    const auto alone = pdAlone(GetParam(), model, fraction);
+    for (const Abuse abuse : kAbuses) {
+      SCOPED_TRACE(::testing::Message() << fraction << " " << static_cast<int>(abuse));
+      const double start_j = energyOf(model, abusedState(model, abuse));
+      for (const HostState& end : alone->recover(abusedState(model, abuse), kIterationsOfRecovery, kRecovered)) {
+        ASSERT_TRUE(isFinite(end));
+        ASSERT_LE(energyOf(model, end), start_j + kAllowed * std::abs(start_j) + kNothing_j);
       }
     }
   }
@@ -255,7 +232,7 @@ TEST_P(Pd, AccelerationThatGoesWrongIsGivenUpAndStartsAnew) {
   }
 }
 
-/// What the iteration that gave up says of its change is what volumes allow the next ones: it must not be nothing.
+/// What the iteration that gave up says of its change must not be nothing.
 TEST_P(Pd, StartsAnewAlsoWhereTheFirstNodeIsFixed) {
   constexpr size_t kWatched = 20;  // iterations, of which an early one gives up
   Body body = boxBody({4, 4, 4}, 0.01);

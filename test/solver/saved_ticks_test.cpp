@@ -31,33 +31,19 @@ Spoilt spoilt(size_t at, T value, const char* named) {
 std::vector<Spoilt> spoiltTicks() {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
   constexpr size_t kSafe = 0, kLimit = 8, kStretch = 16, kStiffening = 24, kCalm = 40, kStrained = 44, kLast = 60,
-                   kRecovers = 64, kRestarted = 65, kLast_s = 66, kLooks = 74, kLooksLeft = 75, kTicksLeft = 79,
-                   kTime_s = 83;
+                   kRecovers = 64, kRestarted = 65, kLast_s = 66, kReleasing = 74, kTime_s = 78;
   const auto byte = static_cast<uint8_t>(2);
-  return {spoilt(kSafe, kNan, "stable substep"),
-          spoilt(kSafe, 0.0, "stable substep"),
-          spoilt(kSafe, -1.0, "stable substep"),
-          spoilt(kLimit, kNan, "measured stable substep"),
-          spoilt(kLimit, 1e9, "measured stable"),
-          spoilt(kStretch, -1.0, "stretch"),
-          spoilt(kStretch, kInf, "stretch"),
-          spoilt(kStiffening, -1.0, "stiffening"),
-          spoilt(kStiffening, kNan, "stiffening"),
-          spoilt(kCalm, 0, "calm substeps"),
-          spoilt(kCalm, 1 << 30, "calm substeps"),
-          spoilt(kStrained, -5, "strained substeps"),
-          spoilt(kStrained, 1 << 30, "strained"),
-          spoilt(kLast, 1 << 30, "substeps of the last tick"),
-          spoilt(kLast, 0, "of the last tick"),
-          spoilt(kRecovers, byte, "flag"),
-          spoilt(kRestarted, byte, "flag"),
-          spoilt(kLast_s, kNan, "last substep"),
-          spoilt(kLast_s, 1.0, "last substep"),
-          spoilt(kLooks, byte, "flag"),
-          spoilt(kLooksLeft, 99, "looks for folded"),
-          spoilt(kTicksLeft, 1 << 30, "ticks until"),
-          spoilt(kTime_s, kInf, "time"),
-          spoilt(kTime_s, -1.0, "time")};
+  return {spoilt(kSafe, kNan, "stable substep"),   spoilt(kSafe, 0.0, "stable substep"),
+          spoilt(kSafe, -1.0, "stable substep"),   spoilt(kLimit, kNan, "measured stable substep"),
+          spoilt(kLimit, 1e9, "measured stable"),  spoilt(kStretch, -1.0, "stretch"),
+          spoilt(kStretch, kInf, "stretch"),       spoilt(kStiffening, -1.0, "stiffening"),
+          spoilt(kStiffening, kNan, "stiffening"), spoilt(kCalm, 0, "calm substeps"),
+          spoilt(kCalm, 1 << 30, "calm substeps"), spoilt(kStrained, -5, "strained substeps"),
+          spoilt(kStrained, 1 << 30, "strained"),  spoilt(kLast, 1 << 30, "substeps of the last tick"),
+          spoilt(kLast, 0, "of the last tick"),    spoilt(kRecovers, byte, "flag"),
+          spoilt(kRestarted, byte, "flag"),        spoilt(kLast_s, kNan, "last substep"),
+          spoilt(kLast_s, 1.0, "last substep"),    spoilt(kReleasing, 1 << 30, "ticks after a cut"),
+          spoilt(kTime_s, kInf, "time"),           spoilt(kTime_s, -1.0, "time")};
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ TYPED_TEST(SleepingOn, BodyAtRestFallsAsleepAfterAWhileAndStaysAsItIs) {
 }
 
 TYPED_TEST(SleepingOn, NothingSleepsWhereTheSpeedIsZero) {
-  const auto solver = this->make({0.25, 0});
+  const auto solver = this->make({0});
   for (int t = 0; t < 50; ++t) solver->step(ToolMotions{});
   EXPECT_EQ(solver->awakeBricks(), solver->bricks());
 }
@@ -82,7 +82,7 @@ TYPED_TEST(SleepingOn, ProbedCornerMovesAsWithoutSleep) {
     SCOPED_TRACE(speed_m_per_s);
     // What bricks that sleep leave out is slower than that, and the drag of 60 1/s stops it within 1/60 s.
     const double left_out_m = speed_m_per_s / kSleepDrag_per_s;
-    const auto sleeper = this->make({0.25, speed_m_per_s}), watcher = this->make({0.25, 0});
+    const auto sleeper = this->make({speed_m_per_s}), watcher = this->make({0});
     ASSERT_LT(settle(*sleeper), 50);
     size_t slept = 0;
     double farthest_m = 0;
@@ -112,7 +112,7 @@ TYPED_TEST(SleepingOn, HangingBodyThatSettledLiesWhereItWouldWithoutSleep) {
   // to fall asleep, it would have moved by this much more (20 nm; measured: 3 nm).
   const double settled_m =
       kSleepSpeed_m_per_s * std::exp(-0.5 * kSleepDrag_per_s * Sleep::kQuiet_s) / (0.5 * kSleepDrag_per_s);
-  const auto sleeper = this->make({0.25, kSleepSpeed_m_per_s, 9.81}), watcher = this->make({0.25, 0, 9.81});
+  const auto sleeper = this->make({kSleepSpeed_m_per_s, 9.81}), watcher = this->make({0, 9.81});
   const int ticks = settle(*sleeper);
   ASSERT_LT(ticks, 1000);
   for (int t = 0; t < ticks + 200; ++t) watcher->step(ToolMotions{});
@@ -145,7 +145,7 @@ TYPED_TEST(SleepingOn, GripWakesWhatItHoldsAndTheTissueFollows) {
 }
 
 TYPED_TEST(SleepingOn, CutWakesAndWhatItCarriedFalls) {
-  const auto solver = this->make({0.25, kSleepSpeed_m_per_s, 9.81});
+  const auto solver = this->make({kSleepSpeed_m_per_s, 9.81});
   ASSERT_LT(settle(*solver), 1000);
   const HostState before = solver->readState();
   // Along x through the whole width, blade from above, 1 cm of it in the cube: a flap to either side.

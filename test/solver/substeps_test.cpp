@@ -19,7 +19,7 @@ namespace {
 constexpr double kSubstepsSpacing_m = 0.01;
 constexpr double kSubstepsRounding = 1e-6;  // of a substep: k and m are float32 where dt_safe is taken from them
 
-Model block(Weights weights = Weights::kCell) {
+Model stepped(Weights weights = Weights::kCell) {
   return modelOf({boxBody({3, 3, 3}, kSubstepsSpacing_m, weights)});
 }
 
@@ -36,18 +36,18 @@ constexpr Integrator kExplicit[] = {Integrator::kLeapfrog, Integrator::kVerletPa
 }  // namespace
 
 TEST(StableSubstep, IsThatOfTheStiffestNodeAndNotOfTheFastestModeAtRest) {
-  const Model model = block();
+  const Model model = stepped();
   const MaterialConfig& material = model.bodies[0].material;
   const Elasticity e =
       elasticity(material.young_modulus_pa, material.poisson_ratio, material.density_kg_per_m3, kSubstepsSpacing_m);
   const double unit_s = std::sqrt(e.cell_mass_kg / e.spring_n_per_m);
   // physics.md 2: sqrt(2 m / sum k), sum k = 18 k; the mode at rest, 2 / sqrt(12 k/m), would allow 1.7 times as much.
   EXPECT_NEAR(safeTimeStep(model), unit_s / 3, kSubstepsRounding * unit_s);
-  EXPECT_NEAR(safeTimeStep(block(Weights::kPaper)), unit_s / 3, kSubstepsRounding * unit_s);
+  EXPECT_NEAR(safeTimeStep(stepped(Weights::kPaper)), unit_s / 3, kSubstepsRounding * unit_s);
 }
 
 TEST(Substeps, ExplicitIntegratorsRefuseMoreThanTheStableSubstepAndSayWhatWouldDo) {
-  Model model = block();
+  Model model = stepped();
   model.bodies[0].material.dashpot_ratio = 0;
   const double dt_safe_s = safeTimeStep(model);
   for (const Integrator integrator : kExplicit) {
@@ -61,7 +61,7 @@ TEST(Substeps, ExplicitIntegratorsRefuseMoreThanTheStableSubstepAndSayWhatWouldD
 }
 
 TEST(Substeps, DashpotsLowerTheLimitOfLeapfrogAlone) {
-  Model model = block();
+  Model model = stepped();
   model.bodies[0].material.dashpot_ratio = 0.2;
   const double dt_safe_s = safeTimeStep(model), limit = stableFraction(Integrator::kLeapfrog, 0.2);
   EXPECT_NEAR(limit * limit + 2 * 0.2 * limit, 1, 1e-12);  // physics.md 2: where f^2 + 2 xi f reaches 1
@@ -73,7 +73,7 @@ TEST(Substeps, DashpotsLowerTheLimitOfLeapfrogAlone) {
 }
 
 TEST(Substeps, ImplicitIntegratorsTakeAnySubstep) {
-  const Model model = block();
+  const Model model = stepped();
   const double dt_safe_s = safeTimeStep(model);
   SolverConfig config = configFor(dt_safe_s, 100, Integrator::kPd);
   config.substeps = 1;
@@ -81,7 +81,7 @@ TEST(Substeps, ImplicitIntegratorsTakeAnySubstep) {
 }
 
 TEST(Substeps, AreAsManyAsTheFractionOfTheStableSubstepNeeds) {
-  const Model model = block();
+  const Model model = stepped();
   const double dt_safe_s = safeTimeStep(model);
   SolverConfig config = configFor(dt_safe_s, 9.4, Integrator::kLeapfrog);
   config.dt_fraction = 0.8;

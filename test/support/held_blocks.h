@@ -3,6 +3,8 @@
 // Blocks that hang from one face.
 #pragma once
 
+#include <optional>
+
 #include "solver/make_solver.h"
 #include "support/implicit.h"
 
@@ -10,14 +12,11 @@ namespace viscera::test {
 
 inline const Vector3d kGravity(0, 0, -9.81);
 
-/// A block of 10 cm, held at one face.
-inline Body block(int cells, double young_modulus_pa, double nu, Cells kind = Cells::kSprings) {
-  const double h = 0.1 / cells;
-  Body body = kind == Cells::kSprings ? boxBody(Vector3i::Constant(cells), h)
-                                      : momentBody(Vector3i::Constant(cells), h, [](const Vector3d&) { return true; });
-  body.material.cells = kind;
+/// A block of 10 cm, held at one face; of springs, or of the neo-Hookean law where a Poisson's ratio is given.
+inline Body block(int cells, double young_modulus_pa, std::optional<double> nu = {}) {
+  Body body = boxBody(Vector3i::Constant(cells), 0.1 / cells);
+  if (nu) body = ofLaw(body, *nu);
   body.material.young_modulus_pa = young_modulus_pa;
-  body.material.poisson_ratio = nu;
   body.material.density_kg_per_m3 = 1060;
   body.material.drag_per_s = 0;
   body.material.dashpot_ratio = 0;

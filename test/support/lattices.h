@@ -23,15 +23,22 @@ inline Body boxBody(const Vector3i& cells, double spacing_m, Weights weights = W
   return body;
 }
 
-/// The cells of a grid by moments, of the part of each where `inside(point in cells)` holds, sampled at kSamples points
-/// an edge; cells with less than a hundredth are left out.
+/// The body with cells of the neo-Hookean law.
+inline Body ofLaw(Body body, double poisson_ratio = 0.3) {
+  body.material.law = Law::kNeoHookean;
+  body.material.poisson_ratio = poisson_ratio;
+  return body;
+}
+
+/// Cells of a grid of which the part is tissue where `inside(point in cells)` holds, sampled at kSamples points an
+/// edge; cells with less than a hundredth are left out. They obey the neo-Hookean law, as all that are tissue in part.
 template <class Inside>
 Body momentBody(const Vector3i& cells, double spacing_m, Inside inside) {
   constexpr int kSamples = 6;
   constexpr double kLeast = 0.01;
   Body body;
   body.name = "part";
-  body.material.cells = Cells::kMoments;
+  body.material.law = Law::kNeoHookean;
   Solid solid;
   solid.spacing_m = spacing_m;
   solid.cells = cells;
@@ -57,20 +64,6 @@ Body momentBody(const Vector3i& cells, double spacing_m, Inside inside) {
         if (fill.share < 1 - kPart / 2) solid.partial.push_back({cell, fill});
       }
   body.lattice = buildLattice(solid, Weights::kCell);
-  return body;
-}
-
-/// 3 x 3 x 3 cells by moments, one corner of them cut off askew: full ones and partial ones of many shapes.
-inline Body askewBody(double spacing_m) {
-  return momentBody({3, 3, 3}, spacing_m, [](const Vector3d& p) { return p.dot(Vector3d(1, 0.7, 0.4)) < 4.4; });
-}
-
-/// A wall that lies askew among 7 x 7 x 6 cells, with a bend in each of its cells (material.thin_walls).
-inline Body thinBody(double thickness_cells, double spacing_m) {
-  const Vector3d across = Vector3d(0.5, 0.35, 0.8).normalized(), middle(3.6, 3.4, 3.1);
-  Body body = momentBody({7, 7, 6}, spacing_m,
-                         [=](const Vector3d& p) { return std::abs(across.dot(p - middle)) < 0.5 * thickness_cells; });
-  body.material.thin_walls = true;
   return body;
 }
 

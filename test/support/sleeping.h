@@ -19,10 +19,10 @@ constexpr double kSleepDrag_per_s = 60;  // less than twice the slowest mode's f
 constexpr double kSleepSpeed_m_per_s = SolverConfig{}.sleep_speed_m_per_s;
 
 /// 13 nodes to a side: 4 bricks to a side. Held at the bottom, and soon at rest.
-inline Body sleepyCube(double poisson_ratio = 0.25) {
+inline Body sleepyCube(Law law = Law::kSprings) {
   Body body = boxBody({12, 12, 12}, kSleepSpacing_m);
+  if (law == Law::kNeoHookean) body = ofLaw(body, 0.4);
   body.material.drag_per_s = kSleepDrag_per_s;
-  body.material.poisson_ratio = poisson_ratio;
   for (uint32_t slot : body.lattice.active_slots) {
     if (body.lattice.nodeAt(slot).z() == 0) body.lattice.nodes[slot].lo |= layout::kFixedBit;
   }
@@ -55,7 +55,7 @@ inline ToolMotions cutTop() {
 }
 
 struct SleepKind {
-  double poisson_ratio = 0.25, sleep_speed_m_per_s = kSleepSpeed_m_per_s, gravity_m_per_s2 = 0;
+  double sleep_speed_m_per_s = kSleepSpeed_m_per_s, gravity_m_per_s2 = 0;
   bool governor = false, measured_limit = true;
 };
 inline Scene sleepyScene(const Model& model, const SleepKind& kind = {}) {

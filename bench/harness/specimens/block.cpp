@@ -13,6 +13,7 @@ Model modelOf(const Solid& solid, const MaterialConfig& material,
   Body body;
   body.name = "block";
   body.material = material;
+  if (material.law == Law::kAuto) body.material.law = Law::kSprings;
   body.lattice = buildLattice(solid, material.weights);
   for (uint32_t slot : body.lattice.active_slots) {
     if (fixed && fixed(body.lattice.nodeAt(slot))) body.lattice.nodes[slot].lo |= layout::kFixedBit;
@@ -58,6 +59,16 @@ MaterialConfig unitMaterial() {
   material.young_modulus_pa = 2.5;
   material.density_kg_per_m3 = 1;
   material.drag_per_s = material.dashpot_ratio = 0;
+  return material;
+}
+
+std::string nameOf(Law law) {
+  return law == Law::kNeoHookean ? "neo_hookean" : "springs";
+}
+
+MaterialConfig withPoisson(MaterialConfig material, double poisson_ratio) {
+  material.poisson_ratio = poisson_ratio;
+  material.law = poisson_ratio == MaterialConfig{}.poisson_ratio ? Law::kSprings : Law::kNeoHookean;
   return material;
 }
 

@@ -10,7 +10,8 @@
 
 namespace viscera::bench {
 
-/// A block of whole cells, its lowest corner at the origin. @param fixed  which nodes are held, or empty: none
+/// A block of whole cells, its lowest corner at the origin. @param material  Law::kAuto: springs   @param fixed  which
+/// nodes are held, or empty: none
 Model blockModel(const Vector3i& cells, double spacing_m, const MaterialConfig& material,
                  const std::function<bool(const Vector3i& node)>& fixed = {});
 
@@ -20,6 +21,12 @@ Model domeModel(int radius, double wall, double spacing_m, const MaterialConfig&
 
 /// Undamped, k = h = m = 1 for a block of spacing 1 m: E = 2.5 Pa, 1 kg/m3.
 MaterialConfig unitMaterial();
+
+/// "springs" or "neo_hookean".
+std::string nameOf(Law law);
+
+/// The material with a Poisson's ratio, and with the law that has it: springs at 1/4, elsewhere the neo-Hookean one.
+MaterialConfig withPoisson(MaterialConfig material, double poisson_ratio);
 
 /// Scene for a model that is there already: no gravity, no governor, no sleep, ticks of `substeps` substeps of
 /// dt_fraction times the largest stable one.

@@ -16,7 +16,7 @@ namespace viscera::bench {
 /// border, so that a neighbour is a constant away.
 class ScalarLattice {
  public:
-  /// @param model  one body without volume energy, parts   @param start  state of time 0   @param dt_s  substep
+  /// @param model  one body of springs, without parts   @param start  state of time 0   @param dt_s  substep
   ScalarLattice(const Model& model, const HostState& start, double dt_s);
   void substep();
   size_t nodes() const { return active_.size(); }

@@ -41,7 +41,7 @@ MaterialConfig specimenMaterial(double dashpot_ratio) {
   MaterialConfig material;
   material.drag_per_s = 0;  // drift goes on
   material.dashpot_ratio = dashpot_ratio;
-  material.cells = Cells::kSprings;
+  material.law = Law::kSprings;
   return material;
 }
 
@@ -85,7 +85,7 @@ Scene pigHeartScene(int nodes, double dashpot_ratio) {
   scene.name = "pig_heart_size";
   scene.bodies.push_back(heartBody(nodes));
   scene.bodies[0].material.dashpot_ratio = dashpot_ratio;
-  scene.bodies[0].material.cells = Cells::kSprings;  // as the paper's
+  scene.bodies[0].material.law = Law::kSprings;  // as the paper's
   FixedConfig top;
   top.shape = FixedShape::kPlane;
   top.point_m = Vector3d(0, 0, 0.03);

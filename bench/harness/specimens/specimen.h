@@ -34,7 +34,7 @@ int edgeOf(double nodes);
 double filledShare(const Model& model);
 
 /// The heart of VR05's size in a scene as sessions have it: gravity, governor, fixed top, two styluses, a camera; the
-/// values of config/scenes/pig_heart_size.yaml. @param nodes  42745 is the size
+/// values of config/scenes/pig_heart_size.yaml, but of springs, as the paper's is. @param nodes  42745 is the size
 Scene pigHeartScene(int nodes, double dashpot_ratio);
 
 /// The place of a deformed body that lies farthest along a direction [m]. @param model  one body
@@ -42,7 +42,7 @@ Vector3d farthestNode(const Model& model, const HostState& state, const Vector3d
 /// A probe at rest. @param tip_m  its centre
 ToolMotions probeAt(const Vector3d& tip_m);
 
-/// Takes a spring out of a state, from both ends, and with it the volume of the cells at its ends.
+/// Takes a spring out of a state, from both ends, and marks the cells at its ends as broken.
 /// @param nodes  [slots] of a model of one body
 void cutSpring(const Lattice& lattice, uint32_t slot, uint32_t spring, std::vector<layout::NodeBits>& nodes);
 

@@ -26,8 +26,8 @@ struct FilledCell {
 /// Cells of the grid, in whose axes all is.
 class Grid {
  public:
-  Grid(const Wall& wall, const Placing& placing, double spacing_m, Cells cells)
-      : wall_(wall), placing_(placing), spacing_m_(spacing_m), kind_(cells) {
+  Grid(const Wall& wall, const Placing& placing, double spacing_m)
+      : wall_(wall), placing_(placing), spacing_m_(spacing_m) {
     const Vector3d reach = placing.turn.cwiseAbs() * wall.half_m / spacing_m;
     low_ = (-reach).array().floor().cast<int>() - 1;
     solid_.spacing_m = spacing_m;
@@ -75,7 +75,6 @@ class Grid {
     return placing_.turn.transpose() * ((cell + low_).cast<double>() + in_cell - placing_.shift) * spacing_m_;
   }
   void fillCell(const Vector3i& cell) {
-    if (kind_ == Cells::kSprings && !wall_.inside(own(cell, Vector3d::Constant(0.5)))) return;
     FilledCell found = sampled(cell, kSamples);
     if (found.inside > 0 && found.inside < 1) found = sampled(cell, kFineSamples);
     if (found.inside < kLeastShare) return;
@@ -96,7 +95,7 @@ class Grid {
     for (int s = 0; s < all; ++s) {
       const Vector3d at = (Vector3d(s % samples, s / samples % samples, s / samples / samples).array() + 0.5) / samples;
       const Vector3d place = own(cell, at);
-      if (kind_ == Cells::kMoments && !wall_.inside(place)) continue;
+      if (!wall_.inside(place)) continue;
       const Vector3d p = at.array() - 0.5;
       ++inside;
       out.fill.share += share;
@@ -113,20 +112,18 @@ class Grid {
   const Wall& wall_;
   const Placing& placing_;
   double spacing_m_;
-  Cells kind_;
   Vector3i low_ = Vector3i::Zero();
   Solid solid_;
   std::vector<std::pair<Vector3i, std::array<Vector3d, 8>>> loads_;
 };
 
-Model modelOf(const Solid& solid, const WallCells& cells, double poisson_ratio) {
+Model modelOf(const Solid& solid, double poisson_ratio) {
   Body body;
   body.name = "wall";
   body.material = unitMaterial();
   body.material.young_modulus_pa = 1;
   body.material.poisson_ratio = poisson_ratio;
-  body.material.cells = cells.kind;
-  body.material.thin_walls = cells.thin_walls;
+  body.material.law = Law::kNeoHookean;
   body.lattice = buildLattice(solid, body.material.weights);
   Model model;
   model.bodies.push_back(std::move(body));
@@ -196,10 +193,10 @@ Eigen::Matrix3d turned() {
   return about(17, Vector3d::UnitX()) * about(24, Vector3d::UnitY()) * about(30, Vector3d::UnitZ());
 }
 
-BentWall bendWall(const Wall& wall, const Placing& placing, double spacing_m, const WallCells& cells,
-                  double poisson_ratio, const std::vector<Backend>& backends, const std::vector<Vector3d>& watched_m) {
-  const Grid grid(wall, placing, spacing_m, cells.kind);
-  const Model model = modelOf(grid.solid(), cells, poisson_ratio);
+BentWall bendWall(const Wall& wall, const Placing& placing, double spacing_m, double poisson_ratio,
+                  const std::vector<Backend>& backends, const std::vector<Vector3d>& watched_m) {
+  const Grid grid(wall, placing, spacing_m);
+  const Model model = modelOf(grid.solid(), poisson_ratio);
   const ReferenceSolver solver(model, Vector3d::Zero(), 1);
   Field load = grid.load(model.bodies[0].lattice);
   balance(solver, load);

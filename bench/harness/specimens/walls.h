@@ -38,16 +38,10 @@ struct BentWall {
   Field moved_m;
 };
 
-/// What it is made of.
-struct WallCells {
-  Cells kind;  ///< kSprings: filled where their middle is; kMoments: with share and moments, from a share of 1e-2 on
-  bool thin_walls = false;  ///< material.thin_walls
-};
-
-/// The wall in cells of one kind, bent by its load in float64 statics; displacements infinitesimal.
+/// The wall in cells of the neo-Hookean law, each with the moments of what it holds of it, from a share of 1e-2 on,
+/// bent by its load in float64 statics; displacements infinitesimal.
 /// @param backends  whose forces are looked at   @param watched_m  places in the wall's axes
-BentWall bendWall(const Wall& wall, const Placing& placing, double spacing_m, const WallCells& cells,
-                  double poisson_ratio, const std::vector<Backend>& backends = {},
-                  const std::vector<Vector3d>& watched_m = {});
+BentWall bendWall(const Wall& wall, const Placing& placing, double spacing_m, double poisson_ratio,
+                  const std::vector<Backend>& backends = {}, const std::vector<Vector3d>& watched_m = {});
 
 }  // namespace viscera::bench

@@ -80,8 +80,7 @@ void measureMomentum(Report& report) {
     double worst = 0;
     for (double nu : {0.25, 0.45}) {
       for (double size : {1e-3, 0.1, 1.0}) {
-        MaterialConfig material;
-        material.poisson_ratio = nu;
+        MaterialConfig material = withPoisson({}, nu);
         material.drag_per_s = material.dashpot_ratio = 0;
         const Model model = blockModel({6, 5, 4}, kBeamSpacing_m, material);
         const double found = unbalance(forcesOn(backend, model, randomField(model, size * kBeamSpacing_m, 1)));

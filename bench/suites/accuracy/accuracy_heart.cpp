@@ -30,8 +30,8 @@ Scene heartScene(bool short_form) {
   heart.source = TissueSource::kPhantom;
   heart.spacing_m = short_form ? 0.01 : 0.008;
   heart.skin = SkinSource::kVolume;
-  heart.material.dashpot_ratio = 0;  // verlet_paper knows none
-  heart.material.cells = Cells::kSprings;
+  heart.material.dashpot_ratio = 0;    // verlet_paper knows none
+  heart.material.law = Law::kSprings;  // the one that all integrators step
   FixedConfig top;
   top.shape = FixedShape::kPlane;
   top.point_m = Vector3d(0, 0, 0.03);

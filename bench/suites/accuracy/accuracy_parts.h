@@ -18,7 +18,7 @@ void measureMomentum(Report& report);
 void measureEnergyDrift(Report& report);
 /// Error against work, cantilever: integrator x substep x iterations.
 void measureCantileverPrecision(Report& report);
-/// Error of the heart under a probe by spacing, in cells of springs and by moments.
+/// Error of the heart under a probe by spacing, of springs and of the neo-Hookean law.
 void measureSpacing(Report& report);
 /// The same for the heart, pressed, grabbed, pulled and let go.
 void measureHeartPrecision(Report& report);

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// How fine must an organ be? A heart with thin walls and a solid ball under a probe's load, in cells of springs and by
-// moments, by number of nodes and by time.
+// How fine must an organ be? A heart with thin walls and a solid ball under a probe's load, of springs and of the
+// neo-Hookean law, by number of nodes and by time.
 #include <Eigen/IterativeLinearSolvers>
 #include <algorithm>
 #include <cmath>
@@ -43,11 +43,11 @@ Organ ball() {
   return {"ball", body, 0.02};
 }
 
-Scene sceneOf(const Organ& organ, double spacing_m, Cells cells) {
+Scene sceneOf(const Organ& organ, double spacing_m, Law law) {
   BodyConfig body = organ.body;
   body.spacing_m = spacing_m;
   body.skin = SkinSource::kVolume;
-  body.material.cells = cells;
+  body.material.law = law;
   body.material.drag_per_s = body.material.dashpot_ratio = 0;
   FixedConfig top;
   top.shape = FixedShape::kPlane;
@@ -158,12 +158,12 @@ double errorOf(double response, double truth) {
   return response > 0 ? std::min(std::abs(std::log(response / truth)), 1.0) : 1.0;
 }
 
-Found measure(const Report& report, const Organ& organ, double spacing_m, Cells cells,
-              const std::vector<Press>& presses, const std::vector<double>& truth) {
+Found measure(const Report& report, const Organ& organ, double spacing_m, Law law, const std::vector<Press>& presses,
+              const std::vector<double>& truth) {
   Found out;
   std::vector<double> errors;
   for (double placed : report.isShort() ? std::vector<double>{1} : kPlaced) {
-    const Model model = buildModel(sceneOf(organ, placed * spacing_m, cells));
+    const Model model = buildModel(sceneOf(organ, placed * spacing_m, law));
     const std::vector<double> found = responses(model, presses);
     for (size_t i = 0; i < found.size(); ++i) errors.push_back(errorOf(found[i], truth[i]));
   }
@@ -171,7 +171,7 @@ Found measure(const Report& report, const Organ& organ, double spacing_m, Cells 
   out.spacing_m = spacing_m;
   out.middle = 0.5 * (errors[errors.size() / 2] + errors[(errors.size() - 1) / 2]);
   out.largest = errors.back();
-  const Model model = buildModel(sceneOf(organ, spacing_m, cells));
+  const Model model = buildModel(sceneOf(organ, spacing_m, law));
   out.nodes = static_cast<double>(model.activeNodes());
   const Scene scene = plainScene(model, kSpecimenSubsteps);
   for (Backend backend : report.backends()) {
@@ -208,14 +208,14 @@ std::vector<double> column(const std::vector<Found>& rows, double Found::*member
   return out;
 }
 
-/// Errors at 4 mm at as many nodes, and times at 1 % of error, of cells by moments over those of springs.
-void judge(Report& report, const Organ& organ, const std::vector<Found>& springs, const std::vector<Found>& moments) {
+/// Errors at 4 mm at as many nodes, and times at 1 % of error, of the law over those of springs.
+void judge(Report& report, const Organ& organ, const std::vector<Found>& springs, const std::vector<Found>& law) {
   for (const auto& [name, member] : {std::pair("middle", &Found::middle), std::pair("largest", &Found::largest)}) {
     const Trend by_nodes(column(springs, &Found::nodes), column(springs, member));
-    for (const Found& row : moments) {
+    for (const Found& row : law) {
       if (row.spacing_m != kJudged_m) continue;
       report.checkAtMost(
-          organ.name + " under a probe: " + name + " error by moments at 4 mm over that of springs at as many nodes",
+          organ.name + " under a probe: " + name + " error of the law at 4 mm over that of springs at as many nodes",
           row.*member / by_nodes.at(row.nodes), kShareOfError);
     }
   }
@@ -226,12 +226,12 @@ void judge(Report& report, const Organ& organ, const std::vector<Found>& springs
       return Trend(wall_s, column(rows, &Found::middle)).where(kWanted);
     };
     report.checkAtMost(
-        nameOf(report.backends()[b]) + ": " + organ.name + " under a probe: time by moments over springs at 1 % error",
-        times(moments) / times(springs), kShareOfTime);
+        nameOf(report.backends()[b]) + ": " + organ.name + " under a probe: time of the law over springs at 1 % error",
+        times(law) / times(springs), kShareOfTime);
   }
 }
 
-/// Curves of both kinds of cells.
+/// Curves of both kinds of tissue.
 struct Curves {
   Plot by_nodes, by_wall;
   explicit Curves(const Organ& organ)
@@ -258,7 +258,7 @@ struct Curves {
 void tellStep(Report& report, const Organ& organ, const std::vector<Press>& presses, const std::vector<double>& truth) {
   constexpr double kCoarser = 1.25;
   const std::vector<double> before =
-      responses(buildModel(sceneOf(organ, kCoarser * kFinest_m, Cells::kMoments)), presses);
+      responses(buildModel(sceneOf(organ, kCoarser * kFinest_m, Law::kNeoHookean)), presses);
   double largest = 0;
   for (size_t i = 0; i < truth.size(); ++i) largest = std::max(largest, errorOf(before[i], truth[i]));
   report.note(organ.name + ": from " + Cell(kCoarser * kFinest_m * 1e3).text(2) + " to " +
@@ -271,27 +271,27 @@ void measureOrgan(Report& report, const Organ& organ) {
   const double finest_m = report.isShort() ? 0.008 : kFinest_m;
   const std::string what = organ.name + " under a probe";
   report.stage(what + ", finest");
-  const Model finest = buildModel(sceneOf(organ, finest_m, Cells::kMoments));
+  const Model finest = buildModel(sceneOf(organ, finest_m, Law::kNeoHookean));
   const std::vector<Press> presses = pressesOn(finest);
   const std::vector<double> truth = responses(finest, presses);
   if (!report.isShort()) tellStep(report, organ, presses, truth);
-  std::vector<Column> columns = {{"cells"}, {"spacing", "m"}, {"nodes", "", 6}, {"middle error"}, {"largest error"}};
+  std::vector<Column> columns = {{"law"}, {"spacing", "m"}, {"nodes", "", 6}, {"middle error"}, {"largest error"}};
   for (Backend backend : report.backends()) columns.push_back({nameOf(backend) + ": wall s per simulated s", "", 3});
-  Table table(what + ", a load of 1 N at six places: error against cells by moments at " +
+  Table table(what + ", a load of 1 N at six places: error against cells of the law at " +
                   Cell(finest_m * 1e3).text(2) + " mm, " + Cell(static_cast<double>(finest.activeNodes())).text(8) +
                   " nodes",
               columns);
   Curves curves(organ);
   std::vector<Found> found[2];
-  for (Cells cells : {Cells::kSprings, Cells::kMoments}) {
-    const std::string name = cells == Cells::kSprings ? "springs" : "moments";
-    std::vector<Found>& rows = found[cells == Cells::kMoments];
+  for (Law law : {Law::kSprings, Law::kNeoHookean}) {
+    const std::string name = nameOf(law);
+    std::vector<Found>& rows = found[law == Law::kNeoHookean];
     for (double spacing_m : spacings) {
       report.stage(what + ", " + name + ", " + Cell(spacing_m * 1e3).text(2) + " mm");
-      rows.push_back(measure(report, organ, spacing_m, cells, presses, truth));
-      std::vector<Cell> cellsOf = {name, spacing_m, rows.back().nodes, rows.back().middle, rows.back().largest};
-      for (double wall_s : rows.back().wall_s) cellsOf.emplace_back(wall_s);
-      table.add(cellsOf);
+      rows.push_back(measure(report, organ, spacing_m, law, presses, truth));
+      std::vector<Cell> cells = {name, spacing_m, rows.back().nodes, rows.back().middle, rows.back().largest};
+      for (double wall_s : rows.back().wall_s) cells.emplace_back(wall_s);
+      table.add(cells);
     }
     curves.add(report, name, rows);
   }

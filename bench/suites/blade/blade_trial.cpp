@@ -46,7 +46,7 @@ Scene sceneOf(const BladeTrial& trial) {
   body.box_size_m = {trial.length_m, trial.width_m, trial.thickness_m};
   body.spacing_m = trial.spacing_m;
   body.material.young_modulus_pa = trial.young_modulus_pa;
-  if (trial.structure == Structure::kLattice) body.material.cells = trial.cells;
+  if (trial.structure == Structure::kLattice) body.material.law = trial.law;
   body.material.cut.toughness_j_per_m2 = trial.toughness_j_per_m2;
   const Vector3d half = 0.5 * body.box_size_m, thin = Vector3d::Constant(kHeld * trial.spacing_m);
   for (const Vector3d& side : {Vector3d(0, 1, 0), Vector3d(0, -1, 0), Vector3d(1, 0, 0)}) {

@@ -14,7 +14,7 @@ struct BladeTrial {
   double spacing_m = 0.002, young_modulus_pa = 20e3, toughness_j_per_m2 = 50;
   double speed_m_per_s = 0.1, angle_deg = 0, slicing = 0, beside = 0;  ///< beside: of the spacing, off a row of nodes
   double length_m = 0.06, width_m = 0.048, thickness_m = 0.012, stroke_m = 0.045;
-  Cells cells = Cells::kMoments;              ///< of lattices
+  Law law = Law::kNeoHookean;                 ///< of lattices
   Structure structure = Structure::kLattice;  ///< surface: a sheet, thickness_m thick
   bool there = true;                          ///< else the tissue is alone: nothing is cut
   Backend backend = Backend::kCpu;            ///< the GPU's needs a current context

@@ -12,8 +12,7 @@ namespace viscera::bench {
 
 /// A slit that a blade makes in the middle of a round sheet, which is held all around and has a prestress.
 struct SlitTrial {
-  Structure structure = Structure::kSurface;  ///< or kExplicit: a lattice, one cell thick or more
-  Cells cells = Cells::kAuto;                 ///< of a lattice: by moments
+  Structure structure = Structure::kSurface;  ///< or kLattice, one cell thick or more
   double spacing_m = 0.002, thickness_m = 0.002;
   double half_m = 0.012;  ///< a, half of its length
   double radius = 6;      ///< of the sheet, over a

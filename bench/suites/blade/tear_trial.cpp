@@ -40,7 +40,6 @@ BodyConfig bodyOf(const TearTrial& trial) {
   body.spacing_m = trial.spacing_m;
   body.material.young_modulus_pa = trial.young_modulus_pa;
   body.material.poisson_ratio = trial.poisson_ratio;
-  body.material.cells = trial.cells;
   body.material.tear.toughness_j_per_m2 = trial.toughness_j_per_m2;
   return body;
 }

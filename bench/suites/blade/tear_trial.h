@@ -12,7 +12,6 @@ namespace viscera::bench {
 struct TearTrial {
   double spacing_m = 0.002, young_modulus_pa = 20e3, toughness_j_per_m2 = 20, poisson_ratio = 0.25;
   double length_m = 0.08, width_m = 0.032, thickness_m = 0.004;
-  Cells cells = Cells::kMoments;
 };
 
 struct StripResult {

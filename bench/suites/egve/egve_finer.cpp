@@ -19,7 +19,8 @@ constexpr double kPatch = 0.3;                 // radius of what is pushed, of t
 constexpr int kLoadSteps = 4;
 constexpr int kFiner = 4;  // times: cells of the truth beside those of the lattice that is judged
 
-/// A bar of cells by moments in equilibrium, in float64: the truth for lattices whose nodes are some of its own.
+/// A bar of cells of the neo-Hookean law in equilibrium, in float64: the truth for lattices whose nodes are some of its
+/// own.
 class FineBar {
  public:
   explicit FineBar(int width) : width_(width), model_(modelOf(width)), solver_(model_, Vector3d::Zero(), 1) {}
@@ -84,7 +85,7 @@ class FineBar {
  private:
   static Model modelOf(int width) {
     MaterialConfig material = unitMaterial();
-    material.cells = Cells::kMoments;
+    material.law = Law::kNeoHookean;
     return blockModel({2 * width, width, width}, 1, material);
   }
   int width_;

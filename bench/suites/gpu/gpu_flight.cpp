@@ -79,8 +79,8 @@ void measureLive(Report& report) {
   constexpr int kMillion = 1000000, kFew = 3000, kOnSoftware = 10000;
   const int nodes = report.isShort() ? kFew : report.context()->isSoftware() ? kOnSoftware : kMillion;
   Scene scene = viewedHeart(nodes);
-  scene.bodies[0].material.cells = Cells::kAuto;  // as scenes have it
-  scene.solver.sleep_speed_m_per_s = 0;           // what comes to rest is measured like what moves
+  scene.bodies[0].material.law = Law::kAuto;  // as scenes have it
+  scene.solver.sleep_speed_m_per_s = 0;       // what comes to rest is measured like what moves
   report.stage("live: building");
   Session session(scene, *report.context());
   Table table("a heart of 10 cm, E " + Cell(1e-3 * scene.bodies[0].material.young_modulus_pa).text(3) +

@@ -22,64 +22,57 @@ struct Cost {
   double flop, bytes;
 };
 
-// leapfrog.comp, spring.glsl. A spring: w 3, e 3, L 6, direction 3, extension 14, k 1, force 7. Its dashpot: 16; where
+// leapfrog.comp, spring.glsl. A spring: w 3, e 3, L 6, direction 3, extension 14, k 1, force 7. With a dashpot
 // it is predicted: dv 3, where the ends will be 6, is it mild 14, damping 7.
 // A node: acceleration 6, drag 3, velocity 17, displacement 6.
-constexpr double kSpringFlop = 37, kDashpotFlop = 16, kPredictedFlop = 30, kNodeFlop = 32;
-// volume.comp, volume.glsl: mean edges 73, cofactors and e 59, pressure and forces 11. elastic.glsl: a node gathers
-// eight cells, 18 each. By moments (moments.glsl) 810, what four pairs of corners feel 21 each, and a node adds 3 for
-// each cell.
-constexpr double kVolumeFlop = 143, kMomentsFlop = 810 + 4 * 21, kGatherFlop = 8 * 18, kCornersFlop = 8 * 3;
-// A list's entry, the node's bits, and vectors of four floats: u and v in and out; u in; 3 or 8 forces of a cell.
-constexpr double kListed = 4 + 8, kVector = 16;
-// Tables: of nine springs and a mass; of a cell.
-constexpr double kStepTables = 9 * 4 + 4, kCellTables = 16;
+constexpr double kSpringFlop = 37, kPredictedFlop = 30, kNodeFlop = 32;
+// cell_forces.comp, of a full cell without stiffening: where its corners will be 48, their motion 90
+// (cell_motion.glsl), moments and ratios 22, cofactors and e 46, s 69, bending 78, stress 75, derivatives by the motion
+// 162, and what four pairs of corners feel 21 each. A node adds 3 for each of its eight cells, and looks at no springs.
+constexpr double kLawFlop = 48 + 90 + 22 + 46 + 69 + 78 + 75 + 162 + 4 * 21, kCornersFlop = 8 * 3;
+// A list's entry, the node's bits, and vectors of four floats: u and v in and out; u and v in; 8 forces of a cell.
+constexpr double kListed = 4 + 8, kVector = 16, kCellForces = 8 * kVector;
+// Tables: of nine springs; of a mass and a depth; of a cell.
+constexpr double kSpringTables = 9 * 4, kMassTables = 8, kCellTables = 16;
 
-/// What the tissue is made of, besides springs.
+/// What the tissue is made of.
 struct Tissue {
   const char* name;
   double dashpot_ratio, poisson_ratio;
-  Cells cells;
   bool parts;  ///< strengths of springs and cells and masses in tables, as where parts differ or cells are tissue in
                ///< part
   bool probe;  ///< one is there, beyond reach
 };
-constexpr Tissue kTissues[] = {{"springs", 0, 0.25, Cells::kSprings, false, false},
-                               {"springs, dashpot", 0.2, 0.25, Cells::kSprings, false, false},
-                               {"springs, dashpot, tables", 0.2, 0.25, Cells::kSprings, true, false},
-                               {"springs, nu 0.45", 0, 0.45, Cells::kSprings, false, false},
-                               {"springs, nu 0.45, dashpot", 0.2, 0.45, Cells::kSprings, false, false},
-                               {"by moments, nu 0.45, dashpot", 0.2, 0.45, Cells::kMoments, false, false},
-                               {"the same, tables", 0.2, 0.45, Cells::kMoments, true, false},
-                               {"the same, tables, a probe", 0.2, 0.45, Cells::kMoments, true, true}};
+constexpr Tissue kTissues[] = {{"springs", 0, 0.25, false, false},
+                               {"springs, dashpot", 0.2, 0.25, false, false},
+                               {"springs, dashpot, tables", 0.2, 0.25, true, false},
+                               {"neo_hookean, nu 0.45, dashpot", 0.2, 0.45, false, false},
+                               {"the same, tables", 0.2, 0.45, true, false},
+                               {"the same, tables, a probe", 0.2, 0.45, true, true}};
 
-bool hasCells(const Tissue& tissue) {
-  return tissue.poisson_ratio != 0.25 || tissue.cells == Cells::kMoments;
-}
-
-double cellVectors(const Tissue& tissue) {
-  return tissue.cells == Cells::kMoments ? 8 : 3;
+/// Springs have nu 1/4.
+bool isOfLaw(const Tissue& tissue) {
+  return tissue.poisson_ratio != 0.25;
 }
 
 Cost costOfStep(const Tissue& tissue) {
-  Cost out{18 * kSpringFlop + kNodeFlop, kListed + 4 * kVector};
-  if (tissue.dashpot_ratio > 0) out.flop += 18 * (tissue.cells == Cells::kMoments ? kDashpotFlop : kPredictedFlop);
-  if (tissue.parts) out.bytes += kStepTables;
-  if (!hasCells(tissue)) return out;
-  out.flop += tissue.cells == Cells::kMoments ? kCornersFlop : kGatherFlop;
-  out.bytes += cellVectors(tissue) * kVector;
+  Cost out{kNodeFlop, kListed + 4 * kVector + (tissue.parts ? kMassTables : 0)};
+  if (isOfLaw(tissue)) {
+    out.flop += kCornersFlop;
+    out.bytes += kCellForces;
+    return out;
+  }
+  out.flop += 18 * (kSpringFlop + (tissue.dashpot_ratio > 0 ? kPredictedFlop : 0));
+  if (tissue.parts) out.bytes += kSpringTables;
   return out;
 }
 
 Cost costOfCells(const Tissue& tissue) {
-  return {kVolumeFlop + (tissue.cells == Cells::kMoments ? kMomentsFlop : 0),
-          kListed + kVector + cellVectors(tissue) * kVector + (tissue.parts ? kCellTables : 0)};
+  return {kLawFlop, kListed + 2 * kVector + kCellForces + (tissue.parts ? kCellTables : 0)};
 }
 
 Specimen specimenWith(const Tissue& tissue, int edge) {
-  MaterialConfig material = specimenMaterial(tissue.dashpot_ratio);
-  material.poisson_ratio = tissue.poisson_ratio;
-  material.cells = tissue.cells;
+  const MaterialConfig material = withPoisson(specimenMaterial(tissue.dashpot_ratio), tissue.poisson_ratio);
   Specimen cube = cubeOf(edge, material);
   if (tissue.parts) {  // one that no cell belongs to, so that nothing else changes
     Body& body = cube.model.bodies[0];
@@ -153,9 +146,9 @@ std::vector<Timed> timeKernels(const Tissue& tissue, int edge) {
   const double nodes = static_cast<double>(cube.nodes());
   const auto seconds = timeStages(cube);
   std::vector<Timed> out;
-  if (hasCells(tissue))
+  if (isOfLaw(tissue))
     out.push_back(
-        {&tissue, "volume.comp", nodes, seconds[static_cast<size_t>(gpu::Stage::kVolume)], costOfCells(tissue)});
+        {&tissue, "cell_forces.comp", nodes, seconds[static_cast<size_t>(gpu::Stage::kCells)], costOfCells(tissue)});
   out.push_back({&tissue, "leapfrog.comp", nodes, seconds[static_cast<size_t>(gpu::Stage::kStep)], costOfStep(tissue)});
   return out;
 }
@@ -165,7 +158,7 @@ void addRow(Table& table, Roofline& roofline, const Timed& timed, const Limits& 
   const double of_fma = rate * timed.cost.flop / limits.fma, of_copy = rate * timed.cost.bytes / limits.copy;
   table.add({timed.nodes, timed.tissue->name, timed.kernel, 1e6 * timed.seconds, kGiga * rate, timed.cost.flop,
              timed.cost.bytes, 100 * of_fma, 100 * of_copy, of_fma > of_copy ? "arithmetic" : "memory"});
-  Series& series = std::string(timed.kernel) == "volume.comp" ? roofline.cells : roofline.step;
+  Series& series = std::string(timed.kernel) == "cell_forces.comp" ? roofline.cells : roofline.step;
   series.x.push_back(timed.cost.flop / timed.cost.bytes);
   series.y.push_back(kGiga * rate * timed.cost.flop);
 }

@@ -49,21 +49,17 @@ double tipRatio(int depth, const MaterialConfig& material) {
 }  // namespace
 
 void measureCantilever(Report& report) {
-  Table table("Cantilever, n cells deep, 5 n long, load on its tip: deflection over Timoshenko's",
-              {{"n"}, {"table", "", 3}, {"nu 1/4", "", 5}, {"over table - 1"}, {"nu 0.45", "", 5}});
-  Series measured{"nu 1/4", {}, {}}, stiff{"nu 0.45", {}, {}}, known{"table", {}, {}, Series::Style::kPoints};
+  Table table("Cantilever of springs, n cells deep, 5 n long, load on its tip: deflection over Timoshenko's",
+              {{"n"}, {"table", "", 3}, {"springs", "", 5}, {"over table - 1"}});
+  Series measured{"springs", {}, {}}, known{"table", {}, {}, Series::Style::kPoints};
   double worst = 0;
   for (const Known& row : kTable) {
     if (report.isShort() && row.depth > kShortDepth) break;
     report.stage("cantilever, n " + std::to_string(row.depth));
-    MaterialConfig material = unitMaterial();
-    const double ratio = tipRatio(row.depth, material);
-    material.poisson_ratio = 0.45;
-    const double ratio_45 = tipRatio(row.depth, material);
-    table.add({row.depth, row.ratio, ratio, ratio / row.ratio - 1, ratio_45});
+    const double ratio = tipRatio(row.depth, unitMaterial());
+    table.add({row.depth, row.ratio, ratio, ratio / row.ratio - 1});
     worst = std::max(worst, std::abs(ratio / row.ratio - 1));
     measured.x.push_back(row.depth), measured.y.push_back(1 - ratio);
-    stiff.x.push_back(row.depth), stiff.y.push_back(1 - ratio_45);
     known.x.push_back(row.depth), known.y.push_back(1 - row.ratio);
   }
   report.add(table, "cantilever");
@@ -72,7 +68,7 @@ void measureCantilever(Report& report) {
                   "too stiff by",
                   true,
                   true,
-                  {measured, stiff, known}},
+                  {measured, known}},
              "cantilever");
   report.checkAtMost("cantilever: largest relative distance from the table", worst, kLimit);
 }

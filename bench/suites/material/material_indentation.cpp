@@ -30,10 +30,9 @@ Indentation indentation(int contact) {
   return {static_cast<double>(contact), contact / kSlope, contact * kSlope};
 }
 
+/// Springs at nu 1/4, else the neo-Hookean law.
 MaterialConfig materialOf(double nu) {
-  MaterialConfig material = unitMaterial();
-  material.poisson_ratio = nu;
-  return material;
+  return withPoisson(unitMaterial(), nu);
 }
 
 /// A block on a plate. @param half_width  of the block, and its height [cells]

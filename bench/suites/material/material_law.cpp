@@ -51,7 +51,6 @@ MaterialConfig lawMaterial(double nu) {
   material.density_kg_per_m3 = kDensity_kg_per_m3;
   material.drag_per_s = material.dashpot_ratio = 0;
   material.law = Law::kNeoHookean;
-  material.cells = Cells::kMoments;
   return material;
 }
 

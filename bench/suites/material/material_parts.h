@@ -20,7 +20,7 @@ void measurePlaneWaves(Report& report);
 void measureCantilever(Report& report);
 /// Force on a sphere pressed into the tissue, against Hertz.
 void measureIndentation(Report& report);
-/// Compliance of beams, rings, rods, plates, tubes and shells of few cells, in cells of springs and by moments.
+/// Compliance of beams, rings, rods, plates, tubes and shells of few cells, of the default material.
 void measureWalls(Report& report);
 /// A beam bent into a circle: moment over E I kappa.
 void measureCircle(Report& report);

@@ -14,15 +14,12 @@ namespace viscera::bench {
 
 namespace {
 
-// Issue 13, of cells by moments at nu 1/4: compliance over the true one, less 1. At other nu twice as much.
+// Issue 13, at nu 1/4: compliance over the true one, less 1. At other nu twice as much.
 constexpr double kAlignedOne = 0.02, kTurnedTwo = 0.03, kTurnedThree = 0.01, kRingTwo = 0.07, kRingThree = 0.02;
 constexpr double kRodSix = 0.01, kRodScatter = 0.005;
 constexpr double kOtherNu = 2;
 /// Distance from the calculation that found the cells: one percentage point.
 constexpr double kTableLimit = 0.01;
-/// With material.thin_walls, issue 34: from 1.5 cells a wall on, at nu 1/4; a beam's table is the calculation's
-/// (docs/physics.md, Thin walls). Half as much again at other nu: a beam's free edges yield more the less it widens.
-constexpr double kThinWall = 0.05, kThinFrom = 1.5, kThinOtherNu = 1.5;
 /// Kernels against the reference, which has their constants: rounding of float32 at strains of 1e-4.
 constexpr double kMaterialWallsKernelLimit = 2e-3;
 
@@ -205,7 +202,7 @@ std::vector<Row> rods(bool short_form) {
   return out;
 }
 
-/// Runs rows in both kinds of cells, with random shifts, and checks what is asked of cells by moments.
+/// Runs rows with random shifts, and checks what is asked of the default material.
 class WallTests {
  public:
   explicit WallTests(Report& report) : report_(report), table_(tableFor(report.backends())) {}
@@ -224,72 +221,57 @@ class WallTests {
 
  private:
   static Table tableFor(const std::vector<Backend>& backends) {
-    std::vector<Column> columns = {{"wall"},           {"cells", "", 2},       {"placed"},
-                                   {"nu", "", 2},      {"nodes, springs"},     {"springs - 1", "", 3},
-                                   {"nodes, moments"}, {"moments - 1", "", 3}, {"thin walls - 1", "", 3}};
+    std::vector<Column> columns = {{"wall"},      {"cells", "", 2}, {"placed"},
+                                   {"nu", "", 2}, {"nodes"},        {"compliance - 1", "", 3}};
     for (Backend backend : backends) columns.push_back({"abs(work of " + nameOf(backend) + " - 1)", "", 2});
     return Table("Free walls bent by a load: compliance over the continuum's, less 1", columns);
   }
   void runRow(const Row& row, int shifts) {
     report_.stage("walls, " + labelOf(row));
-    std::vector<double> found, found_thin;
+    std::vector<double> found;
     for (int shift = 0; shift < shifts; ++shift) {
       std::uniform_real_distribution<double> unit(0, 1);
       Placing placing;
       if (row.turn) placing.turn = turned();
       for (int axis = 0; axis < 3; ++axis) placing.shift[axis] = unit(random_);
       const double spacing_m = row.wall.thickness_m / row.cells;
-      const BentWall springs = bendWall(row.wall, placing, spacing_m, {Cells::kSprings}, row.nu);
-      const BentWall moments = bendWall(row.wall, placing, spacing_m, {Cells::kMoments}, row.nu, report_.backends());
-      const BentWall thin = bendWall(row.wall, placing, spacing_m, {Cells::kMoments, true}, row.nu, report_.backends());
-      found.push_back(moments.excess.value_or(std::nan("")));
-      found_thin.push_back(thin.excess.value_or(std::nan("")));
-      add(row, springs, moments, thin);
+      const BentWall bent = bendWall(row.wall, placing, spacing_m, row.nu, report_.backends());
+      found.push_back(bent.excess.value_or(std::nan("")));
+      add(row, bent);
     }
-    check(row, found, found_thin);
+    check(row, found);
   }
-  void add(const Row& row, const BentWall& springs, const BentWall& moments, const BentWall& thin) {
-    const auto number = [](const std::optional<double>& value) { return value ? Cell(*value) : Cell("falls apart"); };
+  void add(const Row& row, const BentWall& bent) {
     std::vector<Cell> cells = {row.wall.name,
                                row.cells,
                                row.turn ? "turned" : "aligned",
                                row.nu,
-                               static_cast<double>(springs.nodes),
-                               number(springs.excess),
-                               static_cast<double>(moments.nodes),
-                               number(moments.excess),
-                               number(thin.excess)};
-    for (size_t b = 0; b < moments.on.size(); ++b) {
-      const double off = worse(std::abs(moments.on[b]), std::abs(thin.on[b]));
+                               static_cast<double>(bent.nodes),
+                               bent.excess ? Cell(*bent.excess) : Cell("falls apart")};
+    for (size_t b = 0; b < bent.on.size(); ++b) {
+      const double off = std::abs(bent.on[b]);
       cells.emplace_back(off);
       worst_kernel_[b] = worse(worst_kernel_[b], off);
     }
     table_.add(cells);
-    if (row.nu != 0.25) return;
-    addPoint(row, "springs", springs);
-    addPoint(row, "moments", moments);
-    addPoint(row, "thin walls", thin);
+    if (row.nu == 0.25) addPoint(row, bent);
   }
-  void addPoint(const Row& row, const std::string& kind, const BentWall& bent) {
+  void addPoint(const Row& row, const BentWall& bent) {
     if (!bent.excess) return;
     std::vector<Series>& curves = (row.turn ? turned_ : aligned_).series;
-    const std::string name = row.wall.name + ", " + kind;
+    const std::string& name = row.wall.name;
     auto curve = std::find_if(curves.begin(), curves.end(), [&](const Series& s) { return s.name == name; });
     if (curve == curves.end()) curve = curves.insert(curves.end(), {name, {}, {}, Series::Style::kPoints});
     curve->x.push_back(row.cells);
     curve->y.push_back(std::abs(*bent.excess));
   }
-  void check(const Row& row, const std::vector<double>& found, const std::vector<double>& found_thin) {
-    double worst = 0, mean = 0, worst_thin = 0;
-    for (double excess : found_thin) worst_thin = worse(worst_thin, std::abs(excess));
+  void check(const Row& row, const std::vector<double>& found) {
+    double worst = 0, mean = 0;
     for (double excess : found) {
       worst = worse(worst, std::abs(excess));
       mean += excess / static_cast<double>(found.size());
     }
     if (report_.isShort()) return;  // one shift says little: shown only
-    if (row.cells >= kThinFrom)
-      report_.checkAtMost(labelOf(row) + ", as a thin wall: largest |compliance / true - 1|", worst_thin,
-                          row.nu == 0.25 ? kThinWall : kThinOtherNu * kThinWall);
     if (row.limit > 0) report_.checkAtMost(labelOf(row) + ": largest |compliance / true - 1|", worst, row.limit);
     if (row.table) report_.checkAtMost(labelOf(row) + ": mean, from the calculation", mean - *row.table, kTableLimit);
     if (row.wall.name != "rod" || found.size() < 2) return;
@@ -348,8 +330,8 @@ void drawRing(Report& report, bool is_turned) {
   Plot plot{"A tube of one cell, ovalised, " + placed, "x", "y", false, false, {}};
   plot.equal_axes = true;
   double scale = 0;
-  const auto add = [&](const std::string& name, double cells, const WallCells& kind, Series::Style style) {
-    const Field bent = bendWall(wall, placing, wall.thickness_m / cells, kind, 0.25, {}, places).moved_m;
+  const auto add = [&](const std::string& name, double cells, Series::Style style) {
+    const Field bent = bendWall(wall, placing, wall.thickness_m / cells, 0.25, {}, places).moved_m;
     if (bent.empty()) return;  // fallen apart
     const Field moved = withoutTurn(places, bent);
     if (scale == 0) scale = 0.2 * places[0].norm() / largestNorm(moved);
@@ -361,10 +343,8 @@ void drawRing(Report& report, bool is_turned) {
     }
     plot.series.push_back(series);
   };
-  add("four cells a wall, by moments", 4, {Cells::kMoments}, Series::Style::kLines);
-  add("one cell, by moments", 1, {Cells::kMoments}, Series::Style::kPoints);
-  add("one cell, as a thin wall", 1, {Cells::kMoments, true}, Series::Style::kPoints);
-  add("one cell, springs", 1, {Cells::kSprings}, Series::Style::kPoints);
+  add("four cells a wall", 4, Series::Style::kLines);
+  add("one cell", 1, Series::Style::kPoints);
   report.add(plot, "ring_" + placed);
 }
 

@@ -16,7 +16,7 @@ namespace {
 // from a node to the next and no farther, so in a free block a node d nodes from the surface moves for d substeps
 // exactly as in an unbounded lattice. Only those are looked at.
 constexpr int kSubsteps = 12;
-constexpr double kMaterialWavesStrain = 1e-5;    ///< so small that springs are linear
+constexpr double kMaterialWavesStrain = 1e-5;    ///< so small that springs and cells are linear
 constexpr double kMaterialWavesPhaseStep = 1.5;  ///< between samples, at most
 constexpr double kMaterialWavesLimit = 1e-4;     ///< issue 3: relative
 
@@ -25,10 +25,9 @@ struct Wave {
   double q;  ///< wave number times spacing
 };
 
-/// E for which k = mu h = 1 N/m at h = 1 m.
+/// E for which mu h = 1 N/m at h = 1 m.
 MaterialConfig waveMaterial(double nu) {
-  MaterialConfig material = unitMaterial();
-  material.poisson_ratio = nu;
+  MaterialConfig material = withPoisson(unitMaterial(), nu);
   material.young_modulus_pa = 2 * (1 + nu);
   return material;
 }
@@ -38,7 +37,7 @@ double speedOf(double nu, const Wave& wave) {
   return wave.axis == 2 ? std::sqrt(2 + 2 * nu / (1 - 2 * nu)) : 1;
 }
 
-/// Of the lattice: a row of cells is a chain of springs c^2 m/h^2, the energy of volume included.
+/// Of the lattice: along an axis a row of cells, of springs or of a law, is a chain of springs c^2 m/h^2.
 double formula(double nu, const Wave& wave) {
   return 2 * speedOf(nu, wave) * std::sin(wave.q / 2);
 }

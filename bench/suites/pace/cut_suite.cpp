@@ -15,7 +15,7 @@ namespace {
 constexpr unsigned kSeed = 11;
 constexpr double kDearest = 1.25;  // cost of a node of a body with cuts over that of a whole one
 
-/// Takes a share of the springs out of a state, from both ends, drawn by lot. Cells that lose one lose their volume.
+/// Takes a share of the springs out of a state, from both ends, drawn by lot.
 void cutAtRandom(const Lattice& lattice, double share, std::vector<layout::NodeBits>& nodes) {
   std::mt19937 random(kSeed);
   std::uniform_real_distribution<double> draw(0, 1);

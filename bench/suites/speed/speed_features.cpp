@@ -15,10 +15,8 @@ constexpr double kSameWithin = 1e-5;         // spacings: float32 rounding of si
 constexpr double kSpeedFeaturesWave = 0.02;  // spacings
 constexpr double kNothing = 1e-9;            // a feature of this size is there and does nothing that float32 can hold
 
-Specimen specimen(int edge, double dashpot_ratio = 0, double poisson_ratio = 0.25) {
-  MaterialConfig material = specimenMaterial(dashpot_ratio);
-  material.poisson_ratio = poisson_ratio;
-  return cubeOf(edge, material);
+Specimen specimen(int edge, double dashpot_ratio = 0) {
+  return cubeOf(edge, specimenMaterial(dashpot_ratio));
 }
 
 /// One stylus that does something where no tissue is.
@@ -84,7 +82,6 @@ Feature cutState(int edge) {
 std::vector<Feature> featuresOf(int edge) {
   std::vector<Feature> out;
   out.push_back({"dashpot", specimen(edge, kNothing), specimen(edge), {}});
-  out.push_back({"energy of volume", specimen(edge, 0, 0.25 + kNothing), specimen(edge), {}});
   out.push_back(parts(edge));
   out.push_back(toolInAir("contacts", edge, ToolMode::kProbe));
   out.push_back(toolInAir("cuts", edge, ToolMode::kCut));

@@ -55,7 +55,7 @@ void measurePressedHeart(Report& report);
 void measureHeartSessions(Report& report);
 /// Features of the solver: switched on without effect against left out, results compared.
 void measureFeatures(Report& report);
-/// Cells by moments against springs alone, on the same lattice.
+/// Bodies of the neo-Hookean law against bodies of springs of as many nodes.
 void measureCells(Report& report);
 /// Tissue at rest: asleep against awake, one corner awake, what sleeping changes.
 void measureSleep(Report& report);

@@ -214,9 +214,9 @@ std::vector<Way> waysOf(Backend backend) {
   return out;
 }
 
-void hashes(Report& report, Cells cells, const std::string& stem) {
+void hashes(Report& report, Law law, const std::string& stem) {
   MaterialConfig material;
-  material.cells = cells;
+  material.law = law;
   const Model model =
       blockModel(Vector3i::Constant(4), kSpacing_m, material, [](const Vector3i& n) { return n.z() == 4; });
   const uint64_t substeps = report.isShort() ? 2000 : 100000;
@@ -252,8 +252,8 @@ void extremesOfStability(Report& report) {
   ratios(report);
   longRest(report);
   units(report);
-  hashes(report, Cells::kSprings, "hashes");
-  hashes(report, Cells::kMoments, "hashes_moments");
+  hashes(report, Law::kSprings, "hashes");
+  hashes(report, Law::kNeoHookean, "hashes_law");
 }
 
 }  // namespace viscera::bench

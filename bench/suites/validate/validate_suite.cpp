@@ -12,12 +12,11 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kFitFrom = 0.05, kFitTo = 0.1;  // strains that E is fitted on, and no others
-constexpr double kForetold[] = {0.2, 0.3, 0.5};  // strains that are foretold
-constexpr double kSure = 0.3;                    // up to which errors are held to kMostError
-constexpr double kMostError = 0.1;               // relative, of stress
-constexpr double kSpringsMost = 0.4;  // strain of springs without what keeps volume: beyond, they snap through
-constexpr double kFitStep = 0.01;     // of strain
+constexpr double kFitFrom = 0.05, kFitTo = 0.1;       // strains that E is fitted on, and no others
+constexpr double kForetold[] = {0.2, 0.3, 0.5};       // strains that are foretold
+constexpr double kSure = 0.3;                         // up to which errors are held to kMostError
+constexpr double kMostError = 0.1;                    // relative, of stress
+constexpr double kFitStep = 0.01;                     // of strain
 constexpr double kRubber = 0.49, kNearRubber = 0.45;  // Poisson's ratios: the most that scenes take, and one below
 constexpr double kSneddonMost = 0.15;                 // relative, of force; 4 spacings are a coarse sphere
 constexpr double kInPercent = 100;
@@ -51,10 +50,9 @@ void compression(Report& report) {
     specimens.insert(specimens.end(), {{0.25, usual_m}, {kRubber, 0.005}, {kNearRubber, 0.002}, {kRubber, 0.002}});
   for (const auto& [nu, spacing_m] : specimens) {
     report.stage("compression, nu " + Cell(nu).text(2) + ", spacing " + Cell(spacing_m).text(2) + " m");
-    const double most = nu < kNearRubber ? kSpringsMost : strains[std::size(strains) - 1];
-    const Compression found = compressedCylinder(nu, spacing_m, most);
+    const Compression found = compressedCylinder(nu, spacing_m, strains[std::size(strains) - 1]);
     std::vector<Cell> row = {nu, spacing_m};
-    for (const double strain : strains) row.push_back(strain > most ? Cell("") : Cell(found.at(strain) / strain));
+    for (const double strain : strains) row.emplace_back(found.at(strain) / strain);
     table.add(row);
   }
   report.add(table, "compression");

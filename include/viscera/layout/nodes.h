@@ -48,14 +48,14 @@ struct BodyParams {
   float mass_eighth_kg;
   float drag_per_s;         // gamma
   float dashpot_s;          // axial dashpot coefficient over spring stiffness, c/k [s]
-  float bulk_j;             // lambda_V h^3: a cell of volume V has the energy volumeEnergy(bulk_j, V/V0 - 1)
+  float bulk_j;             // (lambda - mu) h^3 of cells that obey the law; 0 in bodies of springs
   uint connections;         // kImplicit, kExplicitLattice or kNetwork
-  float rigidity_j;         // mu h^3 of cells that resist by moments too (moments.glsl); 0 where springs alone do
+  float rigidity_j;         // mu h^3 likewise
   uint law;                 // kLawSprings or kLawNeoHookean
   float stiffening;         // b of the neo-Hookean law's exponential (law.glsl); 0: none
   uint pad_x, pad_y;        // to whole vectors, as std140 has arrays of structs
 };
-// Law of a body's cells: springs, and what they lack; or a neo-Hookean energy (law.glsl), where springs act only in cells that have lost one.
+// Law of a body's cells: springs; or a neo-Hookean energy (law.glsl), where springs act only in cells that have lost one.
 const uint kLawSprings = 0u;
 const uint kLawNeoHookean = 1u;
 // Connections of a body: springs of a lattice by offset and counts in NodeBits; the same lattice with its springs as links;
@@ -63,10 +63,8 @@ const uint kLawNeoHookean = 1u;
 const uint kImplicit = 0u;
 const uint kExplicitLattice = 1u;
 const uint kNetwork = 2u;
-// Vectors that a cell's energies leave per cell: a, b, c of CellForces (elastic.glsl) where cells have the energy of their volume
-// alone, else what it does to each of its corners: a node then reads one of each cell around it.
-const uint kVolumeVectors = 3u;
-const uint kMomentVectors = 8u;
+// Vectors that a cell of a law leaves (cell_forces.comp): what it does to each of its corners. A node reads one of each cell around it.
+const uint kCellVectors = 8u;
 const uint kValenceMask = kAxialMask;
 
 #ifdef __cplusplus

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,9 @@ struct Body {
   std::vector<PartConfig> parts;         ///< elasticities of their own
   Lattice lattice;                       ///< of a body of structure surface: only slots, bricks that lie nowhere
   std::optional<SpringNetwork> network;  ///< explicit connections: they act instead of the lattice's
+  /// [slots] stress that cells have in the given shape (second Piola-Kirchhoff, as xx, yy, zz, yz, zx, xy) over their mu;
+  /// empty without a prestress.
+  std::vector<std::array<float, 6>> prestress;
   Skin skin;
   Vector3d color = Vector3d::Ones();
   double roughness = 0.25, mottling = 1;              ///< of what is seen, see BodyConfig

@@ -20,7 +20,6 @@ struct Health {
   bool recovering = false;  ///< pd goes on in place of the scene's integrator; no force is given
   bool strained = false;    ///< the state calls for a shorter substep
   bool only_long = false;   ///< it does so by long springs alone, and no tool is at the tissue
-  uint64_t unfolded = 0;    ///< nodes that were put back, of cells that tools had left turned inside out
   double kinetic_j = 0;     ///< energies of the last tick
   double elastic_j = 0;
 };
@@ -55,7 +54,6 @@ class Governor {
   Trip judge(const layout::TickStats& stats, bool implicit, double work_j = 0, bool long_substeps = false);
   /// A state was written from outside: what is measured of it, whatever it is, is the new start.
   void restart(const layout::TickStats& stats);
-  void noteUnfolded(uint64_t nodes) { health_.unfolded += nodes; }
   const Health& health() const { return health_; }
   /// Rollbacks in a row without a good tick between them: how far back the next one should go.
   int setbacks() const { return setbacks_; }

@@ -64,9 +64,6 @@ vec3 forceFromOutside(uint slot, NodeBits bits, float mass, BodyParams body, vec
 #define VISIT_LINK force -= implicitSpring(n, u, du, d, l0, prestrain, k, body).force;
   FOR_EACH_LINK
 #undef VISIT_LINK
-#ifdef VOLUME
-  force -= xyz(volumeForce(slot));
-#endif
   return force;
 }
 

@@ -16,9 +16,6 @@
 #include "solver/implicit/implicit_pairs.glsl"
 #endif
 #include "solver/tissue/shares.glsl"
-#ifdef VOLUME
-#include "solver/tissue/corners.glsl"
-#endif
 
 #ifndef __cplusplus
 layout(std430, binding = kBindPartials) writeonly buffer PartialsBuffer { vec4 energies[]; };
@@ -33,26 +30,6 @@ vec3 share(uint slot, vec4 du, int c) {
   return kShares[c] * xyz(du);
 }
 
-#ifdef VOLUME
-/// Energy of a cell for the four shares.
-vec4 cellEnergies(uint slot, BodyParams body) {
-  vec3 u[8];
-  vec4 du[8];
-  for (uint c = 0u; c < 8u; ++c) {
-    int corner = int(cornerSlot(slot, c));
-    u[c] = xyz(stateAt(displacement, corner));
-    du[c] = stateAt(increment, corner);
-  }
-  vec4 sum = vec4(0.0f);
-  for (int g = 0; g < 4; ++g) {
-    vec3 at[8], edge_lengths;
-    for (int c = 0; c < 8; ++c) at[c] = u[c] + share(cornerSlot(slot, uint(c)), du[c], g);
-    float h = body.origin_spacing.w;
-    sum[g] = cellEnergy(at, shapeOf(at, h, edge_lengths).e, h, cellBulk(slot, body), cellRigidity(slot, body), cellMoments(slot));
-  }
-  return sum;
-}
-#endif
 
 /// Adds a spring's elastic energy and what its dashpot adds to P, for the four shares.
 /// @param a, b  its ends   @param near, far  their increments   @param w  u_far - u_near   @param d, l0, prestrain  at rest
@@ -109,9 +86,6 @@ void main() {
                          prestrain, k, damping(k, body), elastic, potential);
   FOR_EACH_LINK
 #undef VISIT_LINK
-#ifdef VOLUME
-  if ((bits.lo & kCellBit) != 0u) elastic += cellEnergies(slot, body);
-#endif
   energies[ENERGIES_PER_NODE * i] = potential + elastic;
   energies[ENERGIES_PER_NODE * i + 1u] = motion + elastic;
 }

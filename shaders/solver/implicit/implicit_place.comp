@@ -29,7 +29,6 @@ void main() {
   uint slot = active_nodes[i];
   vec4 now = increments[slot];
   if (!isInPairs(now)) return;
-  BodyParams body = bodies[bodyOf(nodes[slot])];
-  place(slot, body, node_pairs[3u * slot], xyz(stateAt(displacement, int(slot))), xyz(now));
+  place(slot, node_pairs[3u * slot], xyz(stateAt(displacement, int(slot))), xyz(now));
   if (ends_sweep != 0u) increments[slot] = vec4(xyz(node_pairs[3u * slot + 1u]), kInPairs);
 }

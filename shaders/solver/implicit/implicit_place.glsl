@@ -3,18 +3,17 @@
 //
 // Where a node with contacts goes in a sweep: the step of its majoriser under what pulls it and under the forces of these contacts,
 // outside of what else it touches. After implicit_pull.glsl, implicit_pairs.glsl and, with probes or obstacles, implicit_contact.glsl.
-vec3 placeOf(uint slot, BodyParams body, vec4 pulled, vec3 u, vec3 du) {
-  float most = longestStep(body, 0u);
+vec3 placeOf(uint slot, vec4 pulled, vec3 u, vec3 du) {
   vec3 force = xyz(pulled) + xyz(node_pairs[3u * slot + 2u]);
-  vec3 change = notTooFar(force / pulled.w, most);
+  vec3 change = force / pulled.w;
 #ifdef CONTACT
   findContacts(slot, u, du + change);
-  if (contactCount(slot) != 0u) change = notTooFar(stepInContact(slot, pulled.w, du, force), most);
+  if (contactCount(slot) != 0u) change = stepInContact(slot, pulled.w, du, force);
 #endif
   return du + change;
 }
 
-void place(uint slot, BodyParams body, vec4 pulled, vec3 u, vec3 du) {
+void place(uint slot, vec4 pulled, vec3 u, vec3 du) {
   float pressing = max(1.0f, node_pairs[3u * slot + 2u].w);
-  node_pairs[3u * slot + 1u] = vec4(placeOf(slot, body, pulled, u, du), pressing);
+  node_pairs[3u * slot + 1u] = vec4(placeOf(slot, pulled, u, du), pressing);
 }

@@ -33,5 +33,5 @@ void main() {
   vec4 pulled = pull(slot, bits, body, u, du);
   node_pairs[3u * slot] = pulled;
   if (first_sweep != 0u) node_pairs[3u * slot + 2u] = vec4(0.0f, 0.0f, 0.0f, node_pairs[3u * slot + 1u].w);
-  place(slot, body, pulled, u, du);
+  place(slot, pulled, u, du);
 }

@@ -11,25 +11,5 @@ vec4 pull(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 du) {
   sum += vec4(s.force, k + s.damping);
   FOR_EACH_LINK
 #undef VISIT_LINK
-#ifdef VOLUME
-  sum += volumeForce(slot);
-#endif
   return sum;
-}
-
-/// How far a node may go in a sweep [m]: where there are volumes, their majoriser reckons with steps this long.
-float longestStep(BodyParams body, uint iteration) {
-#ifdef VOLUME
-  return reach(body.origin_spacing.w, iteration);
-#else
-  return 1e30f;
-#endif
-}
-
-vec3 notTooFar(vec3 change, float most) {
-#ifdef VOLUME
-  return change * min(1.0f, most / max(length(change), 1e-30f));
-#else
-  return change;
-#endif
 }

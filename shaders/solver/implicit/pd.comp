@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // pd.comp - one sweep of PD-Jacobi in majorise-minimise form, accelerated by Chebyshev's recurrence.   Owner: solver/device/pd.h
-// physics.md 2: x <- (m'/dt^2 y + sum k (x_far + l0 n)) / (m'/dt^2 + sum k), here as du += force / (m'/dt^2 + sum (k + c/dt) + volume)
-// in  displacement, velocity, increments, cell forces of this iterate     out  increments of the next, where the last but one was
+// physics.md 2: x <- (m'/dt^2 y + sum k (x_far + l0 n)) / (m'/dt^2 + sum k), here as du += force / (m'/dt^2 + sum (k + c/dt))
+// in  displacement, velocity, increments     out  increments of the next, where the last but one was
 // Feature RATE finds what the spectrum of the iteration depends on instead.
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
@@ -16,7 +16,7 @@
 #endif
 
 #ifdef RATE
-/// max over nodes of (sum of k + volume)/m [1/s2] and of (sum of k dashpot_s)/m [1/s], as float bits in the guard.
+/// max over nodes of sum of k/m [1/s2] and of (sum of k dashpot_s)/m [1/s], as float bits in the guard.
 void main() {
   uint i = globalIndex();
   if (i >= active_count) return;
@@ -24,22 +24,11 @@ void main() {
   NodeBits bits = nodes[slot];
   if ((bits.lo & kFixedBit) != 0u) return;
   BodyParams body = bodies[bodyOf(bits)];
-  float mass = nodeMass(slot, bits, body), stiffness = 0.0f, volume = 0.0f;
+  float mass = nodeMass(slot, bits, body), stiffness = 0.0f;
 #define VISIT_LINK stiffness += k;
   FOR_EACH_LINK
 #undef VISIT_LINK
-#ifdef VOLUME
-  const CellShape at_rest = cellShape(vec3(0.0f), vec3(0.0f), vec3(0.0f));
-#define ADD_BULK(corner)                                                                                      \
-  {                                                                                                           \
-    bool exists;                                                                                              \
-    uint cell = cellAt(slot, corner, exists);                                                                 \
-    if (exists && (nodes[cell].lo & kCellBit) != 0u)                                                          \
-      volume += volumeMajoriser(cellBulk(cell, body), at_rest, vec3(1.0f), 0.0f, body.origin_spacing.w);        \
-  }
-  FOR_EACH_CELL(ADD_BULK)
-#endif
-  atomicMax(guard[0], floatBitsToUint((stiffness + volume) / mass));  // positive floats order like their bits
+  atomicMax(guard[0], floatBitsToUint(stiffness / mass));  // positive floats order like their bits
   atomicMax(guard[1], floatBitsToUint(stiffness * body.dashpot_s / mass));
 }
 #else
@@ -92,13 +81,12 @@ void main() {
     return;
   }
   vec3 u = xyz(stateAt(displacement, int(slot)));
-  float most = longestStep(body, iteration);
   vec4 p = pull(slot, bits, body, u, xyz(now));
-  vec3 change = notTooFar(xyz(p) / p.w, most);
+  vec3 change = xyz(p) / p.w;
 #ifdef CONTACT
   findContacts(slot, u, xyz(now) + change);
   bool in_contact = contactCount(slot) != 0u;
-  if (in_contact) change = notTooFar(stepInContact(slot, p.w, xyz(now), xyz(p)), most);
+  if (in_contact) change = stepInContact(slot, p.w, xyz(now), xyz(p));
 #endif
   recordChange(change);
   vec3 next = xyz(now) + change;

@@ -16,7 +16,7 @@ layout(std430, binding = kBindAwakeNodes) buffer AwakeNodesBuffer {
   AwakeList nodes_list;
   uint awake_nodes[];
 };
-#ifdef VOLUME
+#ifdef LAW
 layout(std430, binding = kBindAwakeCells) buffer AwakeCellsBuffer {
   AwakeList cells_list;
   uint awake_cells[];
@@ -59,7 +59,7 @@ void startLists() {
   nodes_list.groups_x = nodes_list.groups_y = nodes_list.count = 0u;
   nodes_list.groups_z = 1u;
   nodes_list.bricks = nodes_list.farthest_bits = 0u;
-#ifdef VOLUME
+#ifdef LAW
   cells_list.groups_x = cells_list.groups_y = cells_list.count = 0u;
   cells_list.groups_z = 1u;
 #endif
@@ -254,7 +254,7 @@ void ask(uint b) {
 #ifdef LIST
 layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active_nodes[]; };
 layout(std430, binding = kBindStats) readonly buffer StatsBuffer { TickStats stats; };
-#ifdef VOLUME
+#ifdef LAW
 layout(std430, binding = kBindCells) readonly buffer CellsBuffer { uint cells[]; };
 #endif
 uniform uint look;  // number of the look that has just been; 0: bricks are awake as they say
@@ -279,7 +279,7 @@ void listNodes(uint b) {
   atomicMax(nodes_list.groups_y, (groupsOf(place + count) + kMostGroups - 1u) / kMostGroups);
 }
 
-#ifdef VOLUME
+#ifdef LAW
 /// Cells with a corner in a brick that is awake: it is their own or one of the seven above.
 void listCells(uint b) {
   uint count = sleeping[b].cell_count, first = sleeping[b].first_cell;
@@ -310,7 +310,7 @@ void ask(uint b) {
   bool now = isAwake(b);
   if (look > 0u && sleeping[b].kind == kMayMove) heed(b, now);
   if (now) listNodes(b);
-#ifdef VOLUME
+#ifdef LAW
   listCells(b);
 #endif
   if (!isFirst() || sleeping[b].kind != kMayMove) return;

@@ -3,7 +3,7 @@
 //
 // leapfrog.comp - advance every active node by one leapfrog substep.   Owner: solver/gpu/steps/leapfrog_pass.h   physics.md 2, 5
 // in  displacement, velocity [slots]     out  displacement, velocity [slots]; impulses [kMaxStyluses * slots]; nodes for edges.comp
-// Features: LATTICE, NETWORK, PARTS, VOLUME, LAW (elastic.glsl), NO_SPRINGS (all bodies obey a law), DASHPOT (axial dashpot), PREDICTED (of lattices, mild springs pull where
+// Features: LATTICE, NETWORK, PARTS, LAW (elastic.glsl), NO_SPRINGS (all bodies obey a law), DASHPOT (axial dashpot), PREDICTED (of lattices, mild springs pull where
 // their ends will be instead), TOOLS (probe and held nodes), COMPENSATED (Kahan's sums of u and v), AWAKE (only nodes of bricks that
 // are awake, as awake_bricks.comp lists them).
 #ifdef LOADS
@@ -42,7 +42,7 @@ layout(std430, binding = kBindEdgeNodes) buffer EdgeNodesBuffer {
 };
 #endif
 
-/// Sum of the forces of springs, dashpots and volumes on a node [N].
+/// Sum of the forces of springs, dashpots and cells on a node [N].
 vec3 elasticForce(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 v) {
   vec3 force = vec3(0.0f);
 #ifdef DASHPOT
@@ -73,8 +73,8 @@ vec3 elasticForce(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 v) {
 #endif
 #endif
 #undef VISIT_LINK
-#ifdef VOLUME
-  force += xyz(volumeForce(slot));
+#ifdef LAW
+  force += cellForce(slot);
 #endif
   return force;
 }

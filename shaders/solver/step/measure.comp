@@ -51,15 +51,14 @@ vec3 u(uint slot) { return xyz(stateAt(displacement, int(slot))); }
 
 /// V/V0 - 1 of a cell. @param n  displacements of its corners, bit per axis, x lowest [m]
 float dilation(vec3 n[8], float h) {
-  float quarter = 0.25f / h;
-  vec3 da = quarter * ((n[1] - n[0]) + (n[3] - n[2]) + (n[5] - n[4]) + (n[7] - n[6]));
-  vec3 db = quarter * ((n[2] - n[0]) + (n[3] - n[1]) + (n[6] - n[4]) + (n[7] - n[5]));
-  vec3 dc = quarter * ((n[4] - n[0]) + (n[5] - n[1]) + (n[6] - n[2]) + (n[7] - n[3]));
-  return cellShape(da, db, dc).e;
+  CellMotion q = cellMotion(n, h);
+  vec3 da = q.da, db = q.db, dc = q.dc;
+  float minors = (da.x * db.y - da.y * db.x) + (da.x * dc.z - da.z * dc.x) + (db.y * dc.z - db.z * dc.y);
+  return (da.x + db.y + dc.z) + (minors + dot(da, cross(db, dc)));
 }
 
-#ifdef VOLUME
-/// What the volumes of the cells around add to a node's stiffness at rest [N/m].
+#ifdef LAW
+/// What the cells around resist a change of their volumes with beyond their springs, at a node at rest [N/m].
 float volumeStiffness(uint slot, BodyParams body) {
   float sum = 0.0f;
 #define ADD_BULK(corner)                                                                                             \
@@ -105,7 +104,7 @@ void main() {
   FOR_EACH_LINK
 #undef VISIT_LINK
   stiffness *= 2.0f;
-#ifdef VOLUME
+#ifdef LAW
   stiffness += volumeStiffness(slot, body);
 #endif
   if ((bits.lo & kCellBit) != 0u) {
@@ -122,16 +121,13 @@ void main() {
       if (stiffening > stats.max_stiffening_bits) atomicMax(stats.max_stiffening_bits, stiffening);
     }
 #endif
-#if defined(VOLUME) && !defined(NO_SPRINGS)
-    if (!of_law) elastic += cellEnergy(at, e, h, cellBulk(slot, body), cellRigidity(slot, body), cellMoments(slot));
-#endif
     if (e < -1.0f && (bits.lo & kSeveredBit) == 0u) atomicAdd(stats.inverted, 1u);
   }
 #ifdef LAW
   else if ((bits.lo & kLawCellBit) != 0u) {
     vec3 at[8];
     for (uint c = 0u; c < 8u; ++c) at[c] = u(cornerSlot(slot, c));
-    elastic += brokenCell(slot, at, body.origin_spacing.w, cellRigidity(slot, body)).energy;
+    elastic += brokenCell(slot, at, body.origin_spacing.w, cellRigidity(slot, body), cellMoments(slot)).energy;
   }
 #endif
   energies[i] = vec2(0.5f * mass * dot(v, v), elastic);

@@ -4,7 +4,7 @@
 // verlet_paper.comp - position Verlet as VR05 and GW print it, in absolute float32 positions.   Owner: solver/gpu/steps/verlet_paper_pass.h
 // physics.md 2: x+ = 2 x - x_prev + dt^2 a,  a = F/m + g - gamma (x - x_prev)/dt;  k is the true one, a dashpot is unknown to it.
 // in  x, x_prev [slots]     out  x+ (where x_prev was); displacement x - x_rest, velocity (x+ - x)/dt for everybody else
-// Features: REBUILD makes x and x_prev from displacement and velocity; TOOLS, VOLUME, PARTS as in leapfrog.comp.
+// Features: REBUILD makes x and x_prev from displacement and velocity; TOOLS, PARTS as in leapfrog.comp.
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
 #include "solver/tissue/elastic.glsl"
@@ -37,7 +37,7 @@ void main() {
   positions_before[slot] = vec4(x - dt_s * xyz(stateAt(velocity, int(slot))), 0.0f);
 }
 #else
-/// Sum of the forces of springs and volumes [N]; the springs' from absolute positions: L - l0 cancels, as printed.
+/// Sum of the forces of springs [N], from absolute positions: L - l0 cancels, as printed.
 vec3 elasticForce(uint slot, NodeBits bits, BodyParams body, vec3 x) {
   vec3 force = vec3(0.0f);
 #define VISIT_LINK                                                                \
@@ -47,9 +47,6 @@ vec3 elasticForce(uint slot, NodeBits bits, BodyParams body, vec3 x) {
   else if (l0 > 0.0f) force += (k * (l - l0)) * (d / l0);
   FOR_EACH_LINK
 #undef VISIT_LINK
-#ifdef VOLUME
-  force += xyz(volumeForce(slot));
-#endif
   return force;
 }
 

@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What a node, a spring and a cell are made of (physics.md 1). After lattice.glsl.
-// Features: LATTICE (some body has implicit connections), NETWORK (some body has explicit ones: network.glsl), PARTS (strengths differ within a body: tables), VOLUME (cells have energies of their own: of volume, by moments), MOMENTS (some have
-// the latter), LAW (some bodies obey a hyperelastic law), THIN_WALLS (some cells lie in thin walls), INCREMENT (implicit integrators: the state is displacement + increment), MAKES_CELL_FORCES (of kernels that do).
+// Features: LATTICE (some body has implicit connections), NETWORK (some body has explicit ones: network.glsl), PARTS (strengths differ within a body: tables),
+// LAW (the cells of some bodies obey a hyperelastic law), PRESTRESS (some of these are stressed at rest), INCREMENT (implicit integrators: the state is displacement + increment), MAKES_CELL_FORCES (of kernels that do).
 #include "solver/tissue/spring.glsl"
-#include "solver/tissue/volume.glsl"
-#include "solver/tissue/bends.glsl"
-#include "solver/tissue/moments.glsl"
+#include "solver/tissue/cell_motion.glsl"
 #ifdef LAW
 #include "solver/tissue/law.glsl"
 #endif
@@ -44,61 +42,54 @@ float stiffnessAt(uint place) { return spring_stiffness[place]; }
 layout(binding = kUnitSpringStiffness) uniform samplerBuffer spring_stiffness;  // the same
 float stiffnessAt(uint place) { return texelFetch(spring_stiffness, int(place)).x; }
 #endif
-#if defined(LOADS) && defined(MOMENTS)
+#if defined(LAW) && defined(LOADS)
 layout(std430, binding = kBindCellStrengths) restrict readonly buffer CellStrengthsIn { vec4 cell_strengths[]; };  // [slots]
 vec4 cellStrengths(uint slot) { return cell_strengths[slot]; }
-#else
-layout(binding = kUnitCellBulk) uniform samplerBuffer cell_bulk;  // [slots] with MOMENTS: y rigidity, z fill, w bend
+#elif defined(LAW)
+layout(binding = kUnitCellBulk) uniform samplerBuffer cell_bulk;  // [slots] x bulk, y rigidity [J], z which moments
 vec4 cellStrengths(uint slot) { return texelFetch(cell_bulk, int(slot)); }
 #endif
-float cellBulk(uint slot, BodyParams body) { return cellStrengths(slot).x; }
 /// Stiffness [N/m] of a spring that is alive, the same number from both ends. @param far  slot of the other end
 float springStiffness(uint slot, uint far, uint spring, uint count, BodyParams body) {
   uint owner = (spring & 1u) == 0u ? slot : far;
   return stiffnessAt(inPlanes(owner, spring >> 1, kSpringsPerNode / 2u));
 }
 #else
-float cellBulk(uint slot, BodyParams body) { return body.bulk_j; }
 float springStiffness(uint slot, uint far, uint spring, uint count, BodyParams body) {
   return float(count) * (spring < kAxialSprings ? body.axial_quarter_n_per_m : body.diagonal_half_n_per_m);
 }
 #endif
 #ifndef MAKES_CELL_FORCES
-#if defined(VOLUME) && defined(LOADS)
-layout(std430, binding = kBindCellForces) restrict readonly buffer CellForcesIn { vec4 cell_forces[]; };  // [cell_vectors * slots], of volume.comp
-#elif defined(VOLUME)
+#if defined(LAW) && defined(LOADS)
+layout(std430, binding = kBindCellForces) restrict readonly buffer CellForcesIn { vec4 cell_forces[]; };  // [kCellVectors * slots], of cell_forces.comp
+#elif defined(LAW)
 layout(binding = kUnitCellForces) uniform samplerBuffer cell_forces;  // the same
 #endif
 #endif
-#ifdef MOMENTS
-const bool has_moments = true;
-const uint cell_vectors = kMomentVectors;
-#ifdef PARTS
-layout(binding = kUnitCellMoments) uniform samplerBuffer cell_moments;  // [3 * (1 + fills)], then [kBendVectors * bends] where there are any
-/// mu h^3 times the cell's share [J]; 0 in bodies whose cells are springs only.
+#if defined(LAW) && defined(PARTS)
+layout(binding = kUnitCellMoments) uniform samplerBuffer cell_moments;  // [3 * (1 + fills)], then stresses of cells, two each
+/// (lambda - mu) h^3 and mu h^3, times the cell's share [J].
+float cellBulk(uint slot, BodyParams body) { return cellStrengths(slot).x; }
 float cellRigidity(uint slot, BodyParams body) { return cellStrengths(slot).y; }
 CellMoments cellMoments(uint slot) {
   vec4 strengths = cellStrengths(slot);
   int fill = 3 * int(strengths.z);
-  CellMoments t = {texelFetch(cell_moments, fill).xyz, texelFetch(cell_moments, fill + 1).xyz, texelFetch(cell_moments, fill + 2).xyz,
-                   uint(strengths.w)};
+  CellMoments t;
+  t.first = texelFetch(cell_moments, fill).xyz;
+  t.square = texelFetch(cell_moments, fill + 1).xyz;
+  t.mixed = texelFetch(cell_moments, fill + 2).xyz;
+#ifdef PRESTRESS
+  int stress = int(strengths.w);
+  t.pulled = stress == 0 ? vec3(0.0f) : texelFetch(cell_moments, stress).xyz;
+  t.sheared = stress == 0 ? vec3(0.0f) : texelFetch(cell_moments, stress + 1).xyz;
+#endif
   return t;
 }
-#ifdef THIN_WALLS
-float bendNumber(uint bend, uint number) { return texelFetch(cell_moments, int(kBendVectors * bend + (number >> 2)))[number & 3u]; }
-#endif
-#else
+#elif defined(LAW)
+float cellBulk(uint slot, BodyParams body) { return body.bulk_j; }
 float cellRigidity(uint slot, BodyParams body) { return body.rigidity_j; }
 CellMoments cellMoments(uint slot) { return fullMoments(); }
 #endif
-#else
-const bool has_moments = false;
-const uint cell_vectors = kVolumeVectors;
-float cellRigidity(uint slot, BodyParams body) { return 0.0f; }
-CellMoments cellMoments(uint slot) { return fullMoments(); }
-#endif
-#else
-CellMoments cellMoments(uint slot) { return has_moments ? momentsAt<CellMoments>(slot) : fullMoments(); }
 #endif  // __cplusplus
 
 // A kernel that defines DEAD_LINKS visits springs that are not alive too, with k = 0, and cells that are not there: a GPU then has
@@ -147,7 +138,6 @@ CellMoments cellMoments(uint slot) { return has_moments ? momentsAt<CellMoments>
 #define FOR_EACH_LINK FOR_EACH_SPRING(LATTICE_LINK)
 #endif
 
-#ifdef VOLUME
 /// Calls APPLY(corner) for the eight corners that a node is of the cells around it, as -1 | +1 per axis.
 #define FOR_EACH_CELL(APPLY)                                                      \
   APPLY(ivec3(-1, -1, -1)) APPLY(ivec3(1, -1, -1)) APPLY(ivec3(-1, 1, -1))        \
@@ -164,31 +154,14 @@ uint cellAt(uint slot, ivec3 corner, OUT(bool) exists) {
   return brick * kBrickSlots + q.x + 4u * q.y + 16u * q.z;
 }
 
-/// What a cell's energies do to its corners: the corner at (x, y, z), each -1
+#ifdef LAW
+/// What a cell does to its corners: the corner at (x, y, z), each -1
 /// or 1, feels minus x a + y b + z c + y z hx + z x hy + x y hz + x y z hxyz [N].
 struct CellForces {
   vec3 a, b, c, hx, hy, hz, hxyz;
 };
 
-/// @param at  displacements of the corners, bit per axis, x lowest [m]   @param p  volumePressure over 4 h [N]
-/// @param rigidity  0: none by moments
-CellForces cellForces(vec3 at[8], CellShape shape, float p, float h, float bulk, float rigidity, CellMoments moments) {
-  CellForces f = {p * shape.bc, p * shape.ca, p * shape.ab, vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f)};
-  if (rigidity <= 0.0f) return f;
-  CellPull pull = cellPull(cellMotion(at, h), moments, rigidity, bulk);
-  float quarter = 0.25f / h;
-  f.a += quarter * pull.a;
-  f.b += quarter * pull.b;
-  f.c += quarter * pull.c;
-  f.hx = (2.0f * quarter) * pull.hx;
-  f.hy = (2.0f * quarter) * pull.hy;
-  f.hz = (2.0f * quarter) * pull.hz;
-  f.hxyz = (0.35355339f / h) * pull.hxyz;
-  return f;
-}
-
-#ifdef LAW
-/// As cellForces(), of a cell that obeys the body's law. @param bulk, rigidity  as of lawPull()
+/// @param at  displacements of the corners, bit per axis, x lowest [m]   @param bulk, rigidity  as of lawPull()
 CellForces lawForces(vec3 at[8], BodyParams body, float bulk, float rigidity, CellMoments moments) {
   float h = body.origin_spacing.w;
   CellPull pull = lawPull(cellMotion(at, h), moments, rigidity, bulk, body.stiffening);
@@ -197,60 +170,28 @@ CellForces lawForces(vec3 at[8], BodyParams body, float bulk, float rigidity, Ce
                   (2.0f * quarter) * pull.hz, (0.35355339f / h) * pull.hxyz};
   return f;
 }
-#endif
 
 /// Bit per axis, x lowest. @param corner  -1 or 1 per axis
 uint cornerNumber(ivec3 corner) { return uint((corner.x + 1) / 2 + (corner.y + 1) + 2 * (corner.z + 1)); }
 
-/// Place of one of a cell's vectors in cell_forces.
-uint cellVector(uint slot, uint vector) { return inPlanes(slot, vector, cell_vectors); }
-
-// Leaves a cell's forces in cell_forces_out, for volumeForce() of its corners. @param majoriser  of Jacobi's iteration [N/m], or 0
-#define LEAVE_CELL_FORCES(slot, f, majoriser)                                                        \
-  if (has_moments) {                                                                                 \
-    for (uint c = 0u; c < kMomentVectors; c += 2u) { /* the corners at x -1 and 1 */                  \
-      vec3 s = cornerSide(c);                                                                        \
-      vec3 even = s.y * f.b + s.z * f.c + (s.y * s.z) * f.hx;                                        \
-      vec3 odd = f.a + s.y * f.hz + s.z * f.hy + (s.y * s.z) * f.hxyz;                               \
-      cell_forces_out[cellVector(slot, c)] = vec4(odd - even, majoriser);                            \
-      cell_forces_out[cellVector(slot, c + 1u)] = vec4(-(even + odd), majoriser);                    \
-    }                                                                                                \
-  } else {                                                                                           \
-    cell_forces_out[cellVector(slot, 0u)] = vec4(f.a, majoriser);                                    \
-    cell_forces_out[cellVector(slot, 1u)] = vec4(f.b, 0.0f);                                         \
-    cell_forces_out[cellVector(slot, 2u)] = vec4(f.c, 0.0f);                                         \
-  }
-
-/// Energy of a cell [J].
-float cellEnergy(vec3 at[8], float e, float h, float bulk, float rigidity, CellMoments moments) {
-  float energy = volumeEnergy(bulk, e);
-  if (rigidity <= 0.0f) return energy;
-  return energy + cellPull(cellMotion(at, h), moments, rigidity, bulk).energy;
-}
+/// Place of what a cell does to one of its corners in cell_forces.
+uint cellVector(uint slot, uint corner) { return inPlanes(slot, corner, kCellVectors); }
 
 #ifndef MAKES_CELL_FORCES  // kernels that write cell_forces do not read them
-/// Force of the cells around a node [N]; w their Jacobi majorisers [N/m].
-vec4 volumeForce(uint slot) {
+/// Force of the cells around a node [N].
+vec3 cellForce(uint slot) {
   vec4 sum = vec4(0.0f);
-#define ADD_CELL(corner)                                                                                        \
-  {                                                                                                             \
-    bool exists;                                                                                                \
-    uint cell = cellAt(slot, corner, exists);                                                                   \
-    IF_THERE(exists) {                                                                                          \
-      if (has_moments) {                                                                                        \
-        vec4 of_corner = stateAt(cell_forces, int(cellVector(cell, cornerNumber(corner))));                     \
-        sum += OF_THERE(exists, of_corner);                                                                     \
-      } else {                                                                                                  \
-        vec4 pa = stateAt(cell_forces, int(cellVector(cell, 0u)));                                              \
-        vec3 s = vec3(corner);                                                                                  \
-        vec3 force = s.x * xyz(pa) + s.y * xyz(stateAt(cell_forces, int(cellVector(cell, 1u)))) +              \
-                     s.z * xyz(stateAt(cell_forces, int(cellVector(cell, 2u))));                                \
-        sum += OF_THERE(exists, vec4(-force, pa.w));                                                            \
-      }                                                                                                         \
-    }                                                                                                           \
+#define ADD_CELL(corner)                                                                      \
+  {                                                                                           \
+    bool exists;                                                                              \
+    uint cell = cellAt(slot, corner, exists);                                                 \
+    IF_THERE(exists) {                                                                        \
+      vec4 of_corner = stateAt(cell_forces, int(cellVector(cell, cornerNumber(corner))));     \
+      sum += OF_THERE(exists, of_corner);                                                     \
+    }                                                                                         \
   }
   FOR_EACH_CELL(ADD_CELL)
-  return sum;
+  return xyz(sum);
 }
 #endif
 #endif

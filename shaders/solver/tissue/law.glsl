@@ -5,7 +5,8 @@
 // W = mu/2 (J^(-2/3) |F|^2 - 3) + K/4 (J^2 - 1 - 2 ln J), s = F^-1 H its hourglass motions in the material's frame and F* the deformation
 // gradient at the centroid of the part of the cell that is tissue. Everything is computed from D = F - 1, so that nothing cancels
 // near rest. With a stiffening b the first term is mu/(2 b) (exp(b x) - 1), x = J^(-2/3) |F|^2 - 3, straight from b x = kMostExponent on.
-// After moments.glsl.
+// A cell that is stressed at rest has S : (F^T F - 1) / 2 besides, of F* (physics.md 1, Prestress).
+// After cell_motion.glsl.
 
 /// Columns of a 3x3 matrix.
 struct LawColumns {
@@ -165,7 +166,25 @@ LawColumns lawFrame(CellMotion q, LawColumns c, float e) {
   return lawColumns(inverse * vec3(gx.x, gy.x, gz.x), inverse * vec3(gx.y, gy.y, gz.y), inverse * vec3(gx.z, gy.z, gz.z));
 }
 
-/// The law's energy and its derivatives. @param rigidity, bulk  as of cellPull()
+#ifdef PRESTRESS
+/// Adds F S of the stress at rest S to dW/dF, over mu, and S : (F^T F - 1) / 2 to the density.
+void lawAddPrestress(CellMoments t, LawColumns d, INOUT(LawColumns) p, INOUT(float) density) {
+  vec3 a = vec3(t.pulled.x, t.sheared.z, t.sheared.y), b = vec3(t.sheared.z, t.pulled.y, t.sheared.x), c = vec3(t.sheared.y, t.sheared.x, t.pulled.z);
+  vec3 fa = lawTimes(d, a), fb = lawTimes(d, b), fc = lawTimes(d, c);
+  p.a += fa;
+  p.b += fb;
+  p.c += fc;
+  density += 0.5f * (dot(fa, d.a) + dot(fb, d.b) + dot(fc, d.c) + dot(a, d.a) + dot(b, d.b) + dot(c, d.c));
+}
+
+/// What it adds to the fastest wave at most, over mu: its largest row sum.
+float lawTension(CellMoments t) {
+  vec3 sheared = abs(t.sheared), rows = abs(t.pulled) + sheared.zxy + sheared.yzx;
+  return max(rows.x, max(rows.y, rows.z));
+}
+#endif
+
+/// The law's energy and its derivatives. @param rigidity  mu h^3 times the cell's share [J]   @param bulk_j  (lambda - mu) h^3 times the same [J]
 CellPull lawPull(CellMotion q, CellMoments moments, float rigidity, float bulk_j, float stiffening) {
   float ratio = bulk_j / rigidity, bulk = ratio + 5.0f / 3.0f;  // K/mu = lambda/mu + 2/3
   LawCell t = lawCell(moments, ratio);
@@ -178,6 +197,9 @@ CellPull lawPull(CellMotion q, CellMoments moments, float rigidity, float bulk_j
   if (dot(t.center, t.center) == 0.0f) {
     p = lawStress(d, c, e, bulk, stiffening);
     pull.energy += lawDensity(d, e, bulk, stiffening);
+#ifdef PRESTRESS
+    lawAddPrestress(moments, d, p, pull.energy);
+#endif
   } else {
     LawColumns g = lawAtCentroid(t, s);
     LawColumns star = lawColumns(d.a + lawTimes(d, g.a), d.b + lawTimes(d, g.b), d.c + lawTimes(d, g.c));
@@ -185,6 +207,9 @@ CellPull lawPull(CellMotion q, CellMoments moments, float rigidity, float bulk_j
     float e_star = lawDilation(star, of_star);
     LawColumns ps = lawStress(star, of_star, e_star, bulk, stiffening);
     pull.energy += lawDensity(star, e_star, bulk, stiffening);
+#ifdef PRESTRESS
+    lawAddPrestress(moments, star, ps, pull.energy);
+#endif
     lawAddCentroid(t, lawColumns(lawTransposed(d, ps.a), lawTransposed(d, ps.b), lawTransposed(d, ps.c)), r);
     p = lawColumns(ps.a + g.a.x * ps.a + g.b.x * ps.b + g.c.x * ps.c, ps.b + g.a.y * ps.a + g.b.y * ps.b + g.c.y * ps.c,
                    ps.c + g.a.z * ps.a + g.b.z * ps.b + g.c.z * ps.c);
@@ -224,13 +249,14 @@ float lawLargest(LawColumns m) {
 
 /// How much faster squared the fastest wave in a lattice of cells with a gradient 1 + D is than at rest, 1 or more (physics.md 2): exact for
 /// waves along principal stretches. @param c  lawCofactors(d)   @param ratio  lambda/mu - 1
-float lawStiffeningAt(LawColumns d, LawColumns c, float ratio, float stiffening) {
+/// @param tension  lawTension(), or 0
+float lawStiffeningAt(LawColumns d, LawColumns c, float ratio, float stiffening, float tension) {
   float e = lawDilation(d, c), bulk = ratio + 5.0f / 3.0f;
   LawVolume v = lawVolume(e);
   float size = 3.0f + lawSize(d), r = v.inverse;
   float x = v.phi * size - 3.0f, shear = v.phi * lawStiffer(x, stiffening), across = lawLargest(c);
   float pressing = (5.0f / 9.0f) * shear * v.slope * v.slope * size + 0.5f * bulk * (1.0f + r * r);
-  float waves = shear + pressing * across - (4.0f / 3.0f) * shear * v.slope * max(1.0f + e, 0.0f);
+  float waves = tension + shear + pressing * across - (4.0f / 3.0f) * shear * v.slope * max(1.0f + e, 0.0f);
   if (1.0f + e < kLeastVolume) waves += (2.0f / 3.0f * shear * v.slope + 0.5f * bulk * r) * sqrt(size);
   if (stiffening * x > 0.0f && stiffening * x < kMostExponent) {  // along d x / d F = 2 phi (F - size/(3 J) C)
     float longest = max(lawLargest(d), size * size / 9.0f * across * r * r);
@@ -243,9 +269,14 @@ float lawStiffeningAt(LawColumns d, LawColumns c, float ratio, float stiffening)
 float lawStiffening(CellMotion q, CellMoments moments, float ratio, float stiffening) {
   LawColumns d = lawColumns(q.da, q.db, q.dc), c = lawCofactors(d);
   LawCell t = lawCell(moments, ratio);
-  float found = lawStiffeningAt(d, c, ratio, stiffening);
+#ifdef PRESTRESS
+  float tension = lawTension(moments);
+#else
+  const float tension = 0.0f;
+#endif
+  float found = lawStiffeningAt(d, c, ratio, stiffening, tension);
   if (dot(t.center, t.center) == 0.0f) return found;
   LawColumns g = lawAtCentroid(t, lawFrame(q, c, lawDilation(d, c)));
   LawColumns star = lawColumns(d.a + lawTimes(d, g.a), d.b + lawTimes(d, g.b), d.c + lawTimes(d, g.c));
-  return max(found, lawStiffeningAt(star, lawCofactors(star), ratio, stiffening));
+  return max(found, lawStiffeningAt(star, lawCofactors(star), ratio, stiffening, tension));
 }

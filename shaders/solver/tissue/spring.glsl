@@ -27,7 +27,7 @@ bool isMild(vec3 d, float l0, vec3 w) {
 /// @param w  u_far - u_near [m]
 /// L - l0 = (2 d.w + w.w + prestrain) / (L + l0): no cancellation at small strain; antisymmetric to the bit under
 /// (d, w) -> (-d, -w).
-#ifdef NETWORK
+#if defined(NETWORK) || defined(PRESTRESS)
 /// A spring of no length at all has no direction and pulls nowhere.
 Spring springBetween(vec3 d, float l0, float prestrain, vec3 w) {
   const float least = 1e-30f;  // [m, m2] far below any length, so that nothing is divided by 0

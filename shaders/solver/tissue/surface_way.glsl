@@ -3,10 +3,10 @@
 //
 // Where the tissue of a node is: at the node, or, where cells are tissue in part and it lies outside of them, at the nearest
 // point of the surface (physics.md 5). After lattice.glsl.
-// Features: MOMENTS and PARTS together: some cells may be tissue in part.
+// Features: LAW and PARTS together: some cells may be tissue in part.
 
 #ifndef __cplusplus
-#if defined(MOMENTS) && defined(PARTS)
+#if defined(LAW) && defined(PARTS)
 layout(std430, binding = kBindSurfaceWays) readonly buffer SurfaceWaysBuffer { uint surface_ways[]; };
 uint surfaceWay(uint slot) { return surface_ways[slot]; }
 #else

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "math/number_text.h"
-#include "model/body/thin_walls.h"
 
 namespace viscera {
 namespace {
@@ -58,10 +57,6 @@ std::string latticeNote(const Lattice& lattice, size_t fixed_nodes) {
       << " springs, spacing " << lattice.spacing_m * 1e3 << " mm";
   if (lattice.fills.empty()) return out.str();
   out << ", " << lattice.fills.size() << " cells tissue in part";
-  const long percent = std::lround(100 * thinShare(lattice));
-  if (percent > 0)
-    out << ", " << percent << " % of them in walls of less than " << kFewCells
-        << " cells (law springs with material.thin_walls bends them as thin walls)";
   return out.str();
 }
 

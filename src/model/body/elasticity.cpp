@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "math/nearest_names.h"
-#include "model/body/thin_walls.h"
 #include "model/scene/key_place.h"
 #include "viscera/math/error.h"
 
@@ -120,7 +119,7 @@ std::vector<Elasticity> elasticityByLabel(const Body& body) {
 }
 
 bool isHeterogeneous(const Body& body) {
-  return !body.parts.empty() || !body.lattice.fills.empty();
+  return !body.parts.empty() || !body.lattice.fills.empty() || !body.prestress.empty();
 }
 
 Strengths strengths(const Body& body) {
@@ -130,9 +129,9 @@ Strengths strengths(const Body& body) {
   Sums sums{std::vector<double>(slots * kSpringPairs), std::vector<double>(slots),
             std::vector<uint8_t>(slots * kSpringPairs), std::vector<uint8_t>(slots)};
   Strengths out;
-  const bool has_moments = body.material.cells == Cells::kMoments;
+  const bool has_law = body.material.law == Law::kNeoHookean;
   out.bulk_j.resize(slots);
-  if (has_moments) out.rigidity_j.resize(slots);
+  out.rigidity_j.resize(slots);
   const std::vector<std::pair<size_t, Elasticity>> mixed = mixtures(lattice, by_label);
   auto next = mixed.begin();
   for (uint32_t slot = 0; slot < slots; ++slot) {
@@ -140,8 +139,8 @@ Strengths strengths(const Body& body) {
     const bool mixes = next != mixed.end() && next->first == slot;
     const Elasticity& whole = mixes ? (next++)->second : by_label[lattice.cell_labels[slot]];
     const Elasticity e = scaled(whole, fillOf(lattice, slot).share);
-    out.bulk_j[slot] = static_cast<float>(e.bulk_j);
-    if (has_moments) out.rigidity_j[slot] = static_cast<float>(e.rigidity_j);
+    if (has_law) out.bulk_j[slot] = static_cast<float>(e.bulk_j);
+    if (has_law) out.rigidity_j[slot] = static_cast<float>(e.rigidity_j);
     addCell(lattice, slot, e, sums);
   }
   if (body.material.weights == Weights::kPaper) makeUniform(sums);
@@ -188,10 +187,9 @@ void raiseSlivers(std::vector<CellFill>& fills) {
 }  // namespace
 
 CellMoments cellMoments(const Body& body) {
-  CellMoments out{body.lattice.cell_fills, body.lattice.fills, {}};
+  CellMoments out{body.lattice.cell_fills, body.lattice.fills};
   if (!body.lattice.shared.empty() && !body.parts.empty()) weighShared(body, out);
   if (body.material.law == Law::kNeoHookean) raiseSlivers(out.fills);
-  if (body.material.thin_walls) out.bends = cellBends(body, out);
   return out;
 }
 

@@ -21,7 +21,7 @@ constexpr double kOnMeshBorder = 1e-4;  ///< of a spring: rounding of single-pre
 /// How far outside of a shape nodes are still held, in springs.
 double slackOf(const BodyConfig& config) {
   if (isNetwork(config.structure)) return kOnMeshBorder;
-  return hasMoments(config) ? kNearest - kOnBorder : kOnBorder;
+  return fillsInPart(config) ? kNearest - kOnBorder : kOnBorder;
 }
 
 using Holds = std::function<bool(const Vector3d& point_m)>;

@@ -47,7 +47,6 @@ Body plainBody(const BodyConfig& config) {
   Body body;
   body.name = config.name;
   body.material = config.material;
-  body.material.cells = hasMoments(config) ? Cells::kMoments : Cells::kSprings;
   body.material.law = lawOf(config);
   body.parts = config.parts;
   body.color = config.color;

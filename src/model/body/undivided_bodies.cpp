@@ -42,8 +42,10 @@ UndividedBodies::UndividedBodies(const Scene& scene) {
   const std::vector<size_t> chosen = autoBodies(scene);
   for (size_t b = 0; b < scene.bodies.size(); ++b) {
     const bool is_auto = std::find(chosen.begin(), chosen.end(), b) != chosen.end();
-    (is_auto ? auto_ : others_).push_back({scene.bodies[b], withPlace(scene, b, [&] {
-                                             return makeTissue(scene.bodies[b], scene.folder);
+    BodyConfig config = scene.bodies[b];
+    config.material.law = lawOf(config, scene.solver.integrator);
+    (is_auto ? auto_ : others_).push_back({config, withPlace(scene, b, [&] {
+                                             return makeTissue(config, scene.folder);
                                            })});
   }
 }

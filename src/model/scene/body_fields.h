@@ -74,10 +74,8 @@ template <class V>
 void visitFields(V& v, MaterialConfig& c) {
   v.tissue("tissue", c, "gives the three keys below that the scene does not give; not for diagnosis or planning");
   v.number("young_modulus_pa", c.young_modulus_pa, {1, 1e9}, "Pa", "Young's modulus E");
-  v.number(
-      "poisson_ratio", c.poisson_ratio, {0, 0.49}, "1",
-      "Poisson's ratio nu; 1/4 costs least (with cells springs any other adds a pass over them); structure surface "
-      "has that of its springs, 1/3");
+  v.number("poisson_ratio", c.poisson_ratio, {0, 0.49}, "1",
+           "Poisson's ratio nu; law springs has 1/4 and no other; structure surface has that of its springs, 1/3");
   v.number("density_kg_per_m3", c.density_kg_per_m3, {1, 1e5}, "kg/m3", "mass density");
   v.number("drag_per_s", c.drag_per_s, {0, 1e4}, "1/s", "node drag gamma: every velocity decays at this rate");
   v.number("dashpot_ratio", c.dashpot_ratio, {0, 0.5}, "1",
@@ -86,26 +84,17 @@ void visitFields(V& v, MaterialConfig& c) {
            "assembly of springs and masses: per solid cell (exact), or VR05's uniform weights");
   v.choice(
       "law", c.law, {{"auto", Law::kAuto}, {"neo_hookean", Law::kNeoHookean}, {"springs", Law::kSprings}},
-      "what the cells are made of: a neo-Hookean energy each, accurate at large strain (structure lattice, "
-      "solver.integrator leapfrog), or springs with what `cells` adds to them, as in the papers; auto is neo_hookean "
-      "in structure lattice where leapfrog steps, cells is auto, weights cell and thin_walls false, else springs");
+      "what the cells are made of: a neo-Hookean energy each, accurate at large strain, cells at the surface filled in "
+      "part (structure lattice, solver.integrator leapfrog), or springs as in the papers, cells full or empty; auto is "
+      "neo_hookean in structure lattice where leapfrog steps and weights is cell, else springs");
   v.number("stiffening", c.stiffening, {0, 100}, "1",
            "law neo_hookean: b of its shear energy mu/(2 b) (exp(b (I1 - 3)) - 1), so that tissue stiffens as it is "
            "stretched, by exp(b (I1 - 3)) and 20 times at most; 0: none, and costs nothing");
-  v.choice("cells", c.cells, {{"auto", Cells::kAuto}, {"moments", Cells::kMoments}, {"springs", Cells::kSprings}},
-           "what cells resist with: springs corrected by the moments of the part of each cell that is tissue (cells at "
-           "the surface are filled in part), or springs alone (cells are full or empty); auto is moments in structure "
-           "lattice and explicit with weights cell, else springs");
-  v.boolean(
-      "thin_walls", c.thin_walls,
-      "cells by moments in walls of less than 4 cells take from the tissue around them what their corners do not show "
-      "of a bend: right within 5 % from 1.5 cells on however the wall lies, where it else lacks 13 %; such cells cost "
-      "more");
   v.group("cut", c.cut, "what it takes to part the tissue");
   v.group(
       "prestress", c.prestress,
       "tissue pulls before anything touches it, and gapes when cut; what balances in the given shape is kept. Needs "
-      "structure explicit or surface");
+      "structure lattice, with law neo_hookean, or surface");
   v.group("tear", c.tear, "what it takes to pull it apart");
   v.group("bleeding", c.bleeding, "blood that runs out where it is cut, as if it were a vessel");
 }

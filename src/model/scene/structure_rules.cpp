@@ -19,11 +19,13 @@ std::string sourceFault(const BodyConfig& body) {
 
 std::string lawFault(const BodyConfig& body) {
   const MaterialConfig& material = body.material;
-  if (lawOf(body) == Law::kSprings)
-    return material.stiffening > 0 ? "material.stiffening needs material.law: neo_hookean" : "";
-  if (material.cells == Cells::kSprings) return "material.cells: springs does not go with material.law: neo_hookean";
+  if (lawOf(body) == Law::kSprings) {
+    if (isPrestressed(body) && body.structure == Structure::kLattice)
+      return "material.prestress of structure lattice needs material.law: neo_hookean";
+    if (material.stiffening > 0) return "material.stiffening needs material.law: neo_hookean";
+    return hasOwnPoisson(body) ? "poisson_ratio other than 0.25 needs material.law: neo_hookean: springs have 1/4" : "";
+  }
   if (material.weights != Weights::kCell) return "material.weights: paper does not go with material.law: neo_hookean";
-  if (material.thin_walls) return "material.thin_walls does not go with material.law: neo_hookean";
   return "";
 }
 
@@ -32,6 +34,13 @@ bool isNone(const PrestressConfig& c) {
 }
 
 }  // namespace
+
+bool hasOwnPoisson(const BodyConfig& body) {
+  const auto is_other = [](double nu) { return nu != MaterialConfig{}.poisson_ratio; };
+  return is_other(body.material.poisson_ratio) ||
+         std::any_of(body.parts.begin(), body.parts.end(),
+                     [&](const PartConfig& p) { return is_other(p.poisson_ratio); });
+}
 
 bool isPrestressed(const MaterialConfig& material, const std::vector<PartConfig>& parts) {
   return !isNone(material.prestress) ||
@@ -42,10 +51,6 @@ std::string structureFault(const BodyConfig& body) {
   for (const std::string& fault : {featureFault(body), sourceFault(body)}) {
     if (!fault.empty()) return fault;
   }
-  if (hasMoments(body) && body.material.weights != Weights::kCell)
-    return "material.cells: moments does not go with material.weights: paper";
-  if (body.material.thin_walls && !hasMoments(body))
-    return "material.thin_walls needs cells by moments: cells auto or moments, weights cell";
   return lawFault(body);
 }
 

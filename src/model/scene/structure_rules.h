@@ -15,22 +15,22 @@ inline bool isNetwork(Structure structure) {
   return structure == Structure::kSurface;
 }
 
-/// Do the body's cells resist by moments (Cells)? By default those of lattices do, unless their springs are weighted as
-/// in the paper.
-inline bool hasMoments(const BodyConfig& body) {
-  if (body.material.cells != Cells::kAuto) return body.material.cells == Cells::kMoments;
-  return !isNetwork(body.structure) && body.material.weights == Weights::kCell;
-}
-
 /// The law that the body's cells obey: of lattices that leapfrog steps the neo-Hookean one, unless the scene asks for
 /// springs or for what goes with them alone. Never Law::kAuto.
 inline Law lawOf(const BodyConfig& body, Integrator integrator = Integrator::kLeapfrog) {
   const MaterialConfig& material = body.material;
   if (material.law != Law::kAuto) return material.law;
-  const bool plain = material.cells == Cells::kAuto && material.weights == Weights::kCell && !material.thin_walls;
   const bool goes = body.structure == Structure::kLattice && integrator == Integrator::kLeapfrog;
-  return goes && plain ? Law::kNeoHookean : Law::kSprings;
+  return goes && material.weights == Weights::kCell ? Law::kNeoHookean : Law::kSprings;
 }
+
+/// Are cells at the surface tissue in part? Springs have full cells alone.
+inline bool fillsInPart(const BodyConfig& body) {
+  return lawOf(body) == Law::kNeoHookean;
+}
+
+/// Has the body or a part of it another Poisson's ratio than springs have?
+bool hasOwnPoisson(const BodyConfig& body);
 
 /// Do springs of the body or of a part of it pull where they are?
 bool isPrestressed(const MaterialConfig& material, const std::vector<PartConfig>& parts);

@@ -131,7 +131,6 @@ void SimulatorDiagnostics::simulation(Status& status) {
   status.add("governor_trips", now_->health.trips);
   status.add("recovering", now_->health.recovering);
   status.add("strained", now_->health.strained);
-  status.add("nodes_unfolded", now_->health.unfolded);
   status.add("kinetic_energy_j", now_->stats.kinetic_j);
   status.add("elastic_energy_j", now_->stats.elastic_j);
   status.add("springs_collapsed", now_->stats.collapsed);

@@ -73,7 +73,7 @@ CpuBackend::CpuBackend(const Model& model, const Scene& scene, const TickPlan& p
   }
   if (features_.tears) tearing_.emplace(model);
   if (!plan.governed()) return;
-  recovery_ = makeCpuRecoveryStepper(kRecoveryIterations, lattice_, pool_);
+  if (plan.recovers_by_pd) recovery_ = makeCpuRecoveryStepper(kRecoveryIterations, lattice_, pool_);
   saveGood();
 }
 
@@ -228,19 +228,16 @@ void CpuBackend::measure() {
   stats_ = out;
 }
 
-/// Largest (2 sum k + volume) / m of a node that is not fixed [1/s2] (physics.md 2; shaders/solver/step/measure.comp).
+/// Largest (2 sum k + 1.5/h^2 sum of bulks) / m of a node that is not fixed [1/s2] (physics.md 2; shaders/solver/step/measure.comp).
 float CpuBackend::largestRate() const {
   float largest = 0;
   for (uint32_t slot : lattice_.store.active) {
     const layout::NodeBits& bits = lattice_.store.nodes[slot];
     if ((bits.lo & layout::kFixedBit) || lattice_.connections(slot) != layout::kImplicit) continue;
-    const size_t brick = slot / layout::kBrickSlots, local = slot % layout::kBrickSlots;
-    float springs = 0, bulk = 0;
+    float springs = 0;
     for (size_t s = 0; s < layout::kSpringsPerNode; ++s)
       springs += lattice_.strengths.both_ends[simd::springAt(slot, s)];
-    for (size_t c = 0; c < 8 && !lattice_.strengths.bulk_around.empty(); ++c) {
-      bulk += std::max(0.0f, lattice_.strengths.bulk_around[brick * 512 + c * 64 + local]);
-    }
+    const float bulk = lattice_.strengths.bulkAround(lattice_.store, slot);
     const float h = lattice_.store.bodies[bits.hi >> layout::kBodyShift].origin_spacing.w;
     largest = std::max(largest, (2 * springs + 1.5f * bulk / (h * h)) / lattice_.strengths.mass[slot]);
   }
@@ -327,7 +324,7 @@ void CpuBackend::persist(Archive& archive) {
   if (surroundings_) surroundings_->persist(archive);
   if (pairs_) pairs_->persist(archive);
   lattice_.persist(archive);
-  if (network_) network_->persist(archive, lattice_);
+  if (network_ && archive.reads()) network_->restart(lattice_);
   archive.section("cpu");
   sleep_.persist(archive);
   archive.values(work_->stats);

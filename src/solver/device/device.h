@@ -13,7 +13,7 @@ namespace viscera {
 // layout/bindings.h, and runs passes over what it holds.
 
 /// What a pass goes through.
-enum class Over { kNodes, kCells, kPairs };  ///< active nodes; cells; of the nodes at least those that may touch others
+enum class Over { kNodes, kPairs };  ///< active nodes; of these at least those that may touch others
 
 /// What a pass is told beside its uniforms. Bits.
 constexpr uint32_t kInSubstep = 1;  ///< the substep; probes and obstacles, compiled in where some may be about

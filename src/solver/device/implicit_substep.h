@@ -28,7 +28,6 @@ class ImplicitSubstep {
         contacts_(size_t{3} * device.contactRows() * device.slots(), "contacts of nodes"),
         energies_(2 * device.sumSize(), "energies") {
     bindIncrements();  // what is too large for the driver is said now
-    if (device.hasVolumes()) cells_ = device.pass("implicit_cells.comp", 0);
     if (!device.pairs) return;
     pull_ = device.pass("implicit_pull.comp", kInSubstep | kWithPairs);
     meet_ = device.pass("implicit_meet.comp", kWithPairs);
@@ -53,7 +52,6 @@ class ImplicitSubstep {
   /// gives them what their balance of forces at the end of the substep lacks.
   void end(const Substep& step) {
     keepBestShare(step, !step.tools);
-    if (step.tools || step.obstacle_count > 0) updateVolumes(step, 0);
     device.run(end_, step, Over::kNodes);
   }
 
@@ -63,16 +61,9 @@ class ImplicitSubstep {
     bindIncrements();
   }
 
-  /// Forces and majorisers of the cells in the current iterate, where there are any, for the iteration that follows.
-  void updateVolumes(const Substep& step, int iteration) {
-    if (!cells_) return;
-    device.run(cells_, step, Over::kCells, {{"dt_s", step.dt_s}, {"iteration", static_cast<uint32_t>(iteration)}});
-  }
-
   /// The part of a sweep that moves nodes which may touch others: all of them together. After the rest of it.
   void movePairs(const Substep& step, int iteration) {
     if (!device.mayHavePairs()) return;
-    updateVolumes(step, 0);
     device.run(pull_, step, Over::kPairs, {{"first_sweep", iteration == 0 ? 1u : 0u}});
     for (int round = 1; round <= kPairRounds; ++round) {
       device.run(meet_, step, Over::kPairs);
@@ -99,7 +90,7 @@ class ImplicitSubstep {
 
   using Vectors = typename Device::template Field<typename Device::vec4>;
   typename Device::Pass begin_, guess_, scale_, end_;
-  typename Device::Pass cells_, pull_, meet_, place_;  ///< of volumes and of pairs, where there are any
+  typename Device::Pass pull_, meet_, place_;  ///< of pairs, where there are any
   Vectors increments_[2];  ///< [slots] xyz m; w 1 where prescribed, below 0 where in contact; this iterate and the last
   Vectors contacts_;       ///< [3 * rows * slots], see shaders/solver/implicit/implicit_contact.glsl
   Vectors energies_;       ///< [2 * device.sumSize()] J

@@ -29,7 +29,6 @@ class PdStepper : public Device::Stepper {
     const double rho = spectralRadius(static_cast<double>(step.dt_s));
     double weight = 1;
     for (int iteration = 0; iteration < options_.iterations; ++iteration) {
-      implicit_.updateVolumes(step, iteration);
       weight = options_.accelerated ? chebyshevWeight(iteration, weight, rho) : 1;
       implicit_.device.run(sweep_, step, Over::kNodes,
                            {{"iteration", static_cast<uint32_t>(iteration)}, {"omega", static_cast<float>(weight)}});
@@ -71,7 +70,7 @@ class PdStepper : public Device::Stepper {
   ImplicitSubstep<Device> implicit_;
   typename Device::Pass sweep_;
   PdOptions options_;
-  double stiffness_rate_per_s2_ = 0, damping_rate_per_s_ = 0;  ///< max of (sum of k + volume)/m, of (sum of c)/m
+  double stiffness_rate_per_s2_ = 0, damping_rate_per_s_ = 0;  ///< max of (sum of k)/m, of (sum of c)/m
 };
 
 }  // namespace viscera

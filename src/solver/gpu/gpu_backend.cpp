@@ -53,8 +53,9 @@ GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& p
       has_springs_(std::isfinite(plan.dt_safe_s) && plan.dt_safe_s > 0),
       stats_ring_(sizeof(layout::TickStats) + sizeof(layout::AwakeList), kStatsInFlight, "the measurements of a tick") {
   if (plan.governed()) {
-    recovery_.emplace(Recovery{GoodStates(buffers_.store.slot_count, kGoodStates + kLag), GuardPass(features_),
-                               makeRecoveryStepper(kRecoveryIterations, features_, buffers_)});
+    recovery_.emplace(
+        Recovery{GoodStates(buffers_.store.slot_count, kGoodStates + kLag), GuardPass(features_),
+                 plan.recovers_by_pd ? makeRecoveryStepper(kRecoveryIterations, features_, buffers_) : nullptr});
     recovery_->good.save(buffers_);
   }
   if (plan.surroundings) surroundings_.emplace(model, scene, features_, buffers_);

@@ -66,8 +66,6 @@ class TissueProcess {
   virtual bool act(TissuePort&, const ProcessTick&, const ProcessSubstep&) { return false; }
   /// Acts after the last substep. @param all  of the scene, in their order   @returns whether springs were cut
   virtual bool endTick(TissuePort&, const ProcessTick&, const TissueProcesses& /*all*/) { return false; }
-  /// The tissue was put elsewhere between two ticks, as when it is unfolded. @param before_m  [slots] displacements
-  virtual void tissueMoved(const std::vector<layout::vec4>& /*before_m*/, const HostState& /*after*/) {}
   /// @returns  work done on the tissue in the tick [J], beside that of styluses; what it took away is below 0
   virtual double work_j() const { return 0; }
   /// Whether pushNodes() may have named a stylus in the tick: reactions are summed then.

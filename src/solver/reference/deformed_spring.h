@@ -31,10 +31,22 @@ inline ReferenceLattice::Spring ReferenceLattice::springAt(const Field& u_m, uin
   return springBetween(n, u_m[n.slot] - u_m[slot]);
 }
 
+/// A spring of a cell that has lost one, with ends that are w apart beyond rest: such springs take the cell's stress at
+/// rest over (CpuStrengths::setBroken()).
+inline ReferenceLattice::Spring ReferenceLattice::springOf(const Vector3d& w_m, const Cell& cell, uint32_t slot,
+                                                           uint32_t spring) const {
+  Neighbor n = neighbor(slot, spring);
+  const Eigen::Matrix3d strain =
+      0.5 * (cell.law.prestress - cell.law.prestress.trace() / 5 * Eigen::Matrix3d::Identity());
+  n.rest_m *= 1 - n.offset_m.dot(strain * n.offset_m) / n.offset_m.squaredNorm();
+  n.spring = 0;  // its length at rest is not that of the lattice
+  return springBetween(n, w_m);
+}
+
 /// Calls visit(corner, far corner, slot, spring, k) for each spring that a cell has left: what the cell gives to it.
 template <class Visit>
 void ReferenceLattice::forEachSpringOf(const Cell& cell, Visit visit) const {
-  const double quarter = cell.moments.rigidity_j / (4 * cell.spacing_m * cell.spacing_m);
+  const double quarter = cell.law.rigidity_j / (4 * cell.spacing_m * cell.spacing_m);
   for (size_t c = 0; c < 8; ++c) {
     const uint32_t slot = cell.corners[c];
     for (uint32_t s = 0; s < layout::kSpringsPerNode; s += 2) {
@@ -56,18 +68,4 @@ inline double cornerSign(size_t corner, int axis) {
 }
 
 /// Determinant of 1 + g, less 1, without cancellation.
-inline double volumeStrain(const Eigen::Matrix3d& g) {
-  const double minors = g(0, 0) * g(1, 1) - g(0, 1) * g(1, 0) + g(1, 1) * g(2, 2) - g(1, 2) * g(2, 1) +
-                        g(2, 2) * g(0, 0) - g(2, 0) * g(0, 2);
-  return g.trace() + minors + g.determinant();
-}
-
-/// Derivative of the determinant by the columns a', b', c' of 1 + g: b' x c', c' x a', a' x b'.
-inline Eigen::Matrix3d volumeGradient(const Eigen::Matrix3d& g) {
-  const Eigen::Matrix3d edges = Eigen::Matrix3d::Identity() + g;
-  Eigen::Matrix3d out;
-  for (int i = 0; i < 3; ++i) out.col(i) = edges.col((i + 1) % 3).cross(edges.col((i + 2) % 3));
-  return out;
-}
-
 }  // namespace viscera

@@ -39,10 +39,11 @@ T lawDensity(const Eigen::Matrix<T, 3, 3>& f, double bulk_over_mu, double stiffe
 
 /// Returns the energy of a cell of the neo-Hookean law over rigidity (physics.md 1, Law).
 /// @param ratio  lambda / mu - 1   @param stiffening  b of lawShear()   @param fill  moments of the cell's tissue over
-/// its share
-/// @param motion  mean edges less their rest value, hourglass motions, alternating motion, over h (moment_energy.h)
+/// its share   @param prestress  S over mu: its stress at rest has the energy S : (F^T F - 1) / 2
+/// @param motion  mean edges less their rest value, hourglass motions, alternating motion, over h (law_cell.h)
 template <class T>
-T lawEnergy(double ratio, double stiffening, const CellFill& fill, const Eigen::Matrix<T, 21, 1>& motion) {
+T lawEnergy(double ratio, double stiffening, const CellFill& fill, const Eigen::Matrix3d& prestress,
+            const Eigen::Matrix<T, 21, 1>& motion) {
   using Tensor = Eigen::Matrix<T, 3, 3>;
   const double lambda = 1 + ratio, poisson = lambda / (lambda + 2);
   const Vector3d& c = fill.first;
@@ -72,7 +73,11 @@ T lawEnergy(double ratio, double stiffening, const CellFill& fill, const Eigen::
     g(a, n) -= c[n] * s(n, b);
     g(b, n) -= c[n] * s(n, a);
   }
-  T energy = lawDensity<T>(f + f * g, lambda + 2.0 / 3, stiffening);
+  const Tensor at_centroid = f + f * g;
+  T energy = lawDensity<T>(at_centroid, lambda + 2.0 / 3, stiffening);
+  const Tensor right = at_centroid.transpose() * at_centroid - Eigen::Matrix3d::Identity();
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) energy += 0.5 * prestress(i, k) * right(i, k);
   for (int n = 0; n < 3; ++n) {
     for (int k = 0; k < 3; ++k) {
       const T traces = gradients[n].trace() * gradients[k].trace();

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "solver/reference/deformed_spring.h"
-#include "solver/reference/volume_energy.h"
 
 namespace viscera {
 
@@ -103,44 +102,26 @@ double ReferenceLattice::forceScale(const Field& u_m) const {
   return scale;
 }
 
-/// Columns: what the means of a cell's four edges along x, y, z have grown by, over h.
-Eigen::Matrix3d ReferenceLattice::cellGradient(const Field& u_m, const Cell& cell) const {
-  Eigen::Matrix3d g = Eigen::Matrix3d::Zero();
-  for (size_t c = 0; c < 8; ++c) {
-    for (int axis = 0; axis < 3; ++axis) g.col(axis) += cornerSign(c, axis) * u_m[cell.corners[c]];
-  }
-  return g / (4 * cell.spacing_m);
-}
-
-/// Columns: force that the corners on the far side of each axis get, -p / (4 h) d(V/V0)/d(edge) [N].
-Eigen::Matrix3d ReferenceLattice::cellStress(const Field& u_m, size_t index) const {
-  const Cell& cell = cells_[index];
-  const double bulk_j = bulk(cell.corners[0]);
-  if (bulk_j == 0 || cell.moments.obeys_law) return Eigen::Matrix3d::Zero();
-  const Eigen::Matrix3d g = cellGradient(u_m, cell);
-  return -volumeSlope(bulk_j, volumeStrain(g)) / (4 * cell.spacing_m) * volumeGradient(g);
-}
-
 CellMotion ReferenceLattice::motionOf(const Field& u_m, const Cell& cell) const {
   std::array<Vector3d, 8> corners;
   for (size_t c = 0; c < 8; ++c) corners[c] = u_m[cell.corners[c]];
   return cellMotion(corners, cell.spacing_m);
 }
 
-/// Those of a cell that lost a spring are without rigidity.
-MomentCell ReferenceLattice::momentsOf(const Cell& cell) const {
-  return nodes[cell.corners[0]].lo & layout::kCellBit ? cell.moments : MomentCell{};
+/// Does a cell obey a law and have all its springs?
+bool ReferenceLattice::isWholeCell(const Cell& cell) const {
+  return cell.law.rigidity_j != 0 && (nodes[cell.corners[0]].lo & layout::kCellBit) != 0;
 }
 
 bool ReferenceLattice::isBroken(const Cell& cell) const {
-  return cell.moments.obeys_law && !(nodes[cell.corners[0]].lo & layout::kCellBit);
+  return cell.law.rigidity_j != 0 && !(nodes[cell.corners[0]].lo & layout::kCellBit);
 }
 
 ReferenceLattice::CornerForces ReferenceLattice::brokenForces(const Field& u_m, const Cell& cell) const {
   CornerForces out;
   out.fill(Vector3d::Zero());
   forEachSpringOf(cell, [&](size_t corner, size_t far, uint32_t slot, uint32_t s, double k) {
-    const Spring spring = springAt(u_m, slot, s);
+    const Spring spring = springOf(u_m[farEnd(slot, s)] - u_m[slot], cell, slot, s);
     const Vector3d pull = k * spring.extension_m * spring.direction;
     out[corner] += pull;
     out[far] -= pull;
@@ -151,25 +132,22 @@ ReferenceLattice::CornerForces ReferenceLattice::brokenForces(const Field& u_m, 
 double ReferenceLattice::brokenEnergy(const Field& u_m, const Cell& cell) const {
   double sum = 0;
   forEachSpringOf(cell, [&](size_t, size_t, uint32_t slot, uint32_t s, double k) {
-    const double extension = springAt(u_m, slot, s).extension_m;
-    sum += 0.5 * k * extension * extension;
+    const double extension = springOf(u_m[farEnd(slot, s)] - u_m[slot], cell, slot, s).extension_m;
+    const double at_rest = springOf(Vector3d::Zero(), cell, slot, s).extension_m;
+    sum += 0.5 * k * (extension * extension - at_rest * at_rest);
   });
   return sum;
 }
 
-/// What a cell's volume and moments do to its corners [N].
+/// What a cell does to its corners [N].
 ReferenceLattice::CornerForces ReferenceLattice::cellForces(const Field& u_m, size_t index) const {
   const Cell& cell = cells_[index];
-  const Eigen::Matrix3d stress = cellStress(u_m, index);
-  const MomentCell moments = momentsOf(cell);
-  CellMotion gradient = CellMotion::Zero();
-  if (moments.rigidity_j != 0) gradient = momentGradient(moments, motionOf(u_m, cell));
   if (isBroken(cell)) return brokenForces(u_m, cell);
   CornerForces out;
+  out.fill(Vector3d::Zero());
+  if (!isWholeCell(cell)) return out;
+  const CellMotion gradient = lawCellGradient(cell.law, motionOf(u_m, cell));
   for (size_t c = 0; c < 8; ++c) {
-    out[c].setZero();
-    for (int axis = 0; axis < 3; ++axis) out[c] += cornerSign(c, axis) * stress.col(axis);
-    if (moments.rigidity_j == 0) continue;
     const Eigen::Matrix<double, 7, 1> of_corner = motionOfCorner(c, cell.spacing_m);
     for (int i = 0; i < 7; ++i) out[c] -= of_corner[i] * gradient.segment<3>(3 * i);
   }
@@ -187,28 +165,17 @@ Vector3d ReferenceLattice::cellForce(ForcesOf forces_of, uint32_t slot) const {
   return sum;
 }
 
-double ReferenceLattice::volumeEnergy(const Field& u_m) const {
+double ReferenceLattice::cellEnergy(const Field& u_m) const {
   double sum = 0;
   for (const Cell& cell : cells_) {
-    const double bulk_j = bulk(cell.corners[0]);
-    if (bulk_j != 0 && !cell.moments.obeys_law)
-      sum += viscera::volumeEnergy(bulk_j, volumeStrain(cellGradient(u_m, cell)));
-  }
-  return sum;
-}
-
-double ReferenceLattice::momentEnergy(const Field& u_m) const {
-  double sum = 0;
-  for (const Cell& cell : cells_) {
-    const MomentCell moments = momentsOf(cell);
     if (isBroken(cell)) sum += brokenEnergy(u_m, cell);
-    if (moments.rigidity_j != 0) sum += viscera::momentEnergy(moments, motionOf(u_m, cell));
+    if (isWholeCell(cell)) sum += lawCellEnergy(cell.law, motionOf(u_m, cell));
   }
   return sum;
 }
 
 double ReferenceLattice::elasticEnergy(const Field& u_m) const {
-  return springEnergy(u_m) + volumeEnergy(u_m) + momentEnergy(u_m);
+  return springEnergy(u_m) + cellEnergy(u_m);
 }
 
 Vector3d ReferenceLattice::elasticForce(const Field& u_m, uint32_t slot) const {

@@ -129,18 +129,18 @@ void ReferenceLattice::addCell(const Body& body, size_t b, uint32_t local) {
     cell.corners[c] = first + static_cast<uint32_t>(lattice.slotAt(lowest + cornerOffset(c)));
     around_[cell.corners[c]][c] = static_cast<int>(cells_.size());
   }
-  if (body.material.cells == Cells::kMoments) {
-    cell.moments.stiffening = static_cast<double>(params_[b].stiffening);
-    cell.moments.obeys_law = body.material.law == Law::kNeoHookean;
+  if (body.material.law == Law::kNeoHookean) {
+    cell.law.stiffening = static_cast<double>(params_[b].stiffening);
     const Strengths& table = strengths_[b];
-    cell.moments.rigidity_j = table.rigidity_j.empty() ? params_[b].rigidity_j : table.rigidity_j[local];
-    cell.moments.bulk_j = table.bulk_j.empty() ? params_[b].bulk_j : table.bulk_j[local];
+    cell.law.rigidity_j = table.rigidity_j.empty() ? params_[b].rigidity_j : table.rigidity_j[local];
+    cell.law.bulk_j = table.bulk_j.empty() ? params_[b].bulk_j : table.bulk_j[local];
     const uint32_t which = moments_.of_cell.empty() ? 0 : moments_.of_cell[local];
     const CellFill fill = which == 0 ? CellFill{} : moments_.fills[which - 1];
-    cell.moments.fill = {1, fill.first / fill.share, fill.second / fill.share};
-    const auto bend = std::lower_bound(moments_.bends.begin(), moments_.bends.end(), local,
-                                       [](const CellBend& b, uint32_t slot) { return b.cell < slot; });
-    if (bend != moments_.bends.end() && bend->cell == local) cell.moments.missing = bend->missing;
+    cell.law.fill = {1, fill.first / fill.share, fill.second / fill.share};
+    if (!body.prestress.empty()) {
+      const std::array<float, 6>& s = body.prestress[local];
+      cell.law.prestress << s[0], s[5], s[4], s[5], s[1], s[3], s[4], s[3], s[2];
+    }
   }
   cells_.push_back(cell);
 }

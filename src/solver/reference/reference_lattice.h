@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "solver/reference/moment_energy.h"
+#include "solver/reference/law_cell.h"
 #include "solver/tissue/fields.h"
 #include "viscera/model/model.h"
 #include "viscera/solver/material.h"
@@ -80,9 +80,7 @@ class ReferenceLattice {
   double dissipation(const Field& u_m, const Field& v_m_per_s) const;
   double elasticEnergy(const Field& u_m) const;  ///< [J]
   double springEnergy(const Field& u_m) const;   ///< [J]
-  double volumeEnergy(const Field& u_m) const;   ///< [J]
-  /// What cells have by moments beside that, springs less what they lack: may be negative [J].
-  double momentEnergy(const Field& u_m) const;
+  double cellEnergy(const Field& u_m) const;     ///< of cells that obey a law [J]
   /// Largest force of a spring, or of one strained by 1e-6 where all are less [N]: what residuals are held to.
   double forceScale(const Field& u_m) const;
 
@@ -123,7 +121,7 @@ class ReferenceLattice {
   struct Cell {
     std::array<uint32_t, 8> corners;  ///< slots; bit per axis, x lowest
     double spacing_m;
-    MomentCell moments;  ///< while it is whole; without rigidity where springs alone resist
+    LawCell law;  ///< while it is whole; without rigidity in bodies of springs
   };
   using CornerForces = std::array<Vector3d, 8>;
   void addBody(const Model& model, size_t b, double dt_safe_s);
@@ -133,13 +131,12 @@ class ReferenceLattice {
   void addWay(const Lattice& lattice, uint32_t first, uint32_t local);
   const Neighbor& neighbor(uint32_t slot, uint32_t spring) const { return neighbors_[starts_[slot] + spring]; }
   Spring springAt(const Field& u_m, uint32_t slot, uint32_t spring) const;
+  Spring springOf(const Vector3d& w_m, const Cell& cell, uint32_t slot, uint32_t spring) const;
   static Spring springBetween(const Neighbor& link, const Vector3d& w_m);
   void loseSpring(uint32_t slot, uint32_t lattice_spring);
   void killCells(uint32_t slot, uint32_t other);
-  Eigen::Matrix3d cellGradient(const Field& u_m, const Cell& cell) const;
-  Eigen::Matrix3d cellStress(const Field& u_m, size_t cell) const;
   CellMotion motionOf(const Field& u_m, const Cell& cell) const;
-  MomentCell momentsOf(const Cell& cell) const;
+  bool isWholeCell(const Cell& cell) const;
   bool isBroken(const Cell& cell) const;
   template <class Visit>
   void forEachSpringOf(const Cell& cell, Visit visit) const;
@@ -152,8 +149,7 @@ class ReferenceLattice {
   Vector3d cellForce(ForcesOf forces_of, uint32_t slot) const;
   void addSprings(const Field& u_m, Curvature curvature, double dashpot_per_s,
                   std::vector<Eigen::Triplet<double>>& out) const;
-  void addVolumes(const Field& u_m, Curvature curvature, std::vector<Eigen::Triplet<double>>& out) const;
-  void addMoments(const Field& u_m, Curvature curvature, std::vector<Eigen::Triplet<double>>& out) const;
+  void addCells(const Field& u_m, Curvature curvature, std::vector<Eigen::Triplet<double>>& out) const;
 
   bool predicts_;  ///< predictsSprings()
   std::vector<layout::BodyParams> params_;

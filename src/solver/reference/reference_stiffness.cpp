@@ -4,14 +4,11 @@
 #include <Eigen/Eigenvalues>
 
 #include "solver/reference/deformed_spring.h"
-#include "solver/reference/volume_energy.h"
 
 namespace viscera {
 
 namespace {
 
-using Matrix9d = Eigen::Matrix<double, 9, 9>;
-using Vector9d = Eigen::Matrix<double, 9, 1>;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
 void addBlock(int row, int column, const Eigen::Matrix3d& block, Triplets& out) {
@@ -19,36 +16,11 @@ void addBlock(int row, int column, const Eigen::Matrix3d& block, Triplets& out) 
     for (int c = 0; c < 3; ++c) out.emplace_back(row + r, column + c, block(r, c));
 }
 
-Eigen::Matrix3d crossMatrix(const Vector3d& a) {
-  Eigen::Matrix3d m;
-  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-  return m;
-}
-
-/// d2 W / d(a', b', c')2 with W(det(a', b', c') - 1): p'(e) grad grad^T + p(e) d2 det.
-Matrix9d volumeCurvatureMatrix(double bulk_j, const Eigen::Matrix3d& g) {
-  const double e = volumeStrain(g), slope = volumeSlope(bulk_j, e);
-  const Eigen::Matrix3d gradient = volumeGradient(g), edges = Eigen::Matrix3d::Identity() + g;
-  const Vector9d flat = Eigen::Map<const Vector9d>(gradient.data());
-  Matrix9d out = volumeCurvature(bulk_j, e) * flat * flat.transpose();
-  for (int i = 0; i < 3; ++i) {  // det(da', db', c') = da' . (db' x c')
-    const int j = (i + 1) % 3;
-    const Eigen::Matrix3d cross = slope * crossMatrix(edges.col((i + 2) % 3));
-    out.block<3, 3>(3 * i, 3 * j) -= cross;
-    out.block<3, 3>(3 * j, 3 * i) += cross;
-  }
-  return out;
-}
-
 template <class Matrix>
 Matrix positivePart(const Matrix& m) {
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(m);
   return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
 }
-
-}  // namespace
-
-namespace {
 
 /// d2 (k/2 extension^2) / d w2 of a spring, with its dashpot [N/m]. @param damping  c / dt
 Eigen::Matrix3d springCurvature(const Vector3d& direction, double extension_m, double length_m, double k,
@@ -89,7 +61,7 @@ void ReferenceLattice::addBroken(const Field& u_m, Curvature curvature, Triplets
   for (const Cell& cell : cells_) {
     if (!isBroken(cell)) continue;
     forEachSpringOf(cell, [&](size_t, size_t, uint32_t slot, uint32_t s, double k) {
-      const Spring spring = springAt(u_m, slot, s);
+      const Spring spring = springOf(u_m[farEnd(slot, s)] - u_m[slot], cell, slot, s);
       const double length_m = std::max(spring.length_m, kShortest * neighbor(slot, s).rest_m);
       addBetween(
           dof(slot, 0), dof(farEnd(slot, s), 0),
@@ -99,29 +71,10 @@ void ReferenceLattice::addBroken(const Field& u_m, Curvature curvature, Triplets
   }
 }
 
-void ReferenceLattice::addVolumes(const Field& u_m, Curvature curvature, Triplets& out) const {
+void ReferenceLattice::addCells(const Field& u_m, Curvature curvature, Triplets& out) const {
   for (const Cell& cell : cells_) {
-    const double bulk_j = bulk(cell.corners[0]);
-    if (bulk_j == 0 || cell.moments.obeys_law) continue;
-    Matrix9d m = volumeCurvatureMatrix(bulk_j, cellGradient(u_m, cell));
-    if (curvature == Curvature::kPositive) m = positivePart(m);
-    m /= 16 * cell.spacing_m * cell.spacing_m;
-    for (size_t a = 0; a < 8; ++a) {
-      for (size_t b = 0; b < 8; ++b) {
-        Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
-        for (int i = 0; i < 3; ++i)
-          for (int j = 0; j < 3; ++j) block += cornerSign(a, i) * cornerSign(b, j) * m.block<3, 3>(3 * i, 3 * j);
-        addBlock(dof(cell.corners[a], 0), dof(cell.corners[b], 0), block, out);
-      }
-    }
-  }
-}
-
-void ReferenceLattice::addMoments(const Field& u_m, Curvature curvature, Triplets& out) const {
-  for (const Cell& cell : cells_) {
-    const MomentCell moments = momentsOf(cell);
-    if (moments.rigidity_j == 0) continue;
-    Eigen::Matrix<double, 21, 21> m = momentCurvature(moments, motionOf(u_m, cell));
+    if (!isWholeCell(cell)) continue;
+    Eigen::Matrix<double, 21, 21> m = lawCellCurvature(cell.law, motionOf(u_m, cell));
     if (curvature == Curvature::kPositive) m = positivePart(m);
     for (size_t a = 0; a < 8; ++a) {
       const Eigen::Matrix<double, 7, 1> of_a = motionOfCorner(a, cell.spacing_m);
@@ -140,8 +93,7 @@ Eigen::SparseMatrix<double> ReferenceLattice::stiffnessMatrix(const Field& u_m, 
                                                               double dashpot_per_s) const {
   Triplets triplets;
   addSprings(u_m, curvature, dashpot_per_s, triplets);
-  addVolumes(u_m, curvature, triplets);
-  addMoments(u_m, curvature, triplets);
+  addCells(u_m, curvature, triplets);
   addBroken(u_m, curvature, triplets);
   Eigen::SparseMatrix<double> out(dofs(), dofs());
   out.setFromTriplets(triplets.begin(), triplets.end());

@@ -35,10 +35,6 @@ uint64_t ProcessList::endTick(TissuePort& port, const ProcessTick& tick) {
   return cut;
 }
 
-void ProcessList::tissueMoved(const std::vector<layout::vec4>& before_m, const HostState& after) {
-  for (const auto& process : processes_) process->tissueMoved(before_m, after);
-}
-
 bool ProcessList::pushStyluses(const ProcessTick& tick) const {
   return std::any_of(processes_.begin(), processes_.end(),
                      [&](const auto& process) { return process->pushesStyluses(tick); });

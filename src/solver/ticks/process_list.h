@@ -23,7 +23,6 @@ class ProcessList {
   void beginTick(const ProcessTick& tick);
   uint64_t act(TissuePort& port, const ProcessTick& tick, const ProcessSubstep& substep);
   uint64_t endTick(TissuePort& port, const ProcessTick& tick);
-  void tissueMoved(const std::vector<layout::vec4>& before_m, const HostState& after);
   bool pushStyluses(const ProcessTick& tick) const;
   StylusPulls pulls() const;
   /// Sums the work of those that did some: what one took away does not hide what another did.

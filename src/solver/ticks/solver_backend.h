@@ -28,7 +28,7 @@ class SolverBackend : public ToolTarget, public TissuePort {
 
   /// States that are kept for rollbacks, one per good tick; with them those of lag() ticks not judged yet.
   static constexpr int kGoodStates = 4;
-  /// Sweeps per substep of a recovery: as many in a tick as leapfrog has substeps.
+  /// Sweeps per substep of a recovery by pd: as many in a tick as leapfrog has substeps.
   static constexpr int kRecoveryIterations = 20;
 
   /// @name Operations of a tick, besides those of ToolTarget and, where tissue resists blades, of TissuePort
@@ -41,7 +41,8 @@ class SolverBackend : public ToolTarget, public TissuePort {
   /// From now on cut() and advance() see the motions of this substep of the tick.
   virtual void selectMotions(size_t substep) = 0;
   /// Advances every active node by a substep; the result is the current state.
-  /// @param recovery  pd without acceleration instead of the scene's integrator; only where there is a governor
+  /// @param recovery  pd without acceleration instead of the scene's integrator; only where there is a governor and
+  /// TickPlan::recovers_by_pd
   virtual void advance(const Substep& step, bool recovery) = 0;
   /// Tells of the tick that begins, only where there are surroundings.
   virtual void beginSurroundings(const Surroundings& surroundings) = 0;

@@ -8,6 +8,8 @@
 #include <limits>
 #include <random>
 
+#include "math/float_bits.h"
+#include "model/fracture/prestress_balance.h"
 #include "model/scene/integrators.h"
 #include "solver/tissue/joined_lattice.h"
 #include "viscera/solver/governor.h"
@@ -33,6 +35,26 @@ constexpr double kPerStretch = 0.4, kPerMore = 0.8;
 /// lawFactor(): what strain takes from the substep, times this, as it grows within the tick too; kWithin of it is
 /// within kOfLimit. In steps of a twentieth, since substeps that change in every tick make small forces flicker.
 constexpr double kStrainMargin = 1.5, kWithin = 0.9, kPerFactor = 20;
+
+/// releasedStiffening(): what freed cells overshoot their strain by at most, and how much longer or shorter they are
+/// then at most.
+constexpr double kOvershoot = 3, kMostReleased = 0.6;
+
+/// Displaces the nodes of bodies with a prestress as if their parts of a label, and all others, were let go.
+void letGo(const Model& model, size_t label, HostState& state) {
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    if (body.prestress.empty()) continue;
+    const std::vector<Eigen::Matrix3d> strains = strainsByLabel(body);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(strains[std::min(label, strains.size() - 1)]);
+    const Vector3d way = (-kOvershoot * axes.eigenvalues()).cwiseMax(-kMostReleased).cwiseMin(kMostReleased);
+    const Eigen::Matrix3d gradient = axes.eigenvectors() * way.asDiagonal() * axes.eigenvectors().transpose();
+    for (const uint32_t slot : body.lattice.active_slots) {
+      const Vector3f u = (gradient * (body.lattice.restPosition(slot) - body.lattice.origin_m)).cast<float>();
+      state.displacement_m[model.slotOffset(b) + slot] = {u.x(), u.y(), u.z(), 0};
+    }
+  }
+}
 
 /// Nodes that may move, with their masses.
 struct Movers {
@@ -151,6 +173,27 @@ double measureLimit_s(SolverBackend& backend, const Model& model) {
   backend.resetState();
   const double rate = diagonal.empty() ? 0 : largestOf(diagonal, beside);
   return rate > 0 ? 2 / std::sqrt(rate) : std::numeric_limits<double>::infinity();
+}
+
+double releasedStiffening(SolverBackend& backend, const Model& model) {
+  size_t labels = 0;
+  for (const Body& body : model.bodies) {
+    if (!body.prestress.empty()) labels = std::max(labels, strainsByLabel(body).size());
+  }
+  double out = 0;
+  for (size_t label = 0; label < labels; ++label) {
+    backend.beginTick();
+    HostState state = backend.readState();
+    letGo(model, label, state);
+    backend.loadState(state);
+    backend.measure();
+    layout::TickStats stats{};
+    backend.requestStats();
+    backend.takeStats(stats, true);
+    out = std::max(out, static_cast<double>(floatFromBits(stats.max_stiffening_bits)));
+    backend.resetState();
+  }
+  return out;
 }
 
 double strainFactor(double stretch) {

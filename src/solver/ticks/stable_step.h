@@ -25,6 +25,10 @@ double strainFactor(double stretch);
 /// @param stiffening  q, of the fastest wave squared over that at rest, >= 1 (lawStiffening() of law.glsl)
 double lawFactor(double stiffening);
 
+/// Returns how much stiffer (lawFactor()) cells with a prestress are at most when a cut lets them go: at twice the
+/// strain that they would have then, as they overshoot. The state is that of rest afterwards. 0 without a prestress.
+double releasedStiffening(SolverBackend& backend, const Model& model);
+
 /// Substep that follows from a measured limit [s]: in proportion to dt_fraction, and never shorter than by dt_fraction;
 /// of tissue stretched by more than kStrainedStretch, by dt_fraction_strained.
 /// @param dashpot_ratio  xi, the largest of all bodies   @param stretch  as of strainFactor()

@@ -45,8 +45,11 @@ TickPlan planTicks(const Model& model, const Scene& scene, const SolverOptions& 
   plan.tick_s = 1 / scene.solver.tick_hz;
   plan.dt_safe_s = safeTimeStep(model);
   plan.substeps = planned(model, scene.solver, plan.dt_safe_s, options.allow_unstable);
-  if (scene.solver.governor)
-    plan.recovery_substeps = std::max(1, plan.substeps.strained / SolverBackend::kRecoveryIterations);
+  plan.recovers_by_pd = !hasLaw(model);
+  if (scene.solver.governor) {
+    const int sweeps = plan.recovers_by_pd ? SolverBackend::kRecoveryIterations : 1;
+    plan.recovery_substeps = std::max(1, plan.substeps.strained / sweeps);
+  }
   if (hasLaw(model) && scene.solver.substeps == 0 && plan.governed())
     plan.most_by_strain = std::min(scene.solver.max_substeps, std::max(kMostByStrain, plan.substeps.strained));
   plan.tools = !scene.styluses.empty();

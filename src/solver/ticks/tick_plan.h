@@ -24,11 +24,12 @@ struct SolverOptions {
 /// What is known of a scene's ticks before anything is built: backends are built for it, and Ticks goes by it.
 struct TickPlan {
   double tick_s = 0;
-  double dt_safe_s = 0;       ///< largest stable substep of whole tissue at rest
-  SubstepPlan substeps;       ///< of whole tissue
-  int recovery_substeps = 0;  ///< of a tick in which the governor's recovery goes on; 0 where there is no governor
-  int most_by_strain = 0;     ///< substeps that strained tissue of a hyperelastic law may need; 0 without
-  bool tools = false;         ///< there are styluses
+  double dt_safe_s = 0;        ///< largest stable substep of whole tissue at rest
+  SubstepPlan substeps;        ///< of whole tissue
+  int recovery_substeps = 0;   ///< of a tick in which the governor's recovery goes on; 0 where there is no governor
+  bool recovers_by_pd = true;  ///< else by shorter substeps of the scene's integrator: springs alone have pd
+  int most_by_strain = 0;      ///< substeps that strained tissue of a hyperelastic law may need; 0 without
+  bool tools = false;          ///< there are styluses
   std::optional<Surroundings> surroundings;  ///< at time 0; only where a scene has any
 
   bool governed() const { return recovery_substeps > 0; }

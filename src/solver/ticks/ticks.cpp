@@ -30,10 +30,16 @@ namespace {
 constexpr size_t kFinishedKept = 3;    // ticks whose measurements wait to be asked for
 constexpr double kStretchSteps = 0.1;  // in which the substep follows the stretch
 constexpr double kAtRest = 1;          // stiffening of cells that are not strained
+constexpr int kReleased = 2;           // ticks from a cut on, until what strains cells that it lets go was measured
+constexpr int kRecoveryFactor = 2;     // times as many substeps as strain asks for, while cells of a law recover
 constexpr double kSlowlyBack = 0.9;    // in a tick, of what strain asks of the substep
 constexpr double kWorthwhile = 1.01;   // a stable substep must have grown by this factor to be taken
 // What is read from a saved state, over the same of this machine: of computed and of measured stable substeps.
 constexpr double kRoundedHere = 0.999, kLeastMeasured = 0.5;
+
+bool mayBurnIn(const StylusMotion& motion) {
+  return motion.present && kindOf(motion.mode).burns;
+}
 
 void requireInTicks(const char* what, double value, double least, double most) {
   if (value >= least && value <= most) return;
@@ -59,13 +65,14 @@ Ticks::Ticks(const Model& model, const Scene& scene, const TickPlan& plan, std::
       recovery_substeps_(plan.recovery_substeps),
       most_substeps_(std::max(plan.mostSubsteps(), plan.substeps.calm)),
       heeds_stiffening_(plan.most_by_strain > 0),
+      recovers_by_pd_(plan.recovers_by_pd),
       surroundings_(plan.surroundings),
       processes_(makeProcesses(scene, model, plan.tools),
-                 static_cast<size_t>(SolverBackend::kGoodStates + backend_->lag())),
-      folds_(plan.tick_s) {
+                 static_cast<size_t>(SolverBackend::kGoodStates + backend_->lag())) {
   finished_.reserve(kFinishedKept);
   last_stiffening_ = kAtRest;
   if (measuresLimit(model, config_)) dt_limit_s_ = measureLimit_s(*backend_, model);
+  if (heeds_stiffening_) released_ = releasedStiffening(*backend_, model);
   planAnew();
   if (dt_limit_s_ > 0 && substeps_.calm > config_.max_substeps)
     throw SceneError("a tick of 1/" + numberText(config_.tick_hz) + " s needs " + std::to_string(substeps_.calm) +
@@ -84,7 +91,8 @@ Governor Ticks::newGovernor() const {
 
 void Ticks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
   const bool contacts = acts_.touch(motions), cuts = acts_.sever(motions);
-  if (looks_for_folds_) unfoldTissue();
+  if (cuts || std::any_of(motions.begin(), motions.end(), mayBurnIn)) releasing_ = 1 + kReleased + backend_->lag();
+  releasing_ = std::max(0, releasing_ - 1);
   chooseSubsteps();
   backend_->beginTick();
   acts_.beginTick(*backend_, motions);
@@ -137,12 +145,14 @@ void Ticks::chooseSubsteps() {
   recovering_ = recover;
   n_ = recover ? recovery_substeps_ : strained ? substeps_.strained : calmSubsteps();
   if (strained && !recover && heeds_stiffening_) n_ = std::max(n_, calmSubsteps());
+  if (recover && !recovers_by_pd_) n_ = std::min(most_substeps_, kRecoveryFactor * std::max(n_, calmSubsteps()));
 }
 
 /// Of a tick in which the tissue is stretched as it is now.
 int Ticks::calmSubsteps() const {
-  if (heeds_stiffening_ && stiffening_ > 1) {
-    const double dt_s = tick_s_ / substeps_.calm / lawFactor(stiffening_);
+  const double stiffening = releasing_ > 0 ? std::max(stiffening_, released_) : stiffening_;
+  if (heeds_stiffening_ && stiffening > 1) {
+    const double dt_s = tick_s_ / substeps_.calm / lawFactor(stiffening);
     return std::clamp(static_cast<int>(std::ceil(tick_s_ / dt_s)), substeps_.calm, most_substeps_);
   }
   if (dt_limit_s_ == 0 || stretch_ == 0) return substeps_.calm;
@@ -176,14 +186,14 @@ void Ticks::substep(int index, const ProcessTick& tick, bool contacts) {
   step.tools = contacts;
   step.restarted = restarted_;
   step.index = index;
-  step.implicit = recovering_ || !traitsOf(config_.integrator).is_explicit;
+  step.implicit = stepsByPd() || !traitsOf(config_.integrator).is_explicit;
   step.resting_speed_m_per_s = restingSpeed(step);
   if (surroundings_) {
     step.obstacles = surroundings_->at(index).obstacles;
     step.obstacle_count = static_cast<uint32_t>(surroundings_->obstacleCount());
   }
   if (surroundings_ && step.implicit && surroundings_->blows()) backend_->blow(step, *surroundings_);
-  backend_->advance(step, recovering_);
+  backend_->advance(step, stepsByPd());
   if (surroundings_ && (!step.implicit || surroundings_->features().collisions)) {
     backend_->surround(step, *surroundings_);
   }
@@ -207,9 +217,8 @@ void Ticks::reset() {
   pulls_.clear();
   told_ = {};
   stretch_ = stiffening_ = 0;
+  releasing_ = 0;
   last_stiffening_ = kAtRest;
-  folds_.reset();
-  looks_for_folds_ = false;
   dt_safe_s_ = safeTimeStep(model_);
   planAnew();
   if (watch_) watch_->reset(newGovernor());
@@ -249,8 +258,7 @@ void Ticks::persistSubsteps(Archive& archive) {
   archive.value(recovering_);
   archive.value(restarted_);
   archive.value(last_dt_s_);
-  archive.value(looks_for_folds_);
-  folds_.persist(archive);
+  archive.value(releasing_);
   if (!archive.reads()) return;
   constexpr double kAny = std::numeric_limits<double>::infinity();
   requireInTicks("stable substep [s]", dt_safe_s_, least_safe_s, kAny);
@@ -262,8 +270,7 @@ void Ticks::persistSubsteps(Archive& archive) {
   requireInTicks("strained substeps", substeps_.strained, 1, most_substeps_);
   requireInTicks("substeps of the last tick", n_, 1, most_substeps_);
   requireInTicks("last substep [s]", last_dt_s_, 0, tick_s_);
-  requireInTicks("ticks until tissue is unfolded", folds_.ticksLeft(), -1e9, folds_.waitTicks());
-  requireInTicks("looks for folded tissue", folds_.looksLeft(), 0, FoldWatch::kLooks);
+  requireInTicks("ticks after a cut", releasing_, 0, kReleased + backend_->lag());
   dt_limit_s_ = limit_s;
 }
 
@@ -323,13 +330,20 @@ bool Ticks::heed(const Watch::Verdict& verdict) {
   if (verdict.good) {
     noteStretch(*verdict.good);
     relaxSubsteps(*verdict.good);
-    looks_for_folds_ = folds_.isDue(*verdict.good);
   }
   restarted_ |= verdict.rolled_back;
   if (!verdict.rolled_back) return false;
   seen_cuts_.nodes.clear();  // restored tracks were embedded under older cuts: embed again
   cut_revision_ += processes_.restart(*backend_);
+  if (watch_->health().recovering && !recovers_by_pd_) stopTissue();
   return true;
+}
+
+/// What pd does by its own damping: what the tissue was thrown with is gone, and it is let go where it was.
+void Ticks::stopTissue() {
+  HostState state = backend_->readState();
+  for (layout::vec4& v : state.velocity_m_per_s) v = {};
+  backend_->loadState(state);
 }
 
 /// Rounded down: substeps that change in every tick make small forces flicker, and there is a margin for that.
@@ -359,25 +373,9 @@ void Ticks::relaxSubsteps(const layout::TickStats& stats) {
   planAnew();
 }
 
-/// What tools have left turned inside out (docs/physics.md 3). A tick that is still open is judged first: what it left
-/// may be rolled back.
-void Ticks::unfoldTissue() {
-  const bool undone = heed(watch_->judgeOpen());
-  looks_for_folds_ = false;
-  if (undone) return;
-  HostState state = backend_->readState();
-  const std::vector<layout::vec4> before_m = state.displacement_m;
-  const size_t nodes = unfold(model_, state);
-  folds_.found(nodes);
-  if (nodes == 0) return;
-  processes_.tissueMoved(before_m, state);
-  writeState(state);
-  watch_->noteUnfolded(nodes);
-}
-
 double Ticks::velocityLag_s() {
   if (watch_ && watch_->openIsBad()) return 0;  // the state was put back already
-  const bool lags = traitsOf(config_.integrator).staggered && !recovering_ && !restarted_;
+  const bool lags = traitsOf(config_.integrator).staggered && !stepsByPd() && !restarted_;
   return lags ? 0.5 * last_dt_s_ : 0;
 }
 

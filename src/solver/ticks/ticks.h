@@ -10,7 +10,6 @@
 #include "solver/ticks/process_list.h"
 #include "solver/ticks/solver_backend.h"
 #include "solver/ticks/tick_plan.h"
-#include "solver/ticks/unfold.h"
 #include "solver/ticks/watch.h"
 #include "viscera/solver/solver.h"
 
@@ -67,6 +66,7 @@ class Ticks : public Solver {
   void tellOfCuts();
   void noteStretch(const layout::TickStats& stats);
   bool hasLongSubsteps() const;
+  bool stepsByPd() const { return recovering_ && recovers_by_pd_; }
   int calmSubsteps() const;
   void chooseSubsteps();
   void substep(int index, const ProcessTick& tick, bool contacts);
@@ -76,8 +76,8 @@ class Ticks : public Solver {
   void keepStats(const TickFindings& findings);
   void measureTick(const ToolMotions& motions, bool contacts);
   bool heed(const Watch::Verdict& verdict);
+  void stopTissue();
   void relaxSubsteps(const layout::TickStats& stats);
-  void unfoldTissue();
   void persistSubsteps(Archive& archive);
 
   const Model& model_;
@@ -92,18 +92,18 @@ class Ticks : public Solver {
   /// Of cells of a hyperelastic law: what substeps heed, the largest of late and what is to be feared, and that of the
   /// last good tick.
   double stiffening_ = 0, last_stiffening_ = 0;
-  double stretch_ = 0;     ///< largest of the last good tick, rounded down
+  double released_ = 0;  ///< releasedStiffening()
+  int releasing_ = 0;    ///< ticks in which cells that a stylus lets go may be strained unseen, this one too
+  double stretch_ = 0;   ///< largest of the last good tick, rounded down
   SubstepPlan substeps_;
   int recovery_substeps_, most_substeps_;
-  bool heeds_stiffening_;
+  bool heeds_stiffening_, recovers_by_pd_;
   std::optional<Surroundings> surroundings_;  ///< only where a scene has any
   ProcessList processes_;
   CutState seen_cuts_;                  ///< only where a process reads cuts
   std::vector<StylusPulls> pulls_;      ///< without a governor: of ticks whose measurements are under way
   std::optional<HostState> start_;      ///< nothing: rest
   std::optional<Watch> watch_;          ///< only where a scene has a governor
-  FoldWatch folds_;                     ///< heeded where there is a governor
-  bool looks_for_folds_ = false;        ///< before the next tick
   std::vector<TickFindings> finished_;  ///< taken while not asked for, oldest first
   StylusPulls told_;                    ///< of what was asked for last
   std::vector<layout::ToolMotion> motions_;

@@ -26,14 +26,14 @@ double workOfTools(const layout::TickStats& stats, const ToolMotions& motions, d
 
 }  // namespace
 
-Watch::Watch(SolverBackend& backend, const Governor& governor, bool implicit, double tick_s, ProcessList& processes)
-    : backend_(backend), governor_(governor), implicit_(implicit), tick_s_(tick_s), processes_(processes) {
+Watch::Watch(SolverBackend& backend, const Governor& governor, bool may_be_fast, double tick_s, ProcessList& processes)
+    : backend_(backend), governor_(governor), may_be_fast_(may_be_fast), tick_s_(tick_s), processes_(processes) {
   processes_.saveGood();  // the backend has done so
 }
 
 void Watch::guard(const ToolMotions& motions, bool recovering) {
   if (backend_.lag() == 0) return;
-  Governor::Bounds bounds = governor_.bounds(isImplicit(recovering));
+  Governor::Bounds bounds = governor_.bounds(mayBeFast(recovering));
   bounds.energy_j += Governor::kEnergyMargin * processes_.work_j();
   backend_.guard(bounds, motions, tick_s_);
 }
@@ -74,7 +74,7 @@ bool Watch::receive(bool wait) {
 /// Of the open tick, whose measurements have come.
 bool Watch::isBad() const {
   return open_->undone ||
-         governor_.inspect(*open_->stats, isImplicit(open_->recovering), workOn(*open_)) != Governor::Trip::kNone;
+         governor_.inspect(*open_->stats, mayBeFast(open_->recovering), workOn(*open_)) != Governor::Trip::kNone;
 }
 
 /// What others are told of the open tick: nothing that is bad, and no force while the tissue is not itself.
@@ -102,8 +102,8 @@ Watch::Verdict Watch::judgeOpen() {
   const OpenTick tick = *open_;
   open_.reset();
   if (tick.undone) return verdict;
-  const bool implicit = isImplicit(tick.recovering);
-  if (governor_.judge(*tick.stats, implicit, workOn(tick), tick.long_substeps) == Governor::Trip::kNone) {
+  const bool fast = mayBeFast(tick.recovering);
+  if (governor_.judge(*tick.stats, fast, workOn(tick), tick.long_substeps) == Governor::Trip::kNone) {
     last_good_ = *tick.stats;
     verdict.good = tick.stats;
     return verdict;

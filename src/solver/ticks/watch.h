@@ -30,9 +30,9 @@ class Watch {
     bool rolled_back = false;               ///< the state is an older one: the next substep starts again
   };
 
-  /// @param backend  must outlive this   @param implicit  the scene's integrator may be fast   @param tick_s  length
+  /// @param backend  must outlive this   @param may_be_fast  with the scene's integrator   @param tick_s  length
   /// @param processes  of the scene, whose states go back as they say; must outlive this
-  Watch(SolverBackend& backend, const Governor& governor, bool implicit, double tick_s, ProcessList& processes);
+  Watch(SolverBackend& backend, const Governor& governor, bool may_be_fast, double tick_s, ProcessList& processes);
 
   /// As the governor has it: with one tick less than were made while one is open.
   const Health& health() const { return governor_.health(); }
@@ -56,7 +56,6 @@ class Watch {
   const layout::TickStats& restart();
   /// The current state is that of rest: no tick is open, and it is the only good one.
   void reset(const Governor& governor);
-  void noteUnfolded(size_t nodes) { governor_.noteUnfolded(nodes); }
   /// The measurements of the open tick were asked for.
   void persist(Archive& archive);
 
@@ -75,14 +74,14 @@ class Watch {
   bool receive(bool wait);
   bool isBad() const;
   TickFindings published() const;
-  bool isImplicit(bool recovering) const { return recovering || implicit_; }
+  bool mayBeFast(bool recovering) const { return recovering || may_be_fast_; }
   double workOn(const OpenTick& tick) const;
   void saveGood();
   void keepOnlyCurrent();
 
   SolverBackend& backend_;
   Governor governor_;
-  bool implicit_;
+  bool may_be_fast_;
   double tick_s_;
   ProcessList& processes_;
   layout::TickStats last_good_{};

@@ -23,11 +23,9 @@ std::vector<std::string> FeatureSet::defines() const {
   if (network) out.push_back("NETWORK");
   if (dashpot) out.push_back("DASHPOT");
   if (predicted) out.push_back("PREDICTED");
-  if (volume) out.push_back("VOLUME");
-  if (moments) out.push_back("MOMENTS");
   if (law) out.push_back("LAW");
+  if (prestress) out.push_back("PRESTRESS");
   if (!springs) out.push_back("NO_SPRINGS");
-  if (thin_walls) out.push_back("THIN_WALLS");
   if (parts) out.push_back("PARTS");
   if (compensated) out.push_back("COMPENSATED");
   if (single_body) out.push_back("SINGLE_BODY");
@@ -41,12 +39,10 @@ FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint3
   features.single_body = model.bodies.size() == 1;
   features.lattice = model.hasLattice();
   features.network = model.hasNetwork();
-  features.moments = hasMoments(model);
   features.law = hasLaw(model);
+  features.prestress = hasCellPrestress(model);
   features.springs = std::any_of(model.bodies.begin(), model.bodies.end(),
                                  [](const Body& body) { return body.material.law != Law::kNeoHookean; });
-  features.thin_walls = features.moments && hasBends(model);
-  features.volume = features.moments || hasVolumeEnergy(model);
   features.parts = isHeterogeneous(model);
   features.compensated = isCompensated(scene.solver, dt_s);
   features.tools = !scene.styluses.empty();

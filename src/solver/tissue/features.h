@@ -20,12 +20,10 @@ struct FeatureSet {
   bool lattice = true;   ///< some body has implicit connections
   bool network = false;  ///< some body has explicit ones
   bool dashpot = false;
-  bool predicted = false;    ///< lattices have dashpots, and springs alone: leapfrog has those pull where nodes will be
-  bool volume = false;       ///< cells have energies of their own: of volume (nu other than 1/4), by moments
-  bool moments = false;      ///< some have the latter
-  bool law = false;          ///< some of these obey a hyperelastic law
+  bool predicted = false;    ///< a lattice of springs has dashpots: leapfrog has its springs pull where nodes will be
+  bool law = false;          ///< the cells of some body obey a hyperelastic law
+  bool prestress = false;    ///< some of these cells are stressed at rest
   bool springs = true;       ///< something is made of springs: not all bodies obey one
-  bool thin_walls = false;   ///< some of these lie in thin walls that bend as such
   bool parts = false;        ///< strengths differ within a body
   bool compensated = false;  ///< u and v are summed with Kahan's compensation
   bool tools = false;        ///< there are styluses

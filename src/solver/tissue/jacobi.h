@@ -12,9 +12,9 @@ struct PdOptions {
 };
 
 /// Bound on the spectral radius of plain PD-Jacobi. Near a minimum it is 1 - D^-1 H with the majoriser D = m/dt^2 + K,
-/// K = sum of (k + c/dt) + volume, and m/dt^2 <= H <= m/dt^2 + 2 K: so |1 - D^-1 H| <= K/(m/dt^2 + K), largest where
+/// K = sum of (k + c/dt), and m/dt^2 <= H <= m/dt^2 + 2 K: so |1 - D^-1 H| <= K/(m/dt^2 + K), largest where
 /// K/m is. Cuts only lower it.
-/// @param stiffness_rate_per_s2  max of (sum of k + volume)/m   @param damping_rate_per_s  max of (sum of c)/m
+/// @param stiffness_rate_per_s2  max of (sum of k)/m   @param damping_rate_per_s  max of (sum of c)/m
 inline double jacobiRadius(double stiffness_rate_per_s2, double damping_rate_per_s, double dt_s) {
   const double rate = stiffness_rate_per_s2 + damping_rate_per_s / dt_s;
   return rate / (1 / (dt_s * dt_s) + rate);

@@ -72,7 +72,6 @@ Strengths allStrengths(const Model& model) {
     append(out.mass_kg, table.mass_kg);
     append(out.bulk_j, table.bulk_j);
     append(out.rigidity_j, table.rigidity_j);
-    out.rigidity_j.resize(out.bulk_j.size());
   }
   return out;
 }
@@ -137,56 +136,35 @@ std::vector<uint32_t> surfaceWays(const Model& model) {
   return atSurface<uint32_t>(model, packedWay);
 }
 
-bool hasBends(const Model& model) {
+bool hasCellPrestress(const Model& model) {
   return std::any_of(model.bodies.begin(), model.bodies.end(),
-                     [](const Body& body) { return body.material.thin_walls && !body.lattice.fills.empty(); });
+                     [](const Body& body) { return !body.prestress.empty(); });
 }
 
 JoinedMoments allMoments(const Model& model) {
   JoinedMoments out;
   out.add(CellFill{});
-  std::vector<CellMoments> moments;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Lattice& lattice = model.bodies[b].lattice;
     const auto before = static_cast<uint32_t>(out.vectors.size() / kVectorsPerFill - 1);
-    moments.push_back(cellMoments(model.bodies[b]));
-    for (const uint32_t fill : moments[b].of_cell) out.of_cell.push_back(fill == 0 ? 0 : before + fill);
+    const CellMoments moments = cellMoments(model.bodies[b]);
+    for (const uint32_t fill : moments.of_cell) out.of_cell.push_back(fill == 0 ? 0 : before + fill);
     out.of_cell.resize(model.slotOffset(b) + lattice.nodes.size());
-    for (const CellFill& fill : moments[b].fills) out.add(fill);
+    for (const CellFill& fill : moments.fills) out.add(fill);
   }
-  if (!hasBends(model)) return out;
-  constexpr size_t kStride = layout::kBendVectors;
-  out.vectors.resize((out.vectors.size() + kStride - 1) / kStride * kStride);
-  out.bend_of_cell.resize(out.of_cell.size());
+  if (!hasCellPrestress(model)) return out;
+  out.stress_of_cell.resize(out.of_cell.size());
   for (size_t b = 0; b < model.bodies.size(); ++b) {
-    if (moments[b].bends.empty()) continue;
-    const Strengths table = strengths(model.bodies[b]);
-    for (const CellBend& bend : moments[b].bends) {
-      const CellFill& fill = moments[b].fills[moments[b].of_cell[bend.cell] - 1];
-      const double ratio =
-          static_cast<double>(table.bulk_j[bend.cell]) / static_cast<double>(table.rigidity_j[bend.cell]);
-      out.add(model.slotOffset(b) + bend.cell, {1, fill.first / fill.share, fill.second / fill.share}, 1 + ratio, bend);
+    const Body& body = model.bodies[b];
+    for (uint32_t slot = 0; slot < body.prestress.size(); ++slot) {
+      if (body.lattice.cell_labels[slot] == 0) continue;
+      const std::array<float, 6>& s = body.prestress[slot];
+      out.stress_of_cell[model.slotOffset(b) + slot] = static_cast<uint32_t>(out.vectors.size());
+      out.vectors.push_back({s[0], s[1], s[2], 0});
+      out.vectors.push_back({s[3], s[4], s[5], 0});
     }
   }
   return out;
-}
-
-void JoinedMoments::add(uint32_t slot, const CellFill& over_share, double lambda_over_mu, const CellBend& bend) {
-  const CellBending with = bendingOf(over_share, lambda_over_mu, bend.missing);
-  const CellBending without = bendingOf(over_share, lambda_over_mu, missingAlone(lambda_over_mu));
-  bend_of_cell[slot] = static_cast<uint32_t>(vectors.size() / layout::kBendVectors);
-  std::vector<float> numbers;
-  for (Eigen::Index row = 0; row < 9; ++row) {
-    for (Eigen::Index column = row; column < 9; ++column)
-      numbers.push_back(static_cast<float>(with.bends(row, column) - without.bends(row, column)));
-  }
-  for (Eigen::Index row = 0; row < 9; ++row) {
-    for (Eigen::Index column = 0; column < 6; ++column)
-      numbers.push_back(static_cast<float>(with.strains(row, column) - without.strains(row, column)));
-  }
-  numbers.resize(4 * layout::kBendVectors);
-  for (size_t i = 0; i < numbers.size(); i += 4)
-    vectors.push_back({numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]});
 }
 
 void JoinedMoments::add(const CellFill& fill) {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "layout/moments.h"
+#include "viscera/layout/types.h"
 #include "viscera/model/model.h"
 #include "viscera/solver/material.h"
 
@@ -21,31 +21,27 @@ std::vector<uint32_t> cellSlots(const Model& model);
 std::vector<layout::Brick> allBricks(const Model& model);
 /// [slots] whole springs, nothing held, with the body's index
 std::vector<layout::NodeBits> allNodes(const Model& model);
-/// strengths() of all bodies: spring_n_per_m [9 * slots], mass_kg [slots], bulk_j [slots], rigidity_j
-/// [slots], 0 in bodies whose cells resist by springs alone
+/// strengths() of all bodies: spring_n_per_m [9 * slots], mass_kg [slots], bulk_j [slots], rigidity_j [slots]
 Strengths allStrengths(const Model& model);
 
-/// Moments of the cells of all bodies over their shares (shaders/solver/tissue/moments.glsl).
+/// Moments of the cells of all bodies over their shares (shaders/solver/tissue/cell_motion.glsl).
 struct JoinedMoments {
-  std::vector<uint32_t> of_cell;       ///< [slots] which moments the cell above a node has; 0: those of a full one
-  std::vector<layout::vec4> vectors;   ///< [kVectorsPerFill * fills] xyz: of p; of its squares; of yz, zx, xy; then,
-                                       ///< where there are thin walls, bends, from multiples of layout::kBendVectors on
-  std::vector<uint32_t> bend_of_cell;  ///< [slots] where in vectors the cell's bend is, in layout::kBendVectors; 0
-                                       ///< none; empty without thin walls
+  std::vector<uint32_t> of_cell;         ///< [slots] which moments the cell above a node has; 0: those of a full one
+  std::vector<layout::vec4> vectors;     ///< [kVectorsPerFill * fills] xyz: of p; of its squares; of yz, zx, xy; then
+                                         ///< stresses of cells, over mu: xx, yy, zz; yz, zx, xy
+  std::vector<uint32_t> stress_of_cell;  ///< [slots] where in vectors a cell's prestress is, 0 none; empty without
 
   void add(const CellFill& fill);
-  /// What a thin wall adds to a cell's energy (shaders/solver/tissue/bends.glsl).
-  void add(uint32_t slot, const CellFill& over_share, double lambda_over_mu, const CellBend& bend);
-  /// Numbers of a cell's bend; null: it has none.
-  const float* bendOf(uint32_t slot) const {
-    const uint32_t at = bend_of_cell.empty() ? 0 : bend_of_cell[slot];
-    return at == 0 ? nullptr : &vectors[size_t{at} * layout::kBendVectors].x;
+  /// Where a cell's prestress is; null: it has none.
+  const layout::vec4* stressOf(uint32_t slot) const {
+    const uint32_t at = stress_of_cell.empty() ? 0 : stress_of_cell[slot];
+    return at == 0 ? nullptr : &vectors[at];
   }
 };
 constexpr size_t kVectorsPerFill = 3;
-/// Does any cell lie in a thin wall that is to bend as one?
-bool hasBends(const Model& model);
 JoinedMoments allMoments(const Model& model);
+/// Has a body of a law a prestress?
+bool hasCellPrestress(const Model& model);
 
 /// [slots] how deep nodes lie below the surface of their tissue [m], negative outside, where tools and obstacles are to
 /// know it: in bodies with cells that are tissue in part, of nodes less than half a cell deep; 0 elsewhere. Empty

@@ -12,7 +12,8 @@ namespace viscera {
 
 namespace {
 
-/// [slots] what the volumes of the cells around a node add to its rate of change of force, twice its stiffness [N/m].
+/// [slots] what the cells of a law around a node resist a change of their volumes with beyond their springs, twice the
+/// stiffness [N/m].
 std::vector<double> volumeStiffness(const Body& body) {
   const Lattice& lattice = body.lattice;
   const double body_bulk = bodyParams(body, 0).bulk_j;
@@ -61,12 +62,10 @@ void forEachMaterial(const Body& body, Visit visit) {
   for (const PartConfig& part : body.parts) visit(part.young_modulus_pa, part.poisson_ratio, part.density_kg_per_m3);
 }
 
-/// What cells give: not nodes that only springs join.
 /// stiffestRate() of a body with explicit connections: all its springs count, those against bending too.
 double stiffestLinkedRate(const Body& body) {
   const SpringNetwork& network = *body.network;
   std::vector<double> stiffness(network.positions_m.size());
-  if (network.of_lattice) stiffness = volumeStiffness(body);
   for (const NetworkSpring& spring : network.springs) {
     stiffness[spring.a] += 2 * spring.stiffness_n_per_m;
     stiffness[spring.b] += 2 * spring.stiffness_n_per_m;
@@ -110,10 +109,12 @@ layout::BodyParams bodyParams(const Body& body, double dt_safe_s) {
   params.drag_per_s = static_cast<float>(material.drag_per_s);
   // c = 2 xi k / omega_max with omega_max = 2 / dt_safe (physics.md 2).
   params.dashpot_s = static_cast<float>(material.dashpot_ratio * dt_safe_s);
-  params.bulk_j = static_cast<float>(e.bulk_j);
-  if (material.cells == Cells::kMoments) params.rigidity_j = static_cast<float>(e.rigidity_j);
   params.law = material.law == Law::kNeoHookean ? layout::kLawNeoHookean : layout::kLawSprings;
-  if (params.law != layout::kLawSprings) params.stiffening = static_cast<float>(material.stiffening);
+  if (params.law != layout::kLawSprings) {
+    params.bulk_j = static_cast<float>(e.bulk_j);
+    params.rigidity_j = static_cast<float>(e.rigidity_j);
+    params.stiffening = static_cast<float>(material.stiffening);
+  }
   params.connections = !body.network              ? layout::kImplicit
                        : body.network->of_lattice ? layout::kExplicitLattice
                                                   : layout::kNetwork;
@@ -126,28 +127,14 @@ std::vector<layout::BodyParams> bodyParams(const Model& model, double dt_safe_s)
   return params;
 }
 
-bool hasVolumeEnergy(const Model& model) {
-  bool any = false;
-  for (const Body& body : model.bodies) {
-    if (!body.hasCells()) continue;
-    forEachMaterial(body, [&](double, double nu, double) { any |= nu != 0.25; });
-  }
-  return any;
-}
-
-bool hasMoments(const Model& model) {
-  return std::any_of(model.bodies.begin(), model.bodies.end(),
-                     [](const Body& body) { return body.material.cells == Cells::kMoments; });
-}
-
 bool hasLaw(const Model& model) {
   return std::any_of(model.bodies.begin(), model.bodies.end(),
                      [](const Body& body) { return body.material.law == Law::kNeoHookean; });
 }
 
 bool predictsSprings(const Model& model) {
-  return !hasMoments(model) && std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) {
-    return !body.network && body.material.dashpot_ratio > 0;
+  return std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) {
+    return !body.network && body.material.law != Law::kNeoHookean && body.material.dashpot_ratio > 0;
   });
 }
 

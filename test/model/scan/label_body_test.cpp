@@ -97,7 +97,7 @@ TEST_F(LabelBody, ALabelIsHeldAndSomeAreChosen) {
 }
 
 TEST_F(LabelBody, CellsOfSpringsTakeThemToo) {
-  const Body body = model("material: {cells: springs}").bodies.at(0);
+  const Body body = model("material: {law: springs}").bodies.at(0);
   EXPECT_TRUE(body.lattice.shared.empty());
   EXPECT_EQ(openEdges(body.skin.mesh), 0u);
 }

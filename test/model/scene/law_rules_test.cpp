@@ -22,19 +22,31 @@ Scene boxScene(const std::string& material, const std::string& more = "") {
       "pad.yaml");
 }
 
+Scene withPd(Scene scene) {
+  scene.solver.integrator = Integrator::kPd;
+  return scene;
+}
+
 Law builtOf(const Scene& scene) {
   return buildModel(scene).bodies[0].material.law;
 }
 
-std::string faultOf(const std::string& material, const std::string& more = "") {
+std::string faultOf(const Scene& scene) {
   try {
-    const Scene scene = boxScene(material, more);
     requireFeatures(scene);
     buildModel(scene);
   } catch (const Error& error) {
     return error.what();
   }
   return "";
+}
+
+std::string faultOf(const std::string& material, const std::string& more = "") {
+  try {
+    return faultOf(boxScene(material, more));
+  } catch (const Error& error) {
+    return error.what();
+  }
 }
 
 bool names(const std::string& fault, const std::string& what) {
@@ -46,32 +58,42 @@ bool names(const std::string& fault, const std::string& what) {
 TEST(LawRules, LatticesThatLeapfrogStepsAreNeoHookeanUnlessAskedOtherwise) {
   EXPECT_EQ(builtOf(boxScene("")), Law::kNeoHookean);
   EXPECT_EQ(builtOf(boxScene("law: springs")), Law::kSprings);
-  EXPECT_EQ(builtOf(boxScene("cells: moments")), Law::kSprings);
-  EXPECT_EQ(builtOf(boxScene("cells: springs")), Law::kSprings);
   EXPECT_EQ(builtOf(boxScene("weights: paper")), Law::kSprings);
-  EXPECT_EQ(builtOf(boxScene("thin_walls: true")), Law::kSprings);
   EXPECT_EQ(builtOf(boxScene("", ", structure: explicit")), Law::kSprings);
-  Scene pd = boxScene("");
-  pd.solver.integrator = Integrator::kPd;
-  EXPECT_EQ(builtOf(pd), Law::kSprings);
+  EXPECT_EQ(builtOf(withPd(boxScene(""))), Law::kSprings);
 }
 
 TEST(LawRules, WhatItDoesNotGoWithIsNamed) {
-  for (const char* with : {"cells: springs", "weights: paper", "thin_walls: true"})
-    EXPECT_TRUE(names(faultOf(std::string("law: neo_hookean, ") + with), "does not go with material.law: neo_hookean"))
-        << with;
+  EXPECT_TRUE(names(faultOf("law: neo_hookean, weights: paper"), "does not go with material.law: neo_hookean"));
   EXPECT_TRUE(names(faultOf("law: neo_hookean", ", structure: explicit"), "structure lattice"));
   EXPECT_TRUE(names(faultOf("law: springs, stiffening: 2"), "material.stiffening needs material.law: neo_hookean"));
-  Scene stiffening = boxScene("stiffening: 2");
-  stiffening.solver.integrator = Integrator::kPd;  // which has springs
-  EXPECT_THROW(requireFeatures(stiffening), SceneError);
-  Scene pd = boxScene("law: neo_hookean");
-  pd.solver.integrator = Integrator::kPd;
-  try {
-    requireFeatures(pd);
-    ADD_FAILURE() << "taken";
-  } catch (const Error& error) {
-    EXPECT_TRUE(names(error.what(), "material.law: neo_hookean needs solver.integrator leapfrog, not pd"))
-        << error.what();
+  EXPECT_NE(faultOf(withPd(boxScene("stiffening: 2"))), "") << "pd has springs";
+  EXPECT_TRUE(names(faultOf(withPd(boxScene("law: neo_hookean"))),
+                    "material.law: neo_hookean needs solver.integrator leapfrog, not pd"));
+}
+
+TEST(LawRules, SpringsHaveNoPoissonsRatioOfTheirOwn) {
+  const std::string nu = "poisson_ratio: 0.3", part = ", parts: [{part: box, poisson_ratio: 0.3}]";
+  EXPECT_EQ(faultOf(nu), "");
+  EXPECT_EQ(faultOf("", part), "");
+  EXPECT_EQ(faultOf("law: springs, poisson_ratio: 0.25"), "");
+  for (const std::string& fault :
+       {faultOf("law: springs, " + nu), faultOf("law: springs", part), faultOf("weights: paper, " + nu),
+        faultOf(nu, ", structure: explicit"), faultOf("", ", structure: explicit" + part),
+        faultOf(withPd(boxScene(nu))), faultOf(withPd(boxScene("", part)))}) {
+    EXPECT_TRUE(names(fault, "poisson_ratio")) << fault;
+    EXPECT_TRUE(names(fault, "material.law: neo_hookean")) << fault;
+  }
+}
+
+/// One error each, which says what to do instead.
+TEST(LawRules, KeysOfWhatCorrectedSpringsWereRemoved) {
+  for (const std::string key : {"cells: moments", "cells: springs", "thin_walls: true"}) {
+    const std::string fault = faultOf(key);
+    const std::string name = key.substr(0, key.find(':'));
+    EXPECT_TRUE(names(fault, "pad.yaml:2")) << fault;
+    EXPECT_TRUE(names(fault, "'bodies[0].material." + name + "' was removed: ")) << fault;
+    EXPECT_TRUE(names(fault, "material.law: neo_hookean")) << fault;
+    EXPECT_EQ(fault.find('\n'), std::string::npos) << fault;
   }
 }

@@ -55,34 +55,30 @@ ObstacleConfig planeAt(double z_m) {
 }  // namespace
 
 TEST_P(ImplicitContact, AStaticProbeFeelsTheSameForceWhateverTheIntegratorAndTheSubstep) {
-  for (const double poisson_ratio : {0.25, 0.45}) {
-    Body body = boxBody({2, 2, 2}, kImplicitContactSpacing_m);
-    body.material.poisson_ratio = poisson_ratio;
-    body.material.drag_per_s = 20;
-    fixBottom(body);
-    const Model model = modelOf({body});
-    constexpr double kDepth_m = 1e-3, kRadius_m = 3e-3;
-    // The middle of the top is pushed straight down.
-    ReferenceSolver truth(model, Vector3d::Zero(), 1);
-    const uint32_t pushed = slotOf(body, {1, 1, 2});
-    solveStatics(truth, {{pushed, 0, 0}, {pushed, 1, 0}, {pushed, 2, -kDepth_m}});
-    const double expected_n = reactions(truth)[pushed].z();
-    ASSERT_LT(expected_n, 0);
-    StylusConfig stylus;
-    stylus.probe.radius_m = kRadius_m;
-    for (const Way& way : ways()) {
-      SCOPED_TRACE(::testing::Message() << "nu " << poisson_ratio << " integrator " << static_cast<int>(way.integrator)
-                                        << " dt " << way.fraction);
-      const Scene scene = sceneWith(way.integrator, model, 4, way.fraction, kIterations, {stylus});
-      const auto solver = make(model, scene);
-      const Vector3d top(kImplicitContactSpacing_m, kImplicitContactSpacing_m,
-                         2 * kImplicitContactSpacing_m - kDepth_m + kRadius_m);
-      const double tick_s = 1 / scene.solver.tick_hz;
-      for (double t = 0; t < 1.0; t += tick_s) solver->step(probeAt(top));
-      const Vector3d felt = xyz(lastStats(*solver).impulse[0]) / tick_s;
-      EXPECT_NEAR(felt.z(), expected_n, kImplicitContactForce * std::abs(expected_n));
-      EXPECT_LT(std::hypot(felt.x(), felt.y()), kImplicitContactForce * std::abs(expected_n));
-    }
+  Body body = boxBody({2, 2, 2}, kImplicitContactSpacing_m);
+  body.material.drag_per_s = 20;
+  fixBottom(body);
+  const Model model = modelOf({body});
+  constexpr double kDepth_m = 1e-3, kRadius_m = 3e-3;
+  // The middle of the top is pushed straight down.
+  ReferenceSolver truth(model, Vector3d::Zero(), 1);
+  const uint32_t pushed = slotOf(body, {1, 1, 2});
+  solveStatics(truth, {{pushed, 0, 0}, {pushed, 1, 0}, {pushed, 2, -kDepth_m}});
+  const double expected_n = reactions(truth)[pushed].z();
+  ASSERT_LT(expected_n, 0);
+  StylusConfig stylus;
+  stylus.probe.radius_m = kRadius_m;
+  for (const Way& way : ways()) {
+    SCOPED_TRACE(::testing::Message() << "integrator " << static_cast<int>(way.integrator) << " dt " << way.fraction);
+    const Scene scene = sceneWith(way.integrator, model, 4, way.fraction, kIterations, {stylus});
+    const auto solver = make(model, scene);
+    const Vector3d top(kImplicitContactSpacing_m, kImplicitContactSpacing_m,
+                       2 * kImplicitContactSpacing_m - kDepth_m + kRadius_m);
+    const double tick_s = 1 / scene.solver.tick_hz;
+    for (double t = 0; t < 1.0; t += tick_s) solver->step(probeAt(top));
+    const Vector3d felt = xyz(lastStats(*solver).impulse[0]) / tick_s;
+    EXPECT_NEAR(felt.z(), expected_n, kImplicitContactForce * std::abs(expected_n));
+    EXPECT_LT(std::hypot(felt.x(), felt.y()), kImplicitContactForce * std::abs(expected_n));
   }
 }
 

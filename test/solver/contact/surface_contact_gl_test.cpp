@@ -20,7 +20,6 @@ constexpr double kTop_m = 0.5 * 0.0273;          // of the body's surface
 constexpr double kTopNodes_m = kTop_m + 0.0027;  // the last cells are tissue to 0.73
 constexpr double kPress_m = 1e-3;
 constexpr double kPlace_m = 2e-6;  // of a node that is pressed: a substep's way of what settles, and float rounding
-constexpr Integrator kSteppers[] = {Integrator::kLeapfrog, Integrator::kPd};
 
 class SurfaceContact : public OnBackend {};
 INSTANTIATE_TEST_SUITE_P(Backends, SurfaceContact, ::testing::ValuesIn(backendKinds()), backendSuffix);
@@ -32,7 +31,6 @@ Model slab() {
   config.source = TissueSource::kBox;
   config.box_size_m = {0.03, 0.03, 0.0273};
   config.spacing_m = kSurfaceContactSpacing_m;
-  config.material.cells = Cells::kMoments;
   config.material.drag_per_s = 20;
   FixedConfig bottom;
   bottom.shape = FixedShape::kPlane;
@@ -74,23 +72,20 @@ ObstacleConfig boxAt(double z_m) {
 
 TEST_P(SurfaceContact, ObstaclesMeetTheSurfaceWhereItIs) {
   const Model model = slab();
-  for (const Integrator integrator : kSteppers) {
-    for (const bool is_box : {false, true}) {
-      SCOPED_TRACE(::testing::Message() << "integrator " << static_cast<int>(integrator) << " box " << is_box);
-      const double fraction = integrator == Integrator::kLeapfrog ? 0.5 : 3;
-      Scene scene = sceneWith(integrator, model, 4, fraction, 60);
-      const auto obstacleAt = [&](double z_m) { return is_box ? boxAt(z_m) : lidAt(z_m); };
-      scene.obstacles = {obstacleAt(kTop_m + 1e-4)};
-      auto solver = make(model, scene);
-      for (int t = 0; t < 10; ++t) solver->step({});
-      for (const Vector3d& u : topDisplacements(model, solver->readState())) EXPECT_EQ(u, Vector3d::Zero().eval());
-      scene.obstacles = {obstacleAt(kTop_m - kPress_m)};
-      solver = make(model, scene);
-      for (double t = 0; t < 0.5; t += 1 / scene.solver.tick_hz) solver->step({});
-      const std::vector<Vector3d> pressed = topDisplacements(model, solver->readState());
-      EXPECT_EQ(pressed.size(), 16u);
-      for (const Vector3d& u : pressed) EXPECT_NEAR(u.z(), -kPress_m, kPlace_m);
-    }
+  for (const bool is_box : {false, true}) {
+    SCOPED_TRACE(::testing::Message() << "box " << is_box);
+    Scene scene = sceneWith(Integrator::kLeapfrog, model, 4, 0.5);
+    const auto obstacleAt = [&](double z_m) { return is_box ? boxAt(z_m) : lidAt(z_m); };
+    scene.obstacles = {obstacleAt(kTop_m + 1e-4)};
+    auto solver = make(model, scene);
+    for (int t = 0; t < 10; ++t) solver->step({});
+    for (const Vector3d& u : topDisplacements(model, solver->readState())) EXPECT_EQ(u, Vector3d::Zero().eval());
+    scene.obstacles = {obstacleAt(kTop_m - kPress_m)};
+    solver = make(model, scene);
+    for (double t = 0; t < 0.5; t += 1 / scene.solver.tick_hz) solver->step({});
+    const std::vector<Vector3d> pressed = topDisplacements(model, solver->readState());
+    EXPECT_EQ(pressed.size(), 16u);
+    for (const Vector3d& u : pressed) EXPECT_NEAR(u.z(), -kPress_m, kPlace_m);
   }
 }
 
@@ -101,27 +96,23 @@ TEST_P(SurfaceContact, AProbeMeetsTheSurfaceWhereItIs) {
   stylus.probe.radius_m = kRadius_m;
   const Vector3d above(-0.5 * kSurfaceContactSpacing_m, -0.5 * kSurfaceContactSpacing_m,
                        kTop_m + kRadius_m);  // above a node
-  for (const Integrator integrator : kSteppers) {
-    SCOPED_TRACE(::testing::Message() << "integrator " << static_cast<int>(integrator));
-    const double fraction = integrator == Integrator::kLeapfrog ? 0.5 : 3;
-    const Scene scene = sceneWith(integrator, model, 4, fraction, 60, {stylus});
-    const auto solver = make(model, scene);
-    for (int t = 0; t < 10; ++t) solver->step(probeAt(above + Vector3d(0, 0, 1e-4)));
-    for (const Vector3d& u : topDisplacements(model, solver->readState())) EXPECT_EQ(u, Vector3d::Zero().eval());
-    for (double t = 0; t < 0.5; t += 1 / scene.solver.tick_hz) solver->step(probeAt(above - Vector3d(0, 0, kPress_m)));
-    // The node below the tip gives way sideways too: what holds is its distance.
-    const Vector3d tip = above - Vector3d(0, 0, kPress_m), rest(above.x(), above.y(), kTopNodes_m);
-    Vector3d lowest = Vector3d::Zero();
-    for (const Vector3d& u : topDisplacements(model, solver->readState())) {
-      if (u.z() < lowest.z()) lowest = u;
-    }
-    // Leapfrog's tips meet the springs beside it too, which hold it off by what a cone of their slope does.
-    const double seen_m = kRadius_m - (kTopNodes_m - kTop_m), away_m = (rest + lowest - tip).norm();
-    const double cone_m = integrator == Integrator::kLeapfrog ? 0.02 * seen_m : 0;  // slope 0.2
-    EXPECT_GE(away_m, seen_m - kPlace_m);
-    EXPECT_LE(away_m, seen_m + cone_m + kPlace_m);
-    EXPECT_LT(lowest.z(), -0.9 * kPress_m);
+  const Scene scene = sceneWith(Integrator::kLeapfrog, model, 4, 0.5, 0, {stylus});
+  const auto solver = make(model, scene);
+  for (int t = 0; t < 10; ++t) solver->step(probeAt(above + Vector3d(0, 0, 1e-4)));
+  for (const Vector3d& u : topDisplacements(model, solver->readState())) EXPECT_EQ(u, Vector3d::Zero().eval());
+  for (double t = 0; t < 0.5; t += 1 / scene.solver.tick_hz) solver->step(probeAt(above - Vector3d(0, 0, kPress_m)));
+  // The node below the tip gives way sideways too: what holds is its distance.
+  const Vector3d tip = above - Vector3d(0, 0, kPress_m), rest(above.x(), above.y(), kTopNodes_m);
+  Vector3d lowest = Vector3d::Zero();
+  for (const Vector3d& u : topDisplacements(model, solver->readState())) {
+    if (u.z() < lowest.z()) lowest = u;
   }
+  // Tips meet the springs beside it too, which hold it off by what a cone of their slope does.
+  const double seen_m = kRadius_m - (kTopNodes_m - kTop_m), away_m = (rest + lowest - tip).norm();
+  const double cone_m = 0.02 * seen_m;  // slope 0.2
+  EXPECT_GE(away_m, seen_m - kPlace_m);
+  EXPECT_LE(away_m, seen_m + cone_m + kPlace_m);
+  EXPECT_LT(lowest.z(), -0.9 * kPress_m);
 }
 
 TEST_P(SurfaceContact, TheReferenceMeetsItThere) {
@@ -155,7 +146,6 @@ Scene twoSlabs(double cells, double gap_m) {
   lower.source = TissueSource::kBox;
   lower.box_size_m = {0.03, 0.03, height_m};
   lower.spacing_m = kSurfaceContactSpacing_m;
-  lower.material.cells = Cells::kMoments;
   lower.material.drag_per_s = 20;
   BodyConfig upper = lower;
   FixedConfig bottom;
@@ -199,25 +189,23 @@ double farthestMoved(const HostState& state) {
 TEST_P(SurfaceContact, BodiesTouchWhereTheirSurfacesAre) {
   constexpr double kNear_m = kSurfaceContactSpacing_m;  // how near surfaces of such lattices touch
   constexpr double kApart_m = 1e-4;                     // what is left of the way in the time given
-  for (const Integrator integrator : kSteppers) {
-    for (const double cells : {2.05, 2.52}) {  // nodes that touch lie just below the surface, and half a cell
-      SCOPED_TRACE(::testing::Message() << "integrator " << static_cast<int>(integrator) << " cells " << cells);
-      for (const double gap_m : {kNear_m + 1e-4, kNear_m - 1e-3}) {
-        const double seconds = gap_m > kNear_m ? 0.05 : 0.3;  // what does not move at first never does
-        const Model model = buildModel(twoSlabs(cells, gap_m));
-        Scene scene = sceneWith(integrator, model, 4, integrator == Integrator::kLeapfrog ? 0.5 : 3, 20);
-        scene.collision.enabled = true;
-        scene.collision.friction = 0;
-        const auto solver = make(model, scene);
-        EXPECT_NEAR(betweenSurfaces(model, solver->readState()), gap_m, 1e-6);
-        for (double t = 0; t < seconds; t += 1 / scene.solver.tick_hz) solver->step({});
-        const HostState state = solver->readState();
-        if (gap_m > kNear_m) {
-          EXPECT_EQ(farthestMoved(state), 0);
-        } else {
-          EXPECT_GT(farthestMoved(state), 5e-4);
-          EXPECT_GT(betweenSurfaces(model, state), kNear_m - kApart_m);
-        }
+  for (const double cells : {2.05, 2.52}) {             // nodes that touch lie just below the surface, and half a cell
+    SCOPED_TRACE(::testing::Message() << "cells " << cells);
+    for (const double gap_m : {kNear_m + 1e-4, kNear_m - 1e-3}) {
+      const double seconds = gap_m > kNear_m ? 0.05 : 0.3;  // what does not move at first never does
+      const Model model = buildModel(twoSlabs(cells, gap_m));
+      Scene scene = sceneWith(Integrator::kLeapfrog, model, 4, 0.5);
+      scene.collision.enabled = true;
+      scene.collision.friction = 0;
+      const auto solver = make(model, scene);
+      EXPECT_NEAR(betweenSurfaces(model, solver->readState()), gap_m, 1e-6);
+      for (double t = 0; t < seconds; t += 1 / scene.solver.tick_hz) solver->step({});
+      const HostState state = solver->readState();
+      if (gap_m > kNear_m) {
+        EXPECT_EQ(farthestMoved(state), 0);
+      } else {
+        EXPECT_GT(farthestMoved(state), 5e-4);
+        EXPECT_GT(betweenSurfaces(model, state), kNear_m - kApart_m);
       }
     }
   }
@@ -259,7 +247,6 @@ Scene twoBalls() {
   ball.source = TissueSource::kBall;
   ball.ball_radius_m = 0.024;
   ball.spacing_m = kSurfaceContactSpacing_m;
-  ball.material.cells = Cells::kMoments;
   ball.material.drag_per_s = ball.material.dashpot_ratio = 0;
   scene.bodies = {ball, ball};
   scene.bodies[0].name = "still";

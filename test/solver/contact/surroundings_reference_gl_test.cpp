@@ -165,9 +165,7 @@ TEST_P(SurroundReference, MomentumThatANodeGetsIsThatOfTheObstacle) {
 TEST_P(SurroundReference, PdSolvesForObstaclesLikeTheReference) {
   for (const double friction : {0.0, 0.3}) {
     SCOPED_TRACE(friction);
-    Body body = boxBody({2, 2, 2}, kSurroundingsReferenceSpacing_m);
-    body.material.poisson_ratio = 0.4;
-    const Model model = modelOf({body});
+    const Model model = modelOf({boxBody({2, 2, 2}, kSurroundingsReferenceSpacing_m)});
     Scene scene = sceneWith(Integrator::kPd, model, 1, 3, 600, {}, kSurroundingsReferenceGravity);
     scene.obstacles = {surroundingsReferenceObstacle(ObstacleShape::kPlane, Vector3d(0, 0, -0.001)),
                        surroundingsReferenceObstacle(ObstacleShape::kSphere, Vector3d(-0.02, 0.015, 0.015))};

@@ -25,7 +25,6 @@ BodyConfig touchDepthsPlate(double cells) {
   out.box_size_m = {kWidth_m, kWidth_m, cells * kTouchDepthsSpacing_m};
   out.spacing_m = kTouchDepthsSpacing_m;
   out.rotation_deg = {10, 20, 30};
-  out.material.cells = Cells::kMoments;
   return out;
 }
 

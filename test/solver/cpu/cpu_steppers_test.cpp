@@ -62,13 +62,9 @@ uint64_t hashAfterTools(Integrator integrator, const Model& model, const Paralle
 TEST(CpuSteppers, StateHashDoesNotDependOnThreads) {
   const Serial serial;
   const Scattered scattered;
-  for (const double poisson_ratio : {0.25, 0.4}) {
-    Body body = boxBody({16, 5, 7}, 0.01);
-    body.material.poisson_ratio = poisson_ratio;
-    const Model model = modelOf({body});
-    for (const Integrator integrator : {Integrator::kPd, Integrator::kVerletPaper}) {
-      EXPECT_EQ(hashAfterTools(integrator, model, scattered), hashAfterTools(integrator, model, serial))
-          << static_cast<int>(integrator);
-    }
+  const Model model = modelOf({boxBody({16, 5, 7}, 0.01)});
+  for (const Integrator integrator : {Integrator::kPd, Integrator::kVerletPaper}) {
+    EXPECT_EQ(hashAfterTools(integrator, model, scattered), hashAfterTools(integrator, model, serial))
+        << static_cast<int>(integrator);
   }
 }

@@ -6,63 +6,68 @@
 #include <type_traits>
 
 #include "solver/cpu/text/glsl_kernel.h"
+#include "viscera/layout/tick_stats.h"
+#include "viscera/layout/tool_motion.h"
 
 namespace viscera::glsl {
 namespace {
 
-struct CellKernel : Kernel {
+struct HandKernel : Kernel {
   using Kernel::Kernel;
-  uint cell_count = 0;
-  vec4* cell_forces_out = nullptr;
+  uint stylus = 0;
+  vec4 tip = vec4(0), orientation = vec4(0);
+  float release_speed = 0, above = -1;
+  TickStats stats{};
 };
 
-#define VARIANT_NAME TearFirst
-#define VARIANT_BASE CellKernel
-#define VARIANT_TEXT "shaders/solver/tissue/volume.comp"
-#define VARIANT_FEATURES WITH_CUT | WITH_VOLUME
-#define VARIANT_MEMBERS                     \
-  uint corners() {                          \
-    return cornerSlot(0u, 1u) + cell_count; \
+#define VARIANT_NAME ReleaseFirst
+#define VARIANT_BASE HandKernel
+#define VARIANT_TEXT "shaders/solver/tools/grab.comp"
+#define VARIANT_FEATURES WITH_RELEASE | WITH_TOOLS
+#define VARIANT_MEMBERS                    \
+  uint beside() {                          \
+    return neighborSlot(stylus, ivec3(1)); \
   }
 #include "solver/cpu/text/glsl_variant.inc"
 
-#define VARIANT_NAME Forces
-#define VARIANT_BASE CellKernel
-#define VARIANT_TEXT "shaders/solver/tissue/volume.comp"
-#define VARIANT_FEATURES WITH_VOLUME
+#define VARIANT_NAME Hold
+#define VARIANT_BASE HandKernel
+#define VARIANT_TEXT "shaders/solver/tools/grab.comp"
+#define VARIANT_FEATURES WITH_TOOLS
 #include "solver/cpu/text/glsl_variant.inc"
 
-#define VARIANT_NAME TearAfterwards
-#define VARIANT_BASE CellKernel
-#define VARIANT_TEXT "shaders/solver/tissue/volume.comp"
-#define VARIANT_FEATURES WITH_VOLUME | WITH_CUT
+#define VARIANT_NAME ReleaseAfterwards
+#define VARIANT_BASE HandKernel
+#define VARIANT_TEXT "shaders/solver/tools/grab.comp"
+#define VARIANT_FEATURES WITH_TOOLS | WITH_RELEASE
 #include "solver/cpu/text/glsl_variant.inc"
 
-#if defined(VOLUME) || defined(CUT) || defined(LATTICE) || defined(NETWORK) || defined(INOUT) || defined(precise) || \
-    defined(FOR_EACH_SPRING) || defined(VARIANT_NAME) || defined(VARIANT_FEATURES) || defined(VARIANT_MEMBERS)
+#if defined(TOOLS) || defined(RELEASE) || defined(LATTICE) || defined(NETWORK) || defined(INOUT) ||       \
+    defined(precise) || defined(FOR_EACH_SPRING) || defined(VARIANT_NAME) || defined(VARIANT_FEATURES) || \
+    defined(VARIANT_MEMBERS)
 #error "a variant has left macros behind"
 #endif
 
-/// A kernel with feature CUT has a function torn(), one of variant TearFirst corners().
+/// A kernel without feature RELEASE has a function takeHold(), one of variant ReleaseFirst beside().
 template <class Variant, class = void>
-struct Tears : std::false_type {};
+struct Holds : std::false_type {};
 template <class Variant>
-struct Tears<Variant, std::void_t<decltype(&Variant::torn)>> : std::true_type {};
+struct Holds<Variant, std::void_t<decltype(&Variant::takeHold)>> : std::true_type {};
 template <class Variant, class = void>
-struct HasCorners : std::false_type {};
+struct HasBeside : std::false_type {};
 template <class Variant>
-struct HasCorners<Variant, std::void_t<decltype(&Variant::corners)>> : std::true_type {};
+struct HasBeside<Variant, std::void_t<decltype(&Variant::beside)>> : std::true_type {};
 
 TEST(GlslVariant, HasItsOwnFeaturesWhateverStandsBefore) {
-  EXPECT_TRUE(Tears<TearFirst>::value);
-  EXPECT_FALSE(Tears<Forces>::value);
-  EXPECT_TRUE(Tears<TearAfterwards>::value);
+  EXPECT_FALSE(Holds<ReleaseFirst>::value);
+  EXPECT_TRUE(Holds<Hold>::value);
+  EXPECT_FALSE(Holds<ReleaseAfterwards>::value);
 }
 
 TEST(GlslVariant, HasItsOwnMembersAlone) {
-  EXPECT_TRUE(HasCorners<TearFirst>::value);
-  EXPECT_FALSE(HasCorners<Forces>::value);
-  EXPECT_FALSE(HasCorners<TearAfterwards>::value);
+  EXPECT_TRUE(HasBeside<ReleaseFirst>::value);
+  EXPECT_FALSE(HasBeside<Hold>::value);
+  EXPECT_FALSE(HasBeside<ReleaseAfterwards>::value);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ class Sleeping : public ::testing::Test {
 
 TEST_F(Sleeping, GovernorsRollbackWakesAll) {
   for (const bool measured_limit : {false, true}) {
-    const auto solver = makeCpu("", model_, sleepyScene(model_, {0.25, kSleepSpeed_m_per_s, 0, true, measured_limit}));
+    const auto solver = makeCpu("", model_, sleepyScene(model_, {kSleepSpeed_m_per_s, 0, true, measured_limit}));
     settle(*solver);
     EXPECT_EQ(solver->awakeBricks(), 0u);
     ToolMotions motions = tool(ToolMode::kGrab, kCorner_m, kCorner_m);

@@ -49,10 +49,9 @@ class CpuTools : public ::testing::Test {
         lattice_(model_, bodyParams(model_, safeTimeStep(model_)), featuresFor(model_, true)),
         reference_(model_, Vector3d::Zero(), static_cast<double>(kToolPassesDt_s), options()) {}
 
-  /// Six cells to a side, held at the bottom, with energy of volume; two bricks to a side.
+  /// Six cells of a law to a side, held at the bottom; two bricks to a side.
   static Body rubberBox() {
-    Body body = boxBody({6, 6, 6}, 0.01);
-    body.material.poisson_ratio = 0.4;
+    Body body = ofLaw(boxBody({6, 6, 6}, 0.01), 0.4);
     body.material.dashpot_ratio = body.material.drag_per_s = 0;
     for (uint32_t slot : body.lattice.active_slots) {
       if (body.lattice.nodeAt(slot).z() == 0) body.lattice.nodes[slot].lo |= layout::kFixedBit;

@@ -112,7 +112,7 @@ TEST(ReferenceNetwork, SpringThatIsCollapsedToAPointKeepsItsDirectionAtRest) {
 
 TEST(ReferenceNetwork, LatticeOfLinksIsTheImplicitOne) {
   for (const bool parts : {false, true}) {
-    Body body = parts ? patchworkBody() : standing(unitBody({3, 2, 4}, 0.4));
+    Body body = parts ? patchworkBody() : standing(unitBody({3, 2, 4}));
     body.material.dashpot_ratio = 0.2;
     const Model implicit = modelOf({body});
     body.network = latticeNetwork(body);
@@ -135,7 +135,7 @@ TEST(ReferenceNetwork, LatticeOfLinksIsTheImplicitOne) {
 }
 
 TEST(ReferenceNetwork, CutLatticeOfLinksLosesTheSpringsAndCellsOfTheImplicitOne) {
-  Body body = unitBody({3, 3, 3}, 0.4);
+  Body body = unitBody({3, 3, 3});
   const Model implicit = modelOf({body});
   body.network = latticeNetwork(body);
   const Model links = modelOf({body});

@@ -113,25 +113,36 @@ TEST(ReferenceOracle, ChainsHaveTheirFrequencies) {
     EXPECT_NEAR(found[static_cast<size_t>(p) - 1], 2 * std::sin((2 * p - 1) * M_PI / (4 * kMasses)), kRounding);
 }
 
-TEST(ReferenceOracle, PlaneWavesHaveTheirFrequencies) {
-  for (double nu : {0.0, 0.25, 0.45}) {
-    const Body body = unitBody({4, 4, 4}, nu);
-    const Model model = modelOf({body});
-    const ReferenceSolver solver(model, Vector3d::Zero(), 1);
-    const uint32_t centre = slotAt(body, 2, 2, 2);
-    const double c_p = std::sqrt(3 + elasticity(2 * (1 + nu), nu, 1, 1).bulk_j), c_s = 1;  // h sqrt(3 k/m), h sqrt(k/m)
-    for (double q : {0.3, 1.0, 2.5}) {
-      for (int axis : {0, 1}) {  // along and across the wave's way, x
-        Eigen::VectorXd wave = Eigen::VectorXd::Zero(solver.dofs());
-        for (uint32_t slot : solver.active)
-          wave[solver.dof(slot, axis)] = std::cos(q * (body.lattice.nodeAt(slot).x() - 2));
-        const Eigen::VectorXd force = solver.stiffnessMatrix() * wave;
-        const double omega = std::sqrt(force[solver.dof(centre, axis)] / solver.mass(centre));
-        const double exact = 2 * (axis == 0 ? c_p : c_s) * std::sin(q / 2);
-        EXPECT_NEAR(omega / exact, 1, 1e-6) << "nu " << nu << " q " << q << " axis " << axis;  // float32 bulk_j
-      }
+namespace {
+
+/// Of mu h = 1 and a mass of 1 kg.
+void expectPlaneWaves(const Body& body, double kept) {
+  const Model model = modelOf({body});
+  const ReferenceSolver solver(model, Vector3d::Zero(), 1);
+  const uint32_t centre = slotAt(body, 2, 2, 2);
+  const double nu = body.material.poisson_ratio;
+  const double c_p = std::sqrt(2 + 2 * nu / (1 - 2 * nu)), c_s = 1;  // of springs h sqrt(3 k/m), h sqrt(k/m)
+  const Eigen::SparseMatrix<double> stiffness = solver.stiffnessMatrix();
+  for (double q : {0.3, 1.0, 2.5}) {
+    for (int axis : {0, 1}) {  // along and across the wave's way, x
+      Eigen::VectorXd wave = Eigen::VectorXd::Zero(solver.dofs());
+      for (uint32_t slot : solver.active)
+        wave[solver.dof(slot, axis)] = std::cos(q * (body.lattice.nodeAt(slot).x() - 2));
+      const Eigen::VectorXd force = stiffness * wave;
+      const double omega = std::sqrt(force[solver.dof(centre, axis)] / solver.mass(centre));
+      const double exact = 2 * (axis == 0 ? c_p : c_s) * std::sin(q / 2);
+      EXPECT_NEAR(omega / exact, 1, kept) << "nu " << nu << " q " << q << " axis " << axis;
     }
   }
+}
+
+}  // namespace
+
+TEST(ReferenceOracle, PlaneWavesHaveTheirFrequencies) {
+  constexpr double kSprings = 1e-6;  // float32 stiffness
+  constexpr double kLaw = 1e-5;      // the stiffness of cells is a difference of forces, to 1e-7 of its largest
+  expectPlaneWaves(unitBody({4, 4, 4}), kSprings);
+  for (double nu : {0.0, 0.25, 0.45}) expectPlaneWaves(unitLawBody({4, 4, 4}, nu), kLaw);
 }
 
 TEST(ReferenceOracle, FiniteStretchHasTheTablesStrainAndStress) {
@@ -153,16 +164,19 @@ TEST(ReferenceOracle, FiniteStretchHasTheTablesStrainAndStress) {
 TEST(ReferenceOracle, TensionTestsGiveBackYoungsModulusAndPoissonsRatio) {
   constexpr double kAsked = 1e-3;  // what issue 3 asks for; the strain of 1e-4 itself makes 1e-4
   double worst = 0;
+  const auto expectBack = [&](const Body& body, const Vector3i& cells) {
+    const double strain = 1e-4, young = body.material.young_modulus_pa, nu = body.material.poisson_ratio;
+    const Tension t = pull(body, cells, 1 + strain, 1);
+    const double young_error = t.stress_pa / strain / young - 1, nu_error = (1 - t.lateral_y) / strain - nu;
+    EXPECT_LT(std::abs(young_error), kAsked) << cells.y() << " cells, nu " << nu;
+    EXPECT_LT(std::abs(nu_error), kAsked) << cells.y() << " cells, nu " << nu;
+    worst = std::max({worst, std::abs(young_error), std::abs(nu_error)});
+  };
   for (int thickness : {1, 2, 4}) {
-    for (double nu : {0.0, 0.25, 0.4, 0.45, 0.49}) {
-      const Vector3i cells(thickness + 2, thickness, thickness);
-      const double strain = 1e-4, young = 2 * (1 + nu);
-      const Tension t = pull(unitBody(cells, nu), cells, 1 + strain, 1);
-      const double young_error = t.stress_pa / strain / young - 1, nu_error = (1 - t.lateral_y) / strain - nu;
-      EXPECT_LT(std::abs(young_error), kAsked) << thickness << " cells, nu " << nu;
-      EXPECT_LT(std::abs(nu_error), kAsked) << thickness << " cells, nu " << nu;
-      worst = std::max({worst, std::abs(young_error), std::abs(nu_error)});
-    }
+    const Vector3i cells(thickness + 2, thickness, thickness);
+    expectBack(unitBody(cells), cells);
+    if (thickness == 4) continue;
+    for (double nu : {0.0, 0.25, 0.4, 0.45, 0.49}) expectBack(unitLawBody(cells, nu), cells);
   }
   RecordProperty("largest_error", std::to_string(worst));
 }
@@ -201,21 +215,19 @@ TEST(ReferenceStatics, SaysSoWhenThereIsNoEquilibrium) {
 }
 
 TEST(ReferenceStatics, FindsAStateWithoutResidualAfterALargeBend) {
-  for (double nu : {0.0, 0.25, 0.49}) {
-    const Body body = standing(unitBody({2, 2, 10}, nu));
-    const Model model = modelOf({body});
-    ReferenceSolver solver(model, Vector3d::Zero(), 1);
-    std::vector<PrescribedDof> bend;
-    for (uint32_t slot : solver.active)
-      if (body.lattice.nodeAt(slot).z() == 10) bend.push_back({slot, 0, 5.0});
-    StaticsOptions options;
-    options.load_steps = 5;
-    const StaticsReport report = solveStatics(solver, bend, {}, options);
-    EXPECT_LE(report.residual, options.tolerance) << "nu " << nu;
-    Vector3d sum = Vector3d::Zero();
-    for (const Vector3d& force : reactions(solver)) sum += force;
-    EXPECT_LT(sum.norm(), 1e-9) << "nu " << nu;
-  }
+  const Body body = standing(unitBody({2, 2, 10}));
+  const Model model = modelOf({body});
+  ReferenceSolver solver(model, Vector3d::Zero(), 1);
+  std::vector<PrescribedDof> bend;
+  for (uint32_t slot : solver.active)
+    if (body.lattice.nodeAt(slot).z() == 10) bend.push_back({slot, 0, 5.0});
+  StaticsOptions options;
+  options.load_steps = 5;
+  const StaticsReport report = solveStatics(solver, bend, {}, options);
+  EXPECT_LE(report.residual, options.tolerance);
+  Vector3d sum = Vector3d::Zero();
+  for (const Vector3d& force : reactions(solver)) sum += force;
+  EXPECT_LT(sum.norm(), 1e-9);
 }
 
 }  // namespace viscera

@@ -9,22 +9,27 @@
 
 namespace viscera::test {
 
-/// Without drag and dashpot.
-inline MaterialConfig undamped(double young_modulus_pa, double poisson_ratio, double density_kg_per_m3,
-                               Weights weights) {
+/// Springs without drag and dashpot.
+inline MaterialConfig undamped(double young_modulus_pa, double density_kg_per_m3, Weights weights) {
   MaterialConfig material;
   material.young_modulus_pa = young_modulus_pa;
-  material.poisson_ratio = poisson_ratio;
   material.density_kg_per_m3 = density_kg_per_m3;
   material.drag_per_s = material.dashpot_ratio = 0;
   material.weights = weights;
   return material;
 }
 
-/// Without drag and dashpot, k = h = 1 and a cell of 1 kg at nu = 1/4; exact in float32.
-inline Body unitBody(const Vector3i& cells, double poisson_ratio = 0.25) {
+/// Springs without drag and dashpot, k = h = 1 and a cell of 1 kg; exact in float32.
+inline Body unitBody(const Vector3i& cells) {
   Body body = boxBody(cells, 1.0);
-  body.material = undamped(2 * (1 + poisson_ratio), poisson_ratio, 1, Weights::kCell);
+  body.material = undamped(2.5, 1, Weights::kCell);
+  return body;
+}
+
+/// The same of cells of the neo-Hookean law: mu = 1.
+inline Body unitLawBody(const Vector3i& cells, double poisson_ratio) {
+  Body body = ofLaw(unitBody(cells), poisson_ratio);
+  body.material.young_modulus_pa = 2 * (1 + poisson_ratio);
   return body;
 }
 
@@ -67,8 +72,8 @@ inline Body patchworkBody(Weights weights = Weights::kCell) {
   Body body;
   body.name = "patchwork";
   body.lattice = buildLattice(solid, weights);
-  body.material = undamped(2.5, 0.1, 1, weights);
-  body.parts = {{"hard", 40, 0.45, 3}};
+  body.material = undamped(2.5, 1, weights);
+  body.parts = {{"hard", 40, 0.25, 3}};
   return body;
 }
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "viscera/layout/limits.h"
-#include "viscera/model/body/bend_matrices.h"
 #include "viscera/model/model.h"
 
 namespace viscera {
@@ -13,7 +12,7 @@ namespace viscera {
 /// What E, nu and rho make of a cell of edge h (physics.md 1).
 struct Elasticity {
   double spring_n_per_m;  ///< k = mu h of a full spring, axial or diagonal
-  double bulk_j;          ///< lambda_V h^3, lambda_V = lambda - mu; 0 at nu = 1/4
+  double bulk_j;          ///< (lambda - mu) h^3: what Poisson's ratio differs by from that of springs, 0 at nu = 1/4
   double rigidity_j;      ///< mu h^3
   double cell_mass_kg;    ///< rho h^3
 };
@@ -29,28 +28,22 @@ std::vector<Elasticity> elasticityByLabel(const Body& body);
 struct Strengths {
   std::vector<float> spring_n_per_m;  ///< [9 * slots] of the spring 2 i of a node at 9 * slot + i
   std::vector<float> mass_kg;         ///< [slots]
-  std::vector<float> bulk_j;          ///< [slots] of the cell whose lowest corner is the node
-  std::vector<float> rigidity_j;      ///< [slots] likewise; empty where cells resist by springs alone (Cells)
+  std::vector<float> bulk_j;          ///< [slots] of the cell whose lowest corner is the node; 0 in bodies of springs
+  std::vector<float> rigidity_j;      ///< [slots] likewise
 };
 constexpr uint32_t kSpringPairs = layout::kSpringsPerNode / 2;
 
-/// Do its cells differ: are there parts with elasticities of their own, or cells that are tissue in part?
+/// Do its cells differ: are there parts with elasticities of their own, cells that are tissue in part,
+/// or with a stress of their own?
 bool isHeterogeneous(const Body& body);
 /// @throws SceneError  a part that the body has not, or that stands twice
 Strengths strengths(const Body& body);
 
-/// What a cell in a thin wall makes of its hourglass motions (material.thin_walls).
-struct CellBend {
-  uint32_t cell;       ///< slot of its lowest corner
-  BendMatrix missing;  ///< second differences that its corners do not show
-};
-
-/// Moments that cells resist by (Lattice::cell_fills and fills): of their tissue, weighed by its rigidity where a cell
-/// shares materials.
+/// Moments of the tissue in cells (Lattice::cell_fills and fills), weighed by its rigidity where a cell shares
+/// materials.
 struct CellMoments {
   std::vector<uint32_t> of_cell;  ///< [slots] 0 those of a full cell, else 1 + index into fills; empty where all are 0
   std::vector<CellFill> fills;
-  std::vector<CellBend> bends;  ///< ascending by cell; of others it is missingAlone()
 };
 /// @throws SceneError  as strengths()
 CellMoments cellMoments(const Body& body);

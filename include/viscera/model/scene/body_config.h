@@ -21,18 +21,11 @@ enum class Fill {
   kEnclosed  ///< what all of them enclose together, gaps closed
 };
 
-/// What a cell of a lattice resists its deformation with (physics.md 1).
-enum class Cells {
-  kAuto,     ///< what hasMoments() (structure_rules.h) says
-  kSprings,  ///< springs, and the energy of its volume: VR05's system; cells are filled or empty
-  kMoments   ///< springs corrected by the moments of the part that is filled: bends and twists as the solid does
-};
-
 /// What the cells of a lattice are made of (docs/physics.md 1).
 enum class Law {
   kAuto,       ///< what lawOf() (structure_rules.h) says
-  kSprings,    ///< springs, with what `cells` adds to them
-  kNeoHookean  ///< a hyperelastic energy per cell, of its deformation gradient
+  kSprings,    ///< springs, as in VR05: Poisson's ratio is 1/4, cells are full or empty
+  kNeoHookean  ///< a hyperelastic energy per cell, of its deformation gradient; cells are tissue in part
 };
 
 /// How spring and mass weights are assembled (physics.md 1).
@@ -79,16 +72,14 @@ struct BleedingConfig {
 
 struct MaterialConfig {
   double young_modulus_pa = 20e3;
-  double poisson_ratio = 0.25;  ///< 1/4 is what springs give alone; else cells have an energy of volume
+  double poisson_ratio = 0.25;  ///< that of springs, which have no other
   double density_kg_per_m3 = 1060;
   double drag_per_s = 4;
   double dashpot_ratio = 0.2;
   Weights weights = Weights::kCell;
   Law law = Law::kAuto;
   double stiffening = 0;  ///< b of mu/(2 b) (exp(b (I1 - 3)) - 1), the neo-Hookean law's shear energy
-  Cells cells = Cells::kAuto;
-  bool thin_walls = false;  ///< walls of few cells bend as the tissue around each cell lets them
-  std::string tissue;       ///< preset (docs/tissues.md) of those of the first three that the scene does not give
+  std::string tissue;     ///< preset (docs/tissues.md) of those of the first three that the scene does not give
   FractureConfig cut;
   PrestressConfig prestress;
   TearConfig tear;

@@ -21,7 +21,7 @@ namespace {
 class BoxTissue : public Tissue {
  public:
   explicit BoxTissue(const BodyConfig& config)
-      : size_m_(config.box_size_m), pose_(bodyPose(config)), moments_(hasMoments(config)) {
+      : size_m_(config.box_size_m), pose_(bodyPose(config)), moments_(fillsInPart(config)) {
     planes_ = clampPlanes(config, bounds());
   }
 
@@ -133,7 +133,7 @@ class BallTissue : public Tissue {
   explicit BallTissue(const BodyConfig& config)
       : radius_m_(config.ball_radius_m),
         pose_(bodyPose(config)),
-        moments_(hasMoments(config)),
+        moments_(fillsInPart(config)),
         skin_spacing_m_(config.skin_spacing_m) {
     planes_ = clampPlanes(config, bounds());
   }

@@ -41,7 +41,7 @@ class MeshTissue : public Tissue {
     file_pose = bodyPose(config) * placed;
     moveDetail(mesh_, file_pose);
     if (touch_) skin_ = withoutSharedBorders(mesh_);
-    moments_ = hasMoments(config);
+    moments_ = fillsInPart(config);
     enclosed_ = config.fill == Fill::kEnclosed;
     gap_m_ = config.gap_m;
     const bool is_whole = touch_ || enclosed_ || isNetwork(config.structure);
@@ -100,7 +100,7 @@ class PhantomTissue : public Tissue {
  public:
   explicit PhantomTissue(const BodyConfig& config)
       : phantom_(heartPhantom(config.phantom_length_m, config.phantom_wall_scale)),
-        moments_(hasMoments(config)),
+        moments_(fillsInPart(config)),
         skin_spacing_m_(config.skin_spacing_m) {
     const Pose pose = pose_ = bodyPose(config);
     has_vessels_ = config.textures && config.skin_spacing_m > 0;

@@ -22,7 +22,7 @@ namespace viscera::simd::HWY_NAMESPACE {
 struct Around {
   const float* brick[27];
 };
-HWY_INLINE void lookAround(const Arrays& a, const float* values, uint32_t b, bool /*corners*/, Around& around) {
+HWY_INLINE void lookAround(const Arrays& a, const float* values, uint32_t b, Around& around) {
   for (int i = 0; i < 27; ++i) around.brick[i] = values + size_t{a.bricks[b].neighbors[i]} * 192;
 }
 
@@ -65,11 +65,8 @@ HWY_INLINE Vec3 seen(const Surroundings& s) {
 #else  // a vector is some rows of a plane
 
 using Around = Tile;
-HWY_INLINE void lookAround(const Arrays& a, const float* values, uint32_t b, bool corners, Around& around) {
-  if (corners)
-    fill<true>(a, values, b, around);
-  else
-    fill<false>(a, values, b, around);
+HWY_INLINE void lookAround(const Arrays& a, const float* values, uint32_t b, Around& around) {
+  fill<false>(a, values, b, around);
 }
 struct Surroundings {
   const Tile& tile;

@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// How a vector of cells moves: shaders/solver/tissue/moments.glsl, whose names these are. Included once per instruction
-// set (Highway).
+// How a vector of cells moves: shaders/solver/tissue/cell_motion.glsl, whose names these are. Included once per
+// instruction set (Highway).
 #if defined(VISCERA_SOLVER_CPU_CELL_MOTION_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef VISCERA_SOLVER_CPU_CELL_MOTION_INL_H
 #undef VISCERA_SOLVER_CPU_CELL_MOTION_INL_H
@@ -17,7 +17,7 @@ HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
 /// Mean edges less their rest value, over h; hourglass motions as sums and differences of displacements [m], which is
-/// 2 h times those of moments.glsl and, hxyz, sqrt(8) h.
+/// 2 h times those of cell_motion.glsl and, hxyz, sqrt(8) h.
 struct CellMotion {
   Vec3 da, db, dc, hx, hy, hz, hxyz;
 };
@@ -35,17 +35,6 @@ HWY_INLINE CellMotion motionOf4(const Face& low, const Face& high) {
   return {low.ds + high.ds, low.sd + high.sd, high.ss - low.ss, high.sd - low.sd,
           high.ds - low.ds, low.dd + high.dd, high.dd - low.dd};
 }
-/// @param per_4h  1 / (4 h), 0 where there is no cell: nothing is strained there, wherever the nodes around are
-HWY_INLINE CellMotion motionBetween(const Face& low, const Face& high, V per_4h) {
-  return {per_4h * (low.ds + high.ds),
-          per_4h * (low.sd + high.sd),
-          per_4h * (high.ss - low.ss),
-          high.sd - low.sd,
-          high.ds - low.ds,
-          low.dd + high.dd,
-          high.dd - low.dd};
-}
-
 }  // namespace viscera::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Springs of cells, a vector of cells at a time, and sums by node of what cells do to their corners. Included once per
-// instruction set (Highway).
+// Nodes as cells see them, and sums by node of what cells do to their corners. Included once per instruction set
+// (Highway).
 #if defined(VISCERA_SOLVER_CPU_CELLS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef VISCERA_SOLVER_CPU_CELLS_INL_H
 #undef VISCERA_SOLVER_CPU_CELLS_INL_H
@@ -75,18 +75,10 @@ HWY_INLINE void fillUp(const Arrays& a, uint32_t b, uint32_t planes, UpTile& til
   }
 }
 
-/// @param values  [3 * slots] as in Arrays
-HWY_INLINE void fillUp(const Arrays& a, const float* values, uint32_t b, uint32_t planes, UpTile& tile) {
-  fillUp(a, b, planes, tile, [&](size_t at) HWY_ATTR { return load(values + at); });
-}
-
 /// What four corners of cells at one height have or get, by their x and y.
 struct Corners {
   Vec3 n00, n10, n01, n11;
 };
-HWY_INLINE Corners noCorners() {
-  return {zero3(), zero3(), zero3(), zero3()};
-}
 template <int kX, int kY>
 HWY_INLINE Vec3 upAt(const UpTile& tile, int at) {
   const auto of = [&](int c) HWY_ATTR { return hn::Load(Tag(), tile.component[c][kX][kY] + at); };
@@ -94,69 +86,6 @@ HWY_INLINE Vec3 upAt(const UpTile& tile, int at) {
 }
 HWY_INLINE Corners cornersAt(const UpTile& tile, int at) {
   return {upAt<0, 0>(tile, at), upAt<1, 0>(tile, at), upAt<0, 1>(tile, at), upAt<1, 1>(tile, at)};
-}
-
-/// Displacements of a brick's nodes, and velocities, looked at with dashpots.
-struct CellTiles {
-  UpTile u, v;
-};
-
-/// An end of a spring: where it is and what it gets.
-template <bool kDashpot>
-struct SpringEnd {
-  Vec3 u, v, force;
-
-  template <int kX, int kY>
-  HWY_INLINE static SpringEnd at(const CellTiles& tiles, int at, const Vec3& force) {
-    return {upAt<kX, kY>(tiles.u, at), kDashpot ? upAt<kX, kY>(tiles.v, at) : zero3(), force};
-  }
-};
-
-/// Adds what a spring does to both its ends.
-template <int X, int Y, int Z, bool kUniform, bool kAny, bool kDashpot>
-HWY_INLINE void addBetween(const Material& m, const float* k, SpringEnd<kDashpot>& near, SpringEnd<kDashpot>& far,
-                           V& largest) {
-  const V stiffness = kUniform ? m.full[X * X + Y * Y + Z * Z - 1] : load(k);
-  const Vec3 dv = kDashpot ? far.v - near.v : zero3();
-  const SpringPull s = springPull<X, Y, Z, kUniform, kAny, kDashpot, true>(m, stiffness, far.u - near.u, dv, largest);
-  near.force = mulAdd(s.pull, s.e, near.force);
-  far.force = mulAdd(hn::Neg(s.pull), s.e, far.force);
-}
-
-/// Springs of a vector of cells, nine each: those of kCellSprings (kernels.h).
-/// @param at  place of the first cell in the tiles   @param k  stiffness of the first spring; the next is 16 farther
-/// @param below  what corners get already   @param low  that, with what they get of these   @param high  what corners
-/// above get of these   @return all springs are mild, see kMild
-template <bool kUniform, bool kAny, bool kDashpot>
-HWY_INLINE bool addSprings(const Material& m, const float* k, const CellTiles& tiles, int at, const Corners& below,
-                           Corners& low, Corners& high) {
-  // One corner after the other, so that registers hold those at work.
-  using End = SpringEnd<kDashpot>;
-  V largest = hn::Zero(Tag());
-  End n00 = End::template at<0, 0>(tiles, at, below.n00), n11 = End::template at<1, 1>(tiles, at, below.n11);
-  addBetween<1, 1, 0, kUniform, kAny>(m, k + 3 * 16, n00, n11, largest);
-  low.n11 = n11.force;
-  End n10 = End::template at<1, 0>(tiles, at, below.n10);
-  addBetween<1, 0, 0, kUniform, kAny>(m, k, n00, n10, largest);
-  End n01 = End::template at<0, 1>(tiles, at, below.n01);
-  addBetween<0, 1, 0, kUniform, kAny>(m, k + 16, n00, n01, largest);
-  addBetween<1, -1, 0, kUniform, kAny>(m, k + 4 * 16, n01, n10, largest);
-  End up00 = End::template at<0, 0>(tiles, at + kUpPlane, zero3());
-  addBetween<1, 0, -1, kUniform, kAny>(m, k + 6 * 16, up00, n10, largest);
-  low.n10 = n10.force;
-  addBetween<0, 1, -1, kUniform, kAny>(m, k + 8 * 16, up00, n01, largest);
-  low.n01 = n01.force;
-  addBetween<0, 0, 1, kUniform, kAny>(m, k + 2 * 16, n00, up00, largest);
-  high.n00 = up00.force;
-  End up10 = End::template at<1, 0>(tiles, at + kUpPlane, zero3());
-  addBetween<1, 0, 1, kUniform, kAny>(m, k + 5 * 16, n00, up10, largest);
-  high.n10 = up10.force;
-  End up01 = End::template at<0, 1>(tiles, at + kUpPlane, zero3());
-  addBetween<0, 1, 1, kUniform, kAny>(m, k + 7 * 16, n00, up01, largest);
-  high.n01 = up01.force;
-  low.n00 = n00.force;
-  high.n11 = zero3();
-  return hn::AllTrue(Tag(), hn::Lt(largest, set(kMild)));
 }
 
 // A vector is rows of four: shifts of lanes stay within them.

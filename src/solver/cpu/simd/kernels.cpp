@@ -73,38 +73,13 @@ HWY_NOINLINE Vec3 anySpringForce(const Surroundings& u, const Surroundings& v, c
   return sumOfSprings(DampedSprings{u, v, predicted, seen<0, 0, 0>(predicted), m, k}, mild);
 }
 
-/// What the volume of one of the eight cells around adds to the force on its corner (A, B, C).
-template <int A, int B, int C>
-HWY_INLINE void addVolume(const Surroundings& u, V quarter, V bulk, Vec3& force) {
-  if (hn::AllTrue(Tag(), hn::Eq(bulk, hn::Zero(Tag())))) return;
-  Vec3 n[8];
-  cornersAround<A, B, C>(n, u);
-  const Shape s = shapeOf(n, quarter);
-  const V p = hn::Mul(pressureOf(bulk, s.e), quarter), minus = hn::Neg(p);
-  force = mulAdd(A ? minus : p, s.bc, force);
-  force = mulAdd(B ? minus : p, s.ca, force);
-  force = mulAdd(C ? minus : p, s.ab, force);
-}
-
-/// Volumes' force on the nodes of a vector. @param bulk  of their first cell around; the next is 64 farther
-HWY_NOINLINE void addVolumes(const Surroundings& u, V quarter, const float* bulk, Vec3& force) {
-  addVolume<0, 0, 0>(u, quarter, load(bulk), force);
-  addVolume<1, 0, 0>(u, quarter, load(bulk + 64), force);
-  addVolume<0, 1, 0>(u, quarter, load(bulk + 128), force);
-  addVolume<1, 1, 0>(u, quarter, load(bulk + 192), force);
-  addVolume<0, 0, 1>(u, quarter, load(bulk + 256), force);
-  addVolume<1, 0, 1>(u, quarter, load(bulk + 320), force);
-  addVolume<0, 1, 1>(u, quarter, load(bulk + 384), force);
-  addVolume<1, 1, 1>(u, quarter, load(bulk + 448), force);
-}
-
 /// What lies around a brick. With dashpots few bricks need what is there now.
 struct SpringViews {
   Around u, v, predicted;
   bool knows_u, knows_v;
 };
 
-/// Forces on a brick's nodes of the springs and volumes around them.
+/// Forces on a brick's nodes of the springs around them.
 template <bool kUniform, bool kDashpot>
 struct ForceOfSprings {
   const LeapfrogJob& job;
@@ -114,12 +89,12 @@ struct ForceOfSprings {
 
   HWY_INLINE Surroundings now(int i) const {
     const Arrays& a = job.arrays;
-    if (!views.knows_u) lookAround(a, a.displacement, b, a.bulk_around != nullptr, views.u);
+    if (!views.knows_u) lookAround(a, a.displacement, b, views.u);
     views.knows_u = true;
     return surroundings(views.u, i);
   }
   HWY_INLINE Surroundings speeds(int i) const {
-    if (!views.knows_v) lookAround(job.arrays, job.arrays.velocity, b, false, views.v);
+    if (!views.knows_v) lookAround(job.arrays, job.arrays.velocity, b, views.v);
     views.knows_v = true;
     return surroundings(views.v, i);
   }
@@ -149,15 +124,11 @@ struct ForceOfSprings {
         job.strained[b] = static_cast<uint16_t>(job.strained[b] | bit);
       }
     }
-    if (a.bulk_around) {
-      const V quarter = hn::Div(set(0.25f), material.h);
-      addVolumes(kDashpot ? now(i) : around, quarter, a.bulk_around + size_t{b} * 512 + i, force);
-    }
     return force;
   }
 };
 
-/// Forces on a brick's nodes of the cells around them, springs included.
+/// Forces on a brick's nodes of the cells around them, where these obey a law.
 struct ForceOfCells {
   CellSources sources;
   HWY_INLINE Vec3 operator()(int i) const { return forceOfCells(sources, i); }
@@ -213,24 +184,20 @@ HWY_NOINLINE void stepBrick(const LeapfrogJob& job, const layout::BodyParams& bo
   if (near) job.near[b] = 1;
 }
 
+/// A brick of springs.
 template <bool kDashpot>
-void stepBricks(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
-  SpringViews views;
-  for (size_t n = 0; n < count; ++n) {
-    const uint32_t b = bricks[n];
-    const layout::BodyParams& body = job.arrays.bodies[job.arrays.bricks[b].body];
-    const Material material = materialOf(body);
-    if (kDashpot)
-      lookAround(job.arrays, job.predicted, b, false, views.predicted);
-    else
-      lookAround(job.arrays, job.arrays.displacement, b, job.arrays.bulk_around != nullptr, views.u);
-    views.knows_u = !kDashpot;
-    views.knows_v = false;
-    if (job.arrays.uniform[b])
-      stepBrick(job, body, b, ForceOfSprings<true, kDashpot>{job, material, views, b});
-    else
-      stepBrick(job, body, b, ForceOfSprings<false, kDashpot>{job, material, views, b});
-  }
+HWY_INLINE void stepBySprings(const LeapfrogJob& job, const layout::BodyParams& body, uint32_t b, SpringViews& views) {
+  const Material material = materialOf(body);
+  if (kDashpot)
+    lookAround(job.arrays, job.predicted, b, views.predicted);
+  else
+    lookAround(job.arrays, job.arrays.displacement, b, views.u);
+  views.knows_u = !kDashpot;
+  views.knows_v = false;
+  if (job.arrays.uniform[b])
+    stepBrick(job, body, b, ForceOfSprings<true, kDashpot>{job, material, views, b});
+  else
+    stepBrick(job, body, b, ForceOfSprings<false, kDashpot>{job, material, views, b});
 }
 
 void predictOf(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
@@ -252,21 +219,20 @@ HWY_INLINE void prefetchBrick(const Arrays& a, uint32_t b) {
   }
 }
 
-void stepByCells(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
-  for (size_t n = 0; n < count; ++n) {
-    const layout::BodyParams& body = job.arrays.bodies[job.arrays.bricks[bricks[n]].body];
-    prefetchBrick(job.arrays, bricks[n + 1 < count ? n + 1 : n]);
-    stepBrick(job, body, bricks[n], ForceOfCells{sourcesOf(job.arrays, bricks[n])});
-  }
-}
-
 void leapfrogOf(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
-  if (job.arrays.cell_sums)
-    stepByCells(job, bricks, count);
-  else if (job.predicted)
-    stepBricks<true>(job, bricks, count);
-  else
-    stepBricks<false>(job, bricks, count);
+  SpringViews views;
+  for (size_t n = 0; n < count; ++n) {
+    const uint32_t b = bricks[n];
+    const layout::BodyParams& body = job.arrays.bodies[job.arrays.bricks[b].body];
+    if (body.law != layout::kLawSprings) {
+      prefetchBrick(job.arrays, bricks[n + 1 < count ? n + 1 : n]);
+      stepBrick(job, body, b, ForceOfCells{sourcesOf(job.arrays, b)});
+    } else if (job.predicted) {
+      stepBySprings<true>(job, body, b, views);
+    } else {
+      stepBySprings<false>(job, body, b, views);
+    }
+  }
 }
 
 }  // namespace viscera::simd::HWY_NAMESPACE

@@ -34,8 +34,7 @@ struct Arrays {
   const float* spring_stiffness;  ///< [18 * slots] N/m (springAt)
   const float* mobility;          ///< [slots] 1/kg
   const layout::NodeBits* nodes;  ///< [slots] says who is held; null where none can be
-  const float* cell_sums;         ///< [kCellSums * bricks] N, of CellJob: all forces; null without moments
-  const float* bulk_around;       ///< [8 * slots] J of the cells around a node; null without volume energy
+  const float* cell_sums;         ///< [kCellSums * bricks] N, of CellJob, in bodies of a law; null without
   const uint8_t* uniform;         ///< [bricks] all springs of all nodes are whole and of full strength
   const uint16_t* idle_rows;      ///< [bricks] bit r: none of the four nodes from 4 r on will ever move
 };
@@ -50,7 +49,7 @@ struct Reach {
 struct LeapfrogJob {
   Arrays arrays;
   Substep step;
-  float* predicted;  ///< [3 * slots] u + dashpot_s v (physics.md 2) [m]; null without dashpots, and with moments
+  float* predicted;  ///< [3 * slots] u + dashpot_s v (physics.md 2) [m]; null without dashpots on springs
   size_t reaches;    ///< probes
   Reach reach[layout::kMaxStyluses];
   uint8_t* near;       ///< [bricks] set where a node is within reach of a probe; null without probes
@@ -63,19 +62,15 @@ using BrickLeapfrog = void (*)(const LeapfrogJob& job, const uint32_t* bricks, s
 /// Writes `predicted` of some bricks: of all that those to be stepped look at, before these are.
 using BrickPredict = void (*)(const LeapfrogJob& job, const uint32_t* bricks, size_t count);
 
-// Where nodes have cells by moments, each spring is evaluated once, by the cell that owns it: from the cell's lowest
-// corner the edges along x, y and z, then the two diagonals of its lowest face across z, across y and across x.
-constexpr uint32_t kCellSprings = 9;
 // Numbers of cells, several of each, lie plane by plane of 4x4 cells, and number by number within a plane.
 constexpr size_t cellNumberAt(uint32_t slot, uint32_t number, uint32_t numbers) {
   return size_t{slot >> 4} * (16 * numbers) + size_t{number} * 16 + (slot & 15);
 }
-/// Index of a spring of the cell above a slot.
-constexpr size_t cellSpringAt(uint32_t slot, uint32_t spring) {
-  return cellNumberAt(slot, spring, kCellSprings);
-}
-constexpr uint32_t kMomentNumbers = 9;   ///< first, square, mixed (moments.glsl)
+constexpr uint32_t kMomentNumbers = 9;   ///< first, square, mixed (cell_motion.glsl)
+constexpr uint32_t kTensionNumbers = 6;  ///< of a stress at rest: xx, yy, zz, yz, zx, xy
 constexpr uint32_t kBrokenSprings = 24;  ///< within a cell: 12 edges, along x, y and z, then 12 face diagonals
+/// Of a broken cell: stiffness of its springs, then how much shorter those along nine directions are at rest.
+constexpr uint32_t kBrokenNumbers = kBrokenSprings + 9;
 
 // Forces of a brick's 64 cells on their corners, summed by node, plane by plane of nodes (the fifth is that above the
 // brick): on the nodes of its own rows, of the row behind them, then of each row's right neighbour and of the corner
@@ -94,24 +89,19 @@ constexpr size_t cornerSumsAt(int plane) {
 }
 constexpr size_t kCellSums = 400;
 
-/// Forces of cells, where some resist by moments (shaders/solver/tissue/moments.glsl), and of all springs.
+/// Forces of cells that obey a law (shaders/solver/tissue/law.glsl).
 struct CellJob {
   Arrays arrays;
-  const float* springs;          ///< [kCellSprings * slots] N/m (cellSpringAt)
-  const uint8_t* uniform;        ///< [bricks] all of these are of the body's full strength
   const uint16_t* idle_rows;     ///< [bricks] bit r: the four cells from 4 r on never do anything to a node that moves
   const float* bulk;             ///< [slots] J of the cell above a node
   const float* rigidity;         ///< [slots] J; both 0 where there is none
   const float* const* moments;   ///< [bricks] [9 * 64] of its cells (CpuStrengths); null where all are full
   const uint16_t* partial_rows;  ///< [bricks] bit r: some of the four cells from 4 r on is tissue in part
-  const float* const* bends;     ///< [bricks] [kBendNumbers * 64] of its cells (CpuStrengths); null without thin walls
-  const uint16_t* thin_rows;     ///< [bricks] bit r: some of the four cells from 4 r on has a bend
-  const float* const* broken;    ///< [bricks] [kBrokenSprings * 64] N of cells of a law that have lost a spring
+  const float* const* tension;   ///< [bricks] [kTensionNumbers * 64] of its cells; null where none is stressed at rest
+  const float* const* broken;    ///< [bricks] [kBrokenNumbers * 64] N of cells of a law that have lost a spring
                                  ///< (CpuStrengths); null where all are whole
   bool parts;                    ///< bulk over rigidity differs within a body
-  bool volumes;                  ///< some bulk is not 0
   bool dashpot;                  ///< some body has one
-  uint16_t* strained;            ///< [bricks] as in LeapfrogJob, of cells
   float* sums;                   ///< [kCellSums * bricks] N
 };
 /// Sums of the cells of some bricks.
@@ -127,7 +117,7 @@ struct BrickStats {
 
 struct MeasureJob {
   Arrays arrays;
-  CellJob cells;  ///< rigidity null without moments
+  CellJob cells;  ///< rigidity null without a law
   const layout::NodeBits* nodes;
   const float* mass;  ///< [slots] kg
   BrickStats* stats;  ///< [bricks]
@@ -168,7 +158,7 @@ using BrickSides = void (*)(const SweepJob& job, const uint32_t* bricks, size_t 
 
 struct NetworkJob;  // network_kernels.h
 /// Something done to groups first..last - 1 of the rows: their vectors spread for others to look up; or one substep of
-/// leapfrog, point-centric, as in shaders/solver/step/leapfrog.comp without contacts and volumes.
+/// leapfrog, point-centric, as in shaders/solver/step/leapfrog.comp without contacts.
 using NetworkGroups = void (*)(const NetworkJob& job, size_t first, size_t last);
 
 /// The kernels of one instruction set: a solver picks its own, whatever others in the process have.

@@ -166,6 +166,26 @@ struct LawMoments {
   Vec3 centroid2, square, mixed;
 };
 
+/// A cell's stress at rest over mu: xx, yy, zz; yz, zx, xy.
+struct LawTension {
+  Vec3 pulled, sheared;
+};
+/// @param numbers  of the first cell; the next is 16 farther
+HWY_INLINE LawTension loadTension(const float* numbers) {
+  return {{load(numbers), load(numbers + 16), load(numbers + 32)},
+          {load(numbers + 48), load(numbers + 64), load(numbers + 80)}};
+}
+/// Columns of F S.
+HWY_INLINE Columns tensionAt(const LawTension& t, const Columns& d) {
+  return {timesOf(d, {t.pulled.x, t.sheared.z, t.sheared.y}), timesOf(d, {t.sheared.z, t.pulled.y, t.sheared.x}),
+          timesOf(d, {t.sheared.y, t.sheared.x, t.pulled.z})};
+}
+/// Adds mu F S to mu dW/dF. @param tension  as of loadTension()
+inline HWY_NOINLINE void addTension(const float* tension, V mu, const Columns& d, Columns& p) {
+  const Columns f = tensionAt(loadTension(tension), d);
+  p = {mulAdd(mu, f.a, p.a), mulAdd(mu, f.b, p.b), mulAdd(mu, f.c, p.c)};
+}
+
 /// Derivatives of s.K.s/2 by s over mu. @tparam kFull  all cells are full, `m` is not looked at
 template <bool kFull>
 HWY_INLINE Bends lawBends(const LawBody& body, const LawMoments& m, const Bends& s) {
@@ -241,12 +261,14 @@ HWY_INLINE Columns addCofactorPull(const Columns& p, V r, const Bends& k, const 
           p.c + cross(wa, fb) + cross(fa, wb)};
 }
 
-/// lawPull() of law.glsl. @param mu  rigidity over 4 h [N], 0 where there is no cell   @param q  motion of
+/// lawPull() of law.glsl. @param mu  rigidity over 4 h [N], 0 where there is no cell   @param tension  as of
+/// loadTension(); null: none is stressed at rest   @param q  motion of
 /// displacements over 4 h   @param out  derivatives by it [N]   @tparam kFull  all cells are full, `m` is not looked at
 /// @tparam kAny  cells may be squeezed to less than kLeastVolume
 /// @return false if kAny is needed: `out` is not set then
 template <bool kFull, bool kAny>
-HWY_INLINE bool lawForcesOf(const LawBody& body, const LawMoments& m, V mu, const CellMotion& q, CellMotion& out) {
+HWY_INLINE bool lawForcesOf(const LawBody& body, const LawMoments& m, const float* tension, V mu, const CellMotion& q,
+                            CellMotion& out) {
   const V one = set(1), least = set(kLeastVolume - 1);
   const M there = hn::Gt(mu, hn::Zero(Tag()));
   const Columns d = {q.da, q.db, q.dc}, c = cofactorsOf(d);
@@ -265,13 +287,15 @@ HWY_INLINE bool lawForcesOf(const LawBody& body, const LawMoments& m, V mu, cons
   Columns p;
   if constexpr (kFull) {
     p = lawStress<kAny>(body, mu, d, c, e, v);
+    if (HWY_UNLIKELY(tension != nullptr)) addTension(tension, mu, d, p);
   } else {
     const Columns g = atCentroid(body.poisson, s, m.centroid2);
     const Columns star = {timesOf(d, g.a) + d.a, timesOf(d, g.b) + d.b, timesOf(d, g.c) + d.c};
     const Columns of_star = cofactorsOf(star);
     const V e_star = hn::IfThenElseZero(there, dilationOf(star, of_star));
     if (!kAny && HWY_UNLIKELY(!hn::AllTrue(Tag(), hn::Ge(e_star, least)))) return false;
-    const Columns ps = lawStress<kAny>(body, mu, star, of_star, e_star, volumeOf<kAny>(e_star));
+    Columns ps = lawStress<kAny>(body, mu, star, of_star, e_star, volumeOf<kAny>(e_star));
+    if (HWY_UNLIKELY(tension != nullptr)) addTension(tension, mu, star, ps);
     addAtCentroid(body.poisson, {transposedOf(d, ps.a), transposedOf(d, ps.b), transposedOf(d, ps.c)}, m.centroid2, k);
     p = {plusThree(ps.a, ps.a, g.a.x, ps.b, g.b.x, ps.c, g.c.x), plusThree(ps.b, ps.a, g.a.y, ps.b, g.b.y, ps.c, g.c.y),
          plusThree(ps.c, ps.a, g.a.z, ps.b, g.b.z, ps.c, g.c.z)};
@@ -294,12 +318,15 @@ HWY_INLINE bool lawForcesOf(const LawBody& body, const LawMoments& m, V mu, cons
   return true;
 }
 template <bool kFull>
-HWY_NOINLINE void squeezedForces(const LawBody& body, const LawMoments& m, V mu, const CellMotion& q, CellMotion& out) {
-  lawForcesOf<kFull, true>(body, m, mu, q, out);
+HWY_NOINLINE void squeezedForces(const LawBody& body, const LawMoments& m, const float* tension, V mu,
+                                 const CellMotion& q, CellMotion& out) {
+  lawForcesOf<kFull, true>(body, m, tension, mu, q, out);
 }
 template <bool kFull>
-HWY_INLINE void lawForces(const LawBody& body, const LawMoments& m, V mu, const CellMotion& q, CellMotion& out) {
-  if (HWY_UNLIKELY((!lawForcesOf<kFull, false>(body, m, mu, q, out)))) squeezedForces<kFull>(body, m, mu, q, out);
+HWY_INLINE void lawForces(const LawBody& body, const LawMoments& m, const float* tension, V mu, const CellMotion& q,
+                          CellMotion& out) {
+  if (HWY_UNLIKELY((!lawForcesOf<kFull, false>(body, m, tension, mu, q, out))))
+    squeezedForces<kFull>(body, m, tension, mu, q, out);
 }
 
 /// @param numbers  of their brick (CpuStrengths)   @param cell  index of the vector's first cell in it

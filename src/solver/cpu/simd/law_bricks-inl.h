@@ -58,19 +58,36 @@ HWY_INLINE Material springsWithin() {
   return m;
 }
 
+/// Place among a broken cell's numbers of how much shorter a spring is at rest than a lattice has it.
+constexpr uint32_t shorterAt(uint32_t number) {
+  return kBrokenSprings + (number < 12 ? number / 4 : 3 + (number - 12) / 2);
+}
+
+/// A spring whose length at rest is l0 / sqrt(1 + more). @param w  u_far - u_near, over 4 h   @return L^2/l0^2 - 1
+template <int X, int Y, int Z>
+HWY_INLINE V growthOf(const Material& m, V more, const Vec3& w) {
+  constexpr int kKind = X * X + Y * Y + Z * Z - 1;
+  const V q = hn::Mul(dot(w, shifted<X, Y, Z>(w, m.h2)), m.per_length2[kKind]);
+  return hn::Add(hn::MulAdd(q, more, q), more);
+}
+
 /// Adds what the springs that broken cells have left do, as derivatives by the cells' motions.
-/// @param k  stiffness times 4 h of their first spring (CpuStrengths::broken) [N]; the next is 16 farther
+/// @param k  numbers of the first cell (CpuStrengths::broken); the next are 16 farther
 inline HWY_NOINLINE void addBroken(const float* k, const Corners& low, const Corners& high, CellMotion& out) {
   const Vec3 n[8] = {low.n00, low.n10, low.n01, low.n11, high.n00, high.n10, high.n01, high.n11};
   Vec3 f[8] = {zero3(), zero3(), zero3(), zero3(), zero3(), zero3(), zero3(), zero3()};
   const Material m = springsWithin();
-  V largest = hn::Zero(Tag());
-#define VISCERA_PULL(number, near, far, X, Y, Z)                                                                 \
-  {                                                                                                              \
-    const SpringPull s =                                                                                         \
-        springPull<X, Y, Z, false, true, false>(m, load(k + 16 * (number)), n[far] - n[near], zero3(), largest); \
-    f[near] = mulAdd(s.pull, s.e, f[near]);                                                                      \
-    f[far] = mulAdd(hn::Neg(s.pull), s.e, f[far]);                                                               \
+#define VISCERA_PULL(number, near, far, X, Y, Z)                                                       \
+  {                                                                                                    \
+    const V of_spring = load(k + 16 * (number)), more = load(k + 16 * shorterAt(number));              \
+    const Vec3 w = n[far] - n[near];                                                                   \
+    const V q = hn::IfThenElseZero(hn::Gt(of_spring, hn::Zero(Tag())), growthOf<X, Y, Z>(m, more, w)); \
+    const V pull = hn::Mul(of_spring, hn::Mul(q, anyPhi(q)));                                          \
+    const M collapsed = hn::Lt(hn::Add(set(1), q), set(kShortest2));                                   \
+    const Vec3 e = select(collapsed, shifted<X, Y, Z>(zero3(), m.h), shifted<X, Y, Z>(w, m.h));        \
+    const V along = hn::IfThenElse(collapsed, hn::Neg(of_spring), pull);                               \
+    f[near] = mulAdd(along, e, f[near]);                                                               \
+    f[far] = mulAdd(hn::Neg(along), e, f[far]);                                                        \
   }
   VISCERA_SPRINGS_WITHIN(VISCERA_PULL)
 #undef VISCERA_PULL
@@ -93,16 +110,18 @@ HWY_NOINLINE void lawCells(const LawBrick& of, int cell, V rigidity, const Face&
                            CellMotion& out) {
   const V mu = hn::Mul(rigidity, of.body.per_4h);
   const CellMotion q = motionOf4(below, above);
+  const float* tension = of.job.tension[of.b];
+  if (HWY_UNLIKELY(tension != nullptr)) tension += cellNumberAt(static_cast<uint32_t>(cell), 0, kTensionNumbers);
   const LawMoments moments = kFull ? LawMoments{zero3(), zero3(), zero3()} : loadLawMoments(of.job.moments[of.b], cell);
   if (HWY_LIKELY(!of.job.parts)) {
-    lawForces<kFull>(of.body, moments, mu, q, out);
+    lawForces<kFull>(of.body, moments, tension, mu, q, out);
     return;
   }
   const V bulk = load(of.job.bulk + size_t{of.b} * 64 + static_cast<size_t>(cell));
   const M there = hn::Gt(rigidity, hn::Zero(Tag()));
   const V ratio = hn::IfThenElseZero(there, hn::Div(bulk, hn::Max(rigidity, set(1e-30f))));
   LawBody body = lawBodyOf(of.params, ratio, of.job.dashpot);
-  lawForces<kFull>(body, moments, mu, q, out);
+  lawForces<kFull>(body, moments, tension, mu, q, out);
 }
 
 /// What the four vectors of cells of a column do. @param i  place of the column's vectors in their planes
@@ -134,7 +153,7 @@ HWY_INLINE void stepLawColumn(const LawBrick& of, int i, const CellMotion& nothi
     if (HWY_LIKELY(broken == nullptr)) continue;
     if (column.at[z + 1] == &nothing) out = nothing;
     column.at[z + 1] = &out;
-    addBroken(broken + cellNumberAt(static_cast<uint32_t>(cell), 0, kBrokenSprings), cornersAt(of.tile, at),
+    addBroken(broken + cellNumberAt(static_cast<uint32_t>(cell), 0, kBrokenNumbers), cornersAt(of.tile, at),
               cornersAt(of.tile, at + kUpPlane), out);
   }
 }

@@ -52,15 +52,28 @@ HWY_INLINE V largestOf(const Columns& m) {
   return hn::Max(x, hn::Max(y, hn::Add(dot(c, c), hn::Add(bc, ca))));
 }
 
-/// lawStiffening() of law.glsl.
-HWY_INLINE V stiffeningOf(const LawBody& body, const Columns& d, const Columns& c, V e) {
+/// S : (F^T F - 1) / 2.
+HWY_INLINE V tensionEnergy(const LawTension& t, const Columns& d) {
+  const Columns f = tensionAt(t, d), zero = {zero3(), zero3(), zero3()}, s = tensionAt(t, zero);
+  const auto of = [](const Vec3& at, const Vec3& at_rest, const Vec3& by) HWY_ATTR { return dot(at + at_rest, by); };
+  return hn::Mul(set(0.5f), hn::Add(of(f.a, s.a, d.a), hn::Add(of(f.b, s.b, d.b), of(f.c, s.c, d.c))));
+}
+/// The largest row sum of a stress.
+HWY_INLINE V largestOf(const LawTension& t) {
+  const V x = hn::Abs(t.sheared.x), y = hn::Abs(t.sheared.y), z = hn::Abs(t.sheared.z);
+  return hn::Max(hn::Add(hn::Abs(t.pulled.x), hn::Add(y, z)),
+                 hn::Max(hn::Add(hn::Abs(t.pulled.y), hn::Add(z, x)), hn::Add(hn::Abs(t.pulled.z), hn::Add(x, y))));
+}
+
+/// lawStiffening() of law.glsl. @param tension  of its stress at rest
+HWY_INLINE V stiffeningOf(const LawBody& body, const Columns& d, const Columns& c, V e, V tension) {
   const V one = set(1), zero = hn::Zero(Tag()), j = hn::Add(e, one);
   const Volume v = volumeOf<true>(e);
   const V size = hn::Add(set(3), sizeOf(d)), x = hn::MulSub(v.phi, size, set(3)), across = largestOf(c);
   const V shear = body.stiffens ? hn::Mul(v.phi, stifferAt(body, x)) : v.phi, slope = hn::Mul(shear, v.slope);
   const V pressing = hn::MulAdd(hn::Mul(set(5.0f / 9), hn::Mul(slope, v.slope)), size,
                                 hn::Mul(hn::Mul(set(0.5f), body.bulk), hn::MulAdd(v.inverse, v.inverse, one)));
-  V waves = hn::MulAdd(pressing, across, shear);
+  V waves = hn::Add(tension, hn::MulAdd(pressing, across, shear));
   waves = hn::NegMulAdd(hn::Mul(set(4.0f / 3), slope), hn::Max(j, zero), waves);
   const V turned = hn::MulAdd(set(2.0f / 3), slope, hn::Mul(hn::Mul(set(0.5f), body.bulk), v.inverse));
   waves = hn::IfThenElse(hn::Lt(j, set(kLeastVolume)), hn::MulAdd(turned, hn::Sqrt(size), waves), waves);
@@ -107,11 +120,20 @@ inline HWY_NOINLINE LawMeasured measureLaw(const CellJob& job, const layout::Bod
   V energy = lawDensity(body, star, e_star);
   energy = hn::MulAdd(set(0.5f), hn::Add(dot(k.x, s.x), hn::Add(dot(k.y, s.y), dot(k.z, s.z))), energy);
   energy = hn::MulAdd(set(kLawAlternating), dot(q.hxyz, q.hxyz), energy);
-  const V stiffening = hn::Max(stiffeningOf(body, d, c, e), stiffeningOf(body, star, of_star, e_star));
+  V tension = none;
+  if (job.tension[slot / 64] != nullptr) {
+    const float* at = job.tension[slot / 64] + cellNumberAt(static_cast<uint32_t>(slot % 64), 0, kTensionNumbers);
+    const LawTension t = loadTension(at);
+    energy = hn::Add(energy, tensionEnergy(t, star));
+    tension = largestOf(t);
+  }
+  const V stiffening =
+      hn::Max(stiffeningOf(body, d, c, e, tension), stiffeningOf(body, star, of_star, e_star, tension));
   return {hn::Mul(rigidity, energy), hn::IfThenElseZero(there, stiffening)};
 }
 
-/// Energy of the springs that broken cells have left [J]. @param k  as of addBroken()   @param n  displacements [m]
+/// Energy of the springs that broken cells have left, over that in the given shape, as of whole cells [J]. @param k  as
+/// of addBroken()   @param n  displacements [m]
 inline HWY_NOINLINE V brokenEnergy(const float* k, const Material& m, float h, const Vec3 (&n)[8]) {
   V energy = hn::Zero(Tag());
   const V eighth = set(0.125f / h);  // half of k, which is kept times 4 h
@@ -119,10 +141,13 @@ inline HWY_NOINLINE V brokenEnergy(const float* k, const Material& m, float h, c
   {                                                                                                      \
     constexpr int kKind = X * X + Y * Y + Z * Z - 1;                                                     \
     const Vec3 w = n[far] - n[near];                                                                     \
-    const V per2 = m.per_length2[kKind], q = hn::Mul(dot(w, shifted<X, Y, Z>(w, m.h2)), per2);           \
+    const V more = load(k + 16 * shorterAt(number)), q = growthOf<X, Y, Z>(m, more, w);                  \
+    const V per2 = hn::Mul(m.per_length2[kKind], hn::Add(set(1), more));                                 \
     const V ratio = hn::Div(q, hn::Add(set(1), hn::Sqrt(hn::Max(hn::Add(set(1), q), hn::Zero(Tag()))))); \
     const V half = hn::Mul(eighth, load(k + 16 * (number)));                                             \
-    energy = hn::MulAdd(hn::Div(half, per2), hn::Mul(ratio, ratio), energy);                             \
+    const V at_rest = hn::Sub(hn::Sqrt(hn::Add(set(1), more)), set(1));                                  \
+    const V squares = hn::Mul(hn::Sub(ratio, at_rest), hn::Add(ratio, at_rest));                         \
+    energy = hn::MulAdd(hn::Div(half, per2), squares, energy);                                           \
   }
   VISCERA_SPRINGS_WITHIN(VISCERA_STORED)
 #undef VISCERA_STORED

@@ -9,9 +9,7 @@
 #define HWY_TARGET_INCLUDE "solver/cpu/simd/measure_kernels.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
 #include "hwy/highway.h"
-#include "solver/cpu/simd/crushed-inl.h"
 #include "solver/cpu/simd/law_measure-inl.h"
-#include "solver/cpu/simd/moments-inl.h"
 #include "solver/cpu/simd/targets.h"
 #include "solver/cpu/simd/tiles-inl.h"
 #include "viscera/layout/tick_stats.h"
@@ -52,34 +50,6 @@ HWY_INLINE void measureSpring(const Tile& u, int at, const Material& m, V k, M g
   collapsed += count(hn::Lt(strain, set(layout::kCollapsed - 1)));
 }
 
-HWY_INLINE V volumeEnergyOf(V bulk, V e) {
-  const V size = hn::Abs(e), half = hn::Mul(set(0.5f), bulk);
-  const V stiff =
-      hn::IfThenElse(hn::Le(size, set(1)), hn::Mul(half, hn::Mul(e, e)), hn::Mul(bulk, hn::Sub(size, set(0.5f))));
-  const V g = hn::IfThenElseZero(hn::Gt(e, set(-1)), hn::Div(hn::MulAdd(e, e, e), hn::MulAdd(e, e, set(1))));
-  return hn::IfThenElse(hn::Gt(bulk, hn::Zero(Tag())), stiff, hn::Mul(half, hn::Mul(g, g)));
-}
-
-/// Energy by moments of the cells above a vector's nodes [J]. @param n  their corners
-V momentEnergyOf(const CellJob& job, const layout::BodyParams& body, size_t slot, const Vec3 (&n)[8]) {
-  const V rigidity = load(job.rigidity + slot), none = hn::Zero(Tag());
-  const M there = hn::Gt(rigidity, none);
-  if (hn::AllFalse(Tag(), there)) return none;
-  const V ratio = hn::IfThenElseZero(there, hn::Div(load(job.bulk + slot), hn::Max(rigidity, set(1e-30f))));
-  const Face low = faceOf(n[0], n[1], n[2], n[3]), high = faceOf(n[4], n[5], n[6], n[7]);
-  const CellScale scale = cellScale(body.origin_spacing.w);
-  CellMotion q = motionBetween(low, high, hn::IfThenElseZero(there, scale.per_4h));
-  const V crushed = mayBeCrushed(q, there, scale.per_4h2) ? crushedEnergy(q, rigidity, scale.per_4h) : none;
-  const float* moments = job.moments[slot / 64];
-  if (moments == nullptr)
-    return hn::Add(
-        crushed, cellPull<true>(q, Moments{zero3(), zero3(), zero3()}, {}, rigidity, planeStress<true>(ratio), scale));
-  const int cell = static_cast<int>(slot % 64);
-  const ThinWalls walls = thinWallsOf(job, static_cast<uint32_t>(slot / 64), cell);
-  return hn::Add(crushed,
-                 cellPull<false>(q, loadMoments(moments, cell), walls, rigidity, planeStress<false>(ratio), scale));
-}
-
 using Bits = hn::Vec<hn::RebindToUnsigned<Tag>>;
 HWY_INLINE Bits lowBits(const layout::NodeBits* nodes) {
   Bits low, high;
@@ -102,7 +72,7 @@ HWY_INLINE V measureLawCells(const MeasureJob& job, const Material& m, const lay
   stats.max_stiffening = std::max(stats.max_stiffening, hn::GetLane(hn::MaxOfLanes(Tag(), stiffening)));
   const float* broken = job.cells.broken[slot / 64];
   if (HWY_LIKELY(broken == nullptr)) return elastic;
-  const float* k = broken + cellNumberAt(static_cast<uint32_t>(slot % 64), 0, kBrokenSprings);
+  const float* k = broken + cellNumberAt(static_cast<uint32_t>(slot % 64), 0, kBrokenNumbers);
   return hn::Add(elastic, hn::IfThenElseZero(good, brokenEnergy(k, m, body.origin_spacing.w, corners)));
 }
 
@@ -124,21 +94,12 @@ void measureVector(const MeasureJob& job, const Material& m, const Tile& u, uint
 #undef VISCERA_MEASURE
   Vec3 corners[8];
   cornersAround<0, 0, 0>(corners, u, at);
-  const V e = shapeOf(corners, hn::Div(set(0.25f), m.h)).e;
+  const V e = dilationOf(corners, hn::Div(set(0.25f), m.h));
   const M cell = hn::And(good, hasBits(bits, layout::kCellBit));
   const M whole = hn::AndNot(hasBits(bits, layout::kSeveredBit), cell);
   stats.inverted += count(hn::And(whole, hn::Lt(e, set(-1))));
   const layout::BodyParams& body = a.bodies[a.bricks[b].body];
-  const bool of_law = body.law != layout::kLawSprings;
-  if (of_law) elastic = measureLawCells(job, m, body, slot, corners, good, stats);
-  if (a.bulk_around && !of_law) {
-    const V energy = volumeEnergyOf(load(a.bulk_around + size_t{b} * 512 + i), e);
-    elastic = hn::Add(elastic, hn::IfThenElseZero(cell, energy));
-  }
-  if (job.cells.rigidity && !of_law) {
-    const V energy = momentEnergyOf(job.cells, body, slot, corners);
-    elastic = hn::Add(elastic, hn::IfThenElseZero(cell, energy));
-  }
+  if (body.law != layout::kLawSprings) elastic = measureLawCells(job, m, body, slot, corners, good, stats);
   const V v2 = hn::IfThenElseZero(good, dot(v, v));
   const V kinetic = hn::Mul(hn::Mul(set(0.5f), load(job.mass + slot)), v2);
   stats.kinetic_j += sum(kinetic);

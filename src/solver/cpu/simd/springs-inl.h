@@ -42,8 +42,8 @@ struct SpringPull {
   Vec3 e;  ///< to the far end [m]
 };
 /// @param w  u_far - u_near   @param dv  v_far - v_near   @param largest  |q| so far   @tparam kUniform  all springs
-/// are there   @tparam kAny  they may have any length, else |q| < kMild   @tparam kSoon  by mildPhiSoon()
-template <int X, int Y, int Z, bool kUniform, bool kAny, bool kDashpot, bool kSoon = false>
+/// are there   @tparam kAny  they may have any length, else |q| < kMild
+template <int X, int Y, int Z, bool kUniform, bool kAny, bool kDashpot>
 HWY_INLINE SpringPull springPull(const Material& m, V k, const Vec3& w, const Vec3& dv, V& largest) {
   constexpr int kKind = X * X + Y * Y + Z * Z - 1;
   V q = hn::Mul(dot(w, shifted<X, Y, Z>(w, m.h2)), m.per_length2[kKind]);
@@ -62,7 +62,7 @@ HWY_INLINE SpringPull springPull(const Material& m, V k, const Vec3& w, const Ve
       e = select(collapsed, shifted<X, Y, Z>(zero3(), m.h), e);
     }
   } else {
-    phi = kSoon ? mildPhiSoon(q) : mildPhi(q);
+    phi = mildPhi(q);
   }
   V c = hn::Mul(q, phi);
   if (kDashpot) {

@@ -114,39 +114,17 @@ HWY_INLINE Material materialOf(const layout::BodyParams& body) {
   APPLY(14, 0, 1, 1) APPLY(15, 0, -1, -1) APPLY(16, 0, 1, -1) APPLY(17, 0, -1, 1)
 // clang-format on
 
-/// Shape of cells from the displacements of their corners (shaders/solver/tissue/volume.glsl).
-struct Shape {
-  Vec3 bc, ca, ab;
-  V e;
-};
-/// @param da, db, dc  mean edges less their rest value, over h
-HWY_INLINE Shape shapeOfEdges(const Vec3& da, const Vec3& db, const Vec3& dc) {
-  const V one = set(1);
-  const Vec3 a = {hn::Add(one, da.x), da.y, da.z}, b = {db.x, hn::Add(one, db.y), db.z};
-  const Vec3 c = {dc.x, dc.y, hn::Add(one, dc.z)};
+/// V/V0 - 1 of cells. @param n  displacements of their corners: bit 0 of the index x, bit 1 y, bit 2 z
+/// @param quarter  0.25 / h
+HWY_INLINE V dilationOf(const Vec3 (&n)[8], V quarter) {
+  const Vec3 da = quarter * (((n[1] - n[0]) + (n[3] - n[2])) + ((n[5] - n[4]) + (n[7] - n[6])));
+  const Vec3 db = quarter * (((n[2] - n[0]) + (n[3] - n[1])) + ((n[6] - n[4]) + (n[7] - n[5])));
+  const Vec3 dc = quarter * (((n[4] - n[0]) + (n[5] - n[1])) + ((n[6] - n[2]) + (n[7] - n[3])));
   const V minors =
       hn::Add(hn::Add(hn::MulSub(da.x, db.y, hn::Mul(da.y, db.x)), hn::MulSub(da.x, dc.z, hn::Mul(da.z, dc.x))),
               hn::MulSub(db.y, dc.z, hn::Mul(db.z, dc.y)));
   const V trace = hn::Add(hn::Add(da.x, db.y), dc.z);
-  return {cross(b, c), cross(c, a), cross(a, b), hn::Add(trace, hn::Add(minors, dot(da, cross(db, dc))))};
-}
-
-/// @param n  corners: bit 0 of the index x, bit 1 y, bit 2 z   @param quarter  0.25 / h
-HWY_INLINE Shape shapeOf(const Vec3 (&n)[8], V quarter) {
-  const Vec3 da = quarter * (((n[1] - n[0]) + (n[3] - n[2])) + ((n[5] - n[4]) + (n[7] - n[6])));
-  const Vec3 db = quarter * (((n[2] - n[0]) + (n[3] - n[1])) + ((n[6] - n[4]) + (n[7] - n[5])));
-  const Vec3 dc = quarter * (((n[4] - n[0]) + (n[5] - n[1])) + ((n[6] - n[2]) + (n[7] - n[3])));
-  return shapeOfEdges(da, db, dc);
-}
-
-/// dW/de (shaders/solver/tissue/volume.glsl).
-HWY_INLINE V pressureOf(V bulk, V e) {
-  const V one = set(1), clamped = hn::Min(hn::Max(e, set(-1)), one);
-  const V q = hn::MulAdd(e, e, one), e2 = hn::Mul(e, e);
-  const V bounded =
-      hn::Div(hn::Mul(hn::Add(e, e2), hn::Sub(hn::MulAdd(set(2), e, one), e2)), hn::Mul(q, hn::Mul(q, q)));
-  const V soft = hn::IfThenElseZero(hn::Gt(e, set(-1)), bounded);
-  return hn::Mul(bulk, hn::IfThenElse(hn::Gt(bulk, hn::Zero(Tag())), clamped, soft));
+  return hn::Add(trace, hn::Add(minors, dot(da, cross(db, dc))));
 }
 
 /// Corners of the cell in which the nodes of a vector are corner (A, B, C). @param where  of what seen() knows

@@ -37,13 +37,6 @@ HWY_INLINE V mildPhi(V q) {
   for (int i = 4; i >= 0; --i) p = hn::MulAdd(p, q, set(kPhi[i]));
   return p;
 }
-/// The same with products side by side: sooner there, and rounded otherwise.
-HWY_INLINE V mildPhiSoon(V q) {
-  const V q2 = hn::Mul(q, q);
-  const auto pair = [&](int i) HWY_ATTR { return hn::MulAdd(set(kPhi[i + 1]), q, set(kPhi[i])); };
-  return hn::MulAdd(hn::MulAdd(pair(4), q2, pair(2)), q2, pair(0));
-}
-
 struct Vec3 {
   V x, y, z;
 };

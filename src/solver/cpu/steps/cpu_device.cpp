@@ -60,13 +60,12 @@ CpuDevice::CpuDevice(CpuLattice& lattice, const Parallel& parallel, CpuNodePairs
     : pairs(contacts),
       lattice_(lattice),
       parallel_(parallel),
-      cell_forces_(lattice.strengths.bulk.empty() ? 0 : lattice.strengths.cellVectors() * lattice.slotCount()),
       energies_(nodeJobs(lattice)) {
   bound_.contact_rows = viscera::contactRows(!lattice.hands.impulses.empty(), lattice.hands.obstacle_count);
 }
 
 CpuDevice::Pass CpuDevice::pass(const char* name, uint32_t told) const {
-  const int features = (hasVolumes() ? WITH_VOLUME : WITH_NOTHING) | (told & kOfRates ? WITH_RATE : WITH_NOTHING);
+  const int features = told & kOfRates ? WITH_RATE : WITH_NOTHING;
   return {{find(name, features), find(name, features | WITH_EVERY_CONTACT)}};
 }
 
@@ -80,7 +79,6 @@ void CpuDevice::bind(uint32_t binding, Field<vec4>& field) {
 void CpuDevice::run(const Pass& pass, const Substep& step, Over over, std::initializer_list<Uniform> uniforms) {
   glsl::ImplicitKernel bound(lattice_);
   static_cast<glsl::ImplicitBuffers&>(bound) = bound_;
-  bound.cell_forces = bound.cell_forces_out = cell_forces_.data();
   bound.tell(step);
   bound.tool_motions = step.tools ? motions_ : kNoMotions;
   if (pairs) pairs->tell(bound, step);
@@ -101,11 +99,8 @@ void CpuDevice::run(const Pass& pass, const Substep& step, Over over, std::initi
     });
     return;
   }
-  size_t count = lattice_.store.cells.size();
-  if (over == Over::kPairs) {
-    bound.active_nodes = pairs->slots().data();
-    count = pairs->slots().size();
-  }
+  const size_t count = pairs->slots().size();
+  bound.active_nodes = pairs->slots().data();
   bound.active_count = static_cast<uint32_t>(count);
   parallel_.ranges(count, {layout::kBrickSlots, kNodesPerJob},
                    [&](size_t first, size_t end) { part(lattice_, bound, first, end); });

@@ -27,7 +27,6 @@ struct ImplicitBuffers : PairBuffers {
   const vec4* increment = nullptr;
   vec4* increments = nullptr;  // the same buffer, to write
   vec4* next_increments = nullptr;
-  vec4* cell_forces_out = nullptr;
   vec4* node_contacts = nullptr;
   uint contact_rows = 0;
   vec4* energies = nullptr;
@@ -74,15 +73,6 @@ void runNodes(const Parallel& parallel, const CpuLattice& lattice, const Kernel&
   });
 }
 
-/// Runs a kernel for the first `count` of whatever it goes through.
-template <class Kernel>
-void runCount(const Parallel& parallel, size_t count, const Kernel& kernel) {
-  parallel.ranges(count, {layout::kBrickSlots, kNodesPerJob}, [&](size_t first, size_t end) {
-    Kernel mine = kernel;
-    runRange(mine, first, end);
-  });
-}
-
 /// The CPU as a device (solver/device/device.h).
 class CpuDevice {
  public:
@@ -118,7 +108,6 @@ class CpuDevice {
   size_t slots() const { return lattice_.slotCount(); }
   size_t sumSize() const { return lattice_.store.active.size(); }
   uint32_t contactRows() const { return bound_.contact_rows; }
-  bool hasVolumes() const { return !cell_forces_.empty(); }
 
   Pass pass(const char* name, uint32_t told) const;
   void bindLattice() {}
@@ -141,7 +130,6 @@ class CpuDevice {
   const Parallel& parallel_;
   const layout::ToolMotion* motions_ = nullptr;
   glsl::ImplicitBuffers bound_;
-  std::vector<vec4> cell_forces_;   ///< [cellVectors() * slots] N, see shaders/solver/tissue/volume.comp; or empty
   std::vector<Energies> energies_;  ///< [jobs]
 };
 

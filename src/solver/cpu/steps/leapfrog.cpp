@@ -46,7 +46,7 @@ CpuLeapfrog::CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts)
       speed2_(lattice.brickCount()),
       edges_(parts.features.tools ? lattice.slotCount() : 0) {
   if (parts.features.compensated) compensation_.resize(6 * lattice.slotCount());
-  if (parts.features.moments) {
+  if (parts.features.law) {
     cell_sums_.resize(simd::kCellSums * lattice.brickCount());
     wanted_.resize(lattice.brickCount());
     cell_bricks_.reserve(lattice.brickCount());
@@ -142,12 +142,12 @@ void CpuLeapfrog::sumCells(CpuLattice& lattice) {
     }
     cell_bricks_.clear();
     for (uint32_t b = 0; b < wanted_.size(); ++b) {
-      if (wanted_[b]) cell_bricks_.push_back(b);
+      const bool of_law = lattice.store.bodies[lattice.store.bricks[b].body].law != layout::kLawSprings;
+      if (wanted_[b] && of_law) cell_bricks_.push_back(b);
     }
   }
   simd::CellJob job = cellsOf(lattice);
   job.dashpot = dashpot_;
-  job.strained = strained_.data();
   job.sums = cell_sums_.data();
   parallel_.ranges(cell_bricks_.size(), portions_,
                    [&](size_t first, size_t end) { sum_cells_(job, &cell_bricks_[first], end - first); });

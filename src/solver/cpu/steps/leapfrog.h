@@ -39,7 +39,7 @@ class CpuLeapfrog : public CpuStepper {
   AlignedVector<float> predicted_;           ///< [3 * slots], see kernels.h; empty where it is not needed
   std::vector<uint32_t> all_bricks_;         ///< where it is
   std::vector<uint32_t> predicted_awake_;    ///< those awake when it was written as a whole
-  AlignedVector<float> cell_sums_;           ///< [simd::kCellSums * bricks] N; empty without moments
+  AlignedVector<float> cell_sums_;           ///< [simd::kCellSums * bricks] N; empty without a law
   std::vector<uint32_t> cell_bricks_;        ///< whose cells the nodes of those awake are corners of
   std::vector<uint32_t> cell_bricks_awake_;  ///< those awake when they were listed
   std::vector<uint8_t> wanted_;              ///< [bricks] while they are listed

@@ -15,32 +15,6 @@ namespace glsl {
 
 namespace {
 
-struct NetworkKernel : Kernel {
-  explicit NetworkKernel(CpuLattice& lattice) : Kernel(lattice), compensation(none_) {}
-  std::vector<layout::vec4> none_;
-  Vectors compensation;
-  uint cell_count = 0;
-  vec4* cell_forces_out = nullptr;
-};
-
-#define VARIANT_NAME StepVolumes
-#define VARIANT_BASE NetworkKernel
-#define VARIANT_TEXT "shaders/solver/step/leapfrog.comp"
-#define VARIANT_FEATURES WITH_DASHPOT | WITH_VOLUME
-#include "solver/cpu/text/glsl_variant.inc"
-
-#define VARIANT_NAME StepVolumesCompensated
-#define VARIANT_BASE NetworkKernel
-#define VARIANT_TEXT "shaders/solver/step/leapfrog.comp"
-#define VARIANT_FEATURES WITH_DASHPOT | WITH_VOLUME | WITH_COMPENSATED
-#include "solver/cpu/text/glsl_variant.inc"
-
-#define VARIANT_NAME Volumes
-#define VARIANT_BASE NetworkKernel
-#define VARIANT_TEXT "shaders/solver/tissue/volume.comp"
-#define VARIANT_FEATURES WITH_DASHPOT | WITH_VOLUME
-#include "solver/cpu/text/glsl_variant.inc"
-
 #define VARIANT_NAME Place
 #define VARIANT_BASE Kernel
 #define VARIANT_TEXT "shaders/solver/tissue/lattice.glsl"
@@ -52,8 +26,8 @@ struct OneNode {
   vec2& operator[](uint) { return sum; }
 };
 
-struct MeasuringKernel : NetworkKernel {
-  using NetworkKernel::NetworkKernel;
+struct MeasuringKernel : Kernel {
+  using Kernel::Kernel;
   uint count = 0;
   TickStats stats{};
   OneNode energies;
@@ -63,12 +37,6 @@ struct MeasuringKernel : NetworkKernel {
 #define VARIANT_BASE MeasuringKernel
 #define VARIANT_TEXT "shaders/solver/step/measure.comp"
 #define VARIANT_FEATURES WITH_DASHPOT
-#include "solver/cpu/text/glsl_variant.inc"
-
-#define VARIANT_NAME MeasureVolumes
-#define VARIANT_BASE MeasuringKernel
-#define VARIANT_TEXT "shaders/solver/step/measure.comp"
-#define VARIANT_FEATURES WITH_DASHPOT | WITH_VOLUME
 #include "solver/cpu/text/glsl_variant.inc"
 
 struct CutKernel : Kernel {
@@ -168,50 +136,16 @@ CpuNetwork::CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, cons
     if (lattice.connections(slot) != layout::kImplicit) slots_.push_back(slot);
   }
   touched_.reserve(slots_.size());
-  for (const uint32_t cell : lattice.store.cells) {
-    if (features.volume && lattice.connections(cell) == layout::kExplicitLattice) cells_.push_back(cell);
-  }
-  if (cells_.empty()) {
-    rows_ = simd::LinkRows(lattice.links.network, groupsOf(slots_));
-    places_.resize(4 * lattice.slotCount());
-    if (dashpot_) speeds_.resize(4 * lattice.slotCount());
-    return;
-  }
-  if (features.compensated) compensation_.resize(2 * lattice.slotCount());
-  cell_forces_.assign(lattice.strengths.cellVectors() * lattice.slotCount(), glsl::vec4(0));
+  rows_ = simd::LinkRows(lattice.links.network, groupsOf(slots_));
+  places_.resize(4 * lattice.slotCount());
+  if (dashpot_) speeds_.resize(4 * lattice.slotCount());
 }
 
 void CpuNetwork::restart(const CpuLattice& lattice) {
   rows_.writeStiffness(lattice.links.network.links);
-  std::fill(compensation_.begin(), compensation_.end(), layout::vec4{});
-}
-
-void CpuNetwork::persist(Archive& archive, const CpuLattice& lattice) {
-  archive.section("network");
-  archive.values(compensation_);
-  if (archive.reads()) rows_.writeStiffness(lattice.links.network.links);
-}
-
-template <class Kernel>
-Kernel CpuNetwork::kernel(CpuLattice& lattice, const Substep& step) {
-  Kernel out(lattice);
-  out.tell(step);
-  out.active_nodes = slots_.data();
-  out.active_count = static_cast<uint32_t>(slots_.size());
-  out.compensation = glsl::Vectors(compensation_);
-  out.cell_forces = out.cell_forces_out = cell_forces_.data();
-  return out;
 }
 
 void CpuNetwork::step(CpuLattice& lattice, const Substep& step, AlignedVector<float>& compensation) {
-  if (rows_.groups.empty()) {
-    stepInText(lattice, step);
-  } else {
-    stepInRows(lattice, step, compensation);
-  }
-}
-
-void CpuNetwork::stepInRows(CpuLattice& lattice, const Substep& step, AlignedVector<float>& compensation) {
   simd::NetworkJob job{};
   job.rows = &rows_;
   job.step = step;
@@ -234,19 +168,6 @@ void CpuNetwork::stepInRows(CpuLattice& lattice, const Substep& step, AlignedVec
   ofAll(step_rows_, kGroupsPerStep);
 }
 
-void CpuNetwork::stepInText(CpuLattice& lattice, const Substep& step) {
-  if (cells_.empty()) return;
-  auto volumes = kernel<glsl::Volumes>(lattice, {});
-  volumes.cells = cells_.data();
-  volumes.cell_count = static_cast<uint32_t>(cells_.size());
-  runCount(parallel_, cells_.size(), volumes);
-  if (compensation_.empty()) {
-    runCount(parallel_, slots_.size(), kernel<glsl::StepVolumes>(lattice, step));
-  } else {
-    runCount(parallel_, slots_.size(), kernel<glsl::StepVolumesCompensated>(lattice, step));
-  }
-}
-
 const std::vector<uint32_t>& CpuNetwork::touched(CpuLattice& lattice, const std::vector<NodeReach>& reaches) {
   touched_.clear();
   glsl::Place place(lattice);
@@ -266,11 +187,7 @@ const std::vector<uint32_t>& CpuNetwork::touched(CpuLattice& lattice, const std:
 }
 
 void CpuNetwork::measure(CpuLattice& lattice, layout::TickStats& stats) const {
-  if (lattice.strengths.bulk.empty()) {
-    measureWith<glsl::Measure>(lattice, slots_, stats);
-  } else {
-    measureWith<glsl::MeasureVolumes>(lattice, slots_, stats);
-  }
+  measureWith<glsl::Measure>(lattice, slots_, stats);
 }
 
 uint32_t CpuNetwork::cut(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles, const uint8_t* spared) {

@@ -21,8 +21,8 @@ struct NodeReach {
 };
 
 /// Leapfrog, measurements and cuts of bodies with explicit connections: shaders/solver/step/leapfrog.comp,
-/// measure.comp and cut_links.comp on the CPU. Leapfrog without energies of volume
-/// is a SIMD kernel (network_kernels.h), the rest the shaders' text.
+/// measure.comp and cut_links.comp on the CPU. Leapfrog is a
+/// SIMD kernel (network_kernels.h), the rest the shaders' text.
 class CpuNetwork {
  public:
   CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, const FeatureSet& features,
@@ -38,27 +38,17 @@ class CpuNetwork {
   void measure(CpuLattice& lattice, layout::TickStats& stats) const;
   /// Erases the springs that the swept blade crosses. @param spared  as of CpuCut::run()   @return how many
   uint32_t cut(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles, const uint8_t* spared = nullptr);
-  /// The state was written from outside: sums of rounding errors start at 0, springs may have changed.
+  /// The state was written from outside: springs may have changed.
   void restart(const CpuLattice& lattice);
-  /// After the lattice.
-  void persist(Archive& archive, const CpuLattice& lattice);
 
  private:
-  template <class Kernel>
-  Kernel kernel(CpuLattice& lattice, const Substep& step);
-  void stepInText(CpuLattice& lattice, const Substep& step);
-  void stepInRows(CpuLattice& lattice, const Substep& step, AlignedVector<float>& compensation);
-
   const Parallel& parallel_;
   simd::NetworkGroups spread_rows_, step_rows_;
   bool dashpot_;
   NearLinks near_;
-  simd::LinkRows rows_;                   ///< empty where the shaders' text steps, as are
+  simd::LinkRows rows_;
   AlignedVector<float> places_, speeds_;  ///< of NetworkJob
   std::vector<uint32_t> slots_, touched_;
-  std::vector<uint32_t> cells_;             ///< of explicit lattices with energy of volume
-  std::vector<layout::vec4> compensation_;  ///< [2 * slots] m, m/s; empty without compensation
-  std::vector<glsl::vec4> cell_forces_;  ///< [cellVectors() * slots] N, see shaders/solver/tissue/volume.comp; or empty
 };
 
 }  // namespace viscera

@@ -13,8 +13,7 @@ namespace {
 struct PositionKernel : Kernel {
   using Kernel::Kernel;
   const vec4* positions = nullptr;
-  vec4 *rebuilt_positions = nullptr, *positions_before = nullptr, *cell_forces_out = nullptr;
-  uint cell_count = 0;
+  vec4 *rebuilt_positions = nullptr, *positions_before = nullptr;
 };
 
 #define VARIANT_NAME Rebuild
@@ -34,32 +33,12 @@ struct PositionKernel : Kernel {
 #define VARIANT_FEATURES WITH_TOOLS
 #include "solver/cpu/text/glsl_variant.inc"
 
-#define VARIANT_NAME AdvanceVolumes
-#define VARIANT_BASE PositionKernel
-#define VARIANT_TEXT "shaders/solver/step/verlet_paper.comp"
-#define VARIANT_FEATURES WITH_VOLUME
-#include "solver/cpu/text/glsl_variant.inc"
-
-#define VARIANT_NAME AdvanceWithToolsVolumes
-#define VARIANT_BASE PositionKernel
-#define VARIANT_TEXT "shaders/solver/step/verlet_paper.comp"
-#define VARIANT_FEATURES WITH_TOOLS | WITH_VOLUME
-#include "solver/cpu/text/glsl_variant.inc"
-
-#define VARIANT_NAME Volumes
-#define VARIANT_BASE PositionKernel
-#define VARIANT_TEXT "shaders/solver/tissue/volume.comp"
-#define VARIANT_FEATURES WITH_VOLUME
-#include "solver/cpu/text/glsl_variant.inc"
-
 }  // namespace
 
 }  // namespace glsl
 
 CpuVerletPaper::CpuVerletPaper(const CpuLattice& lattice, const Parallel& parallel) : parallel_(parallel) {
   for (auto& positions : positions_) positions.assign(lattice.slotCount(), glsl::vec4(0));
-  if (!lattice.strengths.bulk.empty())
-    cell_forces_.assign(lattice.strengths.cellVectors() * lattice.slotCount(), glsl::vec4(0));
 }
 
 template <class Kernel>
@@ -69,8 +48,6 @@ Kernel CpuVerletPaper::kernel(CpuLattice& lattice, const Substep& step) {
   out.rebuilt_positions = positions_[current_].data();
   out.positions = out.rebuilt_positions;
   out.positions_before = positions_[1 - current_].data();
-  out.cell_forces = out.cell_forces_out = cell_forces_.data();
-  out.cell_count = static_cast<uint32_t>(lattice.store.cells.size());
   return out;
 }
 
@@ -90,14 +67,8 @@ void CpuVerletPaper::run(CpuLattice& lattice, const Substep& step, const layout:
   // x_prev is a whole substep behind x: another length of it makes another x_prev.
   if (step.restarted || step.dt_s != last_dt_s_) runNodes(parallel_, lattice, kernel<glsl::Rebuild>(lattice, step));
   last_dt_s_ = step.dt_s;
-  if (cell_forces_.empty()) {
-    step.tools ? advance<glsl::AdvanceWithTools>(lattice, step, motions)
-               : advance<glsl::Advance>(lattice, step, motions);
-  } else {
-    runCount(parallel_, lattice.store.cells.size(), kernel<glsl::Volumes>(lattice, step));
-    step.tools ? advance<glsl::AdvanceWithToolsVolumes>(lattice, step, motions)
-               : advance<glsl::AdvanceVolumes>(lattice, step, motions);
-  }
+  step.tools ? advance<glsl::AdvanceWithTools>(lattice, step, motions)
+             : advance<glsl::Advance>(lattice, step, motions);
   current_ = 1 - current_;
 }
 

@@ -22,7 +22,6 @@ class CpuVerletPaper : public CpuStepper {
 
   const Parallel& parallel_;
   std::vector<glsl::vec4> positions_[2];  ///< [slots] m: x at current_, x_prev at the other, which x+ overwrites
-  std::vector<glsl::vec4> cell_forces_;  ///< [cellVectors() * slots] N, see shaders/solver/tissue/volume.comp; or empty
   int current_ = 0;
   float last_dt_s_ = 0;
 };

@@ -13,15 +13,6 @@ namespace viscera {
 
 namespace {
 
-/// From which corner of its cell a pair's even spring goes (kCellSprings in kernels.h), and as which of nine.
-struct CellSpring {
-  std::array<int, 3> corner;
-  uint32_t index;
-};
-constexpr CellSpring kCellSpringOf[kSpringPairs] = {{{0, 0, 0}, 0}, {{0, 0, 0}, 1}, {{0, 0, 0}, 2},
-                                                    {{0, 0, 0}, 3}, {{0, 1, 0}, 4}, {{0, 0, 0}, 5},
-                                                    {{0, 0, 1}, 6}, {{0, 0, 0}, 7}, {{0, 0, 1}, 8}};
-
 /// From which corner of its cell a spring within it goes, bit per axis, x lowest, and of which pair it is: in the order
 /// of kBrokenSprings (VISCERA_SPRINGS_WITHIN in law_bricks-inl.h).
 struct SpringWithin {
@@ -31,6 +22,14 @@ struct SpringWithin {
 constexpr SpringWithin kSpringsWithin[simd::kBrokenSprings] = {
     {0, 0}, {2, 0}, {4, 0}, {6, 0}, {0, 1}, {1, 1}, {4, 1}, {5, 1}, {0, 2}, {1, 2}, {2, 2}, {3, 2},
     {0, 3}, {4, 3}, {2, 4}, {6, 4}, {0, 5}, {2, 5}, {4, 6}, {6, 6}, {0, 7}, {1, 7}, {4, 8}, {5, 8}};
+
+constexpr size_t kBrokenPlanes = simd::kBrokenNumbers * layout::kBrickSlots;
+/// Bricks with broken cells that room is made for at once, 2 MB: a tick in which a blade cuts allocates nothing.
+constexpr size_t kSlabBricks = 256;
+
+void addSlab(std::vector<AlignedVector<float>>& slabs) {
+  slabs.emplace_back(kSlabBricks * kBrokenPlanes);
+}
 
 bool isAlone(const layout::NodeBits& bits) {
   return (bits.lo & layout::kAxialMask) == 0 && (bits.hi & layout::kDiagonalMask) == 0;
@@ -42,6 +41,15 @@ float lawMoment(const layout::vec4* m, size_t v, size_t c) {
   if (v == 0) return 2 * of(m[0], c);
   const size_t a = v == 1 ? c : (c + 1) % 3, b = v == 1 ? c : (c + 2) % 3;
   return 4 * (of(m[v], c) - of(m[0], a) * of(m[0], b));
+}
+
+/// Strain of springs that have a cell's stress at rest, along a direction: n.E.n with E = (S - tr S / 5) / 2 over mu.
+/// @param s  xx, yy, zz; yz, zx, xy
+float strainOfStress(const layout::vec4* s, const std::array<int, 3>& way) {
+  const auto x = static_cast<float>(way[0]), y = static_cast<float>(way[1]), z = static_cast<float>(way[2]);
+  const float along =
+      s[0].x * x * x + s[0].y * y * y + s[0].z * z * z + 2 * (s[1].x * y * z + s[1].y * z * x + s[1].z * x * y);
+  return 0.5f * (along / (x * x + y * y + z * z) - (s[0].x + s[0].y + s[0].z) / 5);
 }
 
 constexpr uint32_t kNoSlot = ~0u;
@@ -91,21 +99,16 @@ CpuStrengths::CpuStrengths(const Model& model, const CpuStore& store, const Feat
                                         : table_.mass_kg[slot];
     if (!masses_kg.empty()) mass[slot] = masses_kg[slot];
   }
-  if (features.volume) {
+  if (features.law) {
     bulk.resize(store.slotCount());
-    bulk_around.resize(store.slotCount() * 8);
-  }
-  if (features.moments) {
     rigidity.resize(store.slotCount());
     broken.resize(store.brickCount());
-    if (features.law) broken_planes_.resize(store.brickCount());
+    if (features.cuts) addSlab(broken_slabs_);
     moments = allMoments(model);
-    cell_springs.resize(store.slotCount() * simd::kCellSprings);
-    uniform_cells.resize(store.brickCount());
     idle_cells.resize(store.brickCount());
     for (const Body& body : model.bodies) has_parts |= !body.parts.empty();
     spreadMoments(store);
-    if (!moments.bend_of_cell.empty()) spreadBends(store);
+    spreadTensions(store);
   }
   refreshAll(store);
 }
@@ -146,9 +149,8 @@ void CpuStrengths::breakCells(const CpuStore& store, uint32_t slot) {
 
 void CpuStrengths::setBroken(const CpuStore& store, uint32_t cell) {
   const uint32_t brick = cell / layout::kBrickSlots, local = cell % layout::kBrickSlots;
-  AlignedVector<float>& planes = broken_planes_[brick];
-  if (broken[brick] == nullptr) planes.assign(simd::kBrokenSprings * layout::kBrickSlots, 0);
-  broken[brick] = planes.data();
+  if (broken[brick] == nullptr) broken[brick] = newBrokenPlanes();
+  float* planes = broken[brick];
   // Times 4 h: a quarter of k along an edge, a half along a diagonal, k = rigidity / h^2.
   const float of_edge = wholeRigidity(store, cell) / store.bodyOf(cell).origin_spacing.w;
   for (uint32_t s = 0; s < simd::kBrokenSprings; ++s) {
@@ -156,9 +158,23 @@ void CpuStrengths::setBroken(const CpuStore& store, uint32_t cell) {
     const uint32_t near = neighborSlot(store.bricks, cell, {corner & 1, corner >> 1 & 1, corner >> 2 & 1});
     const float left_of_it = left.empty() ? 1 : left[stiffnessAt(near, pair)];
     const bool alive = springCount(store.nodes[near], 2 * pair) != 0;
-    planes[simd::cellNumberAt(local, s, simd::kBrokenSprings)] =
+    planes[simd::cellNumberAt(local, s, simd::kBrokenNumbers)] =
         alive ? left_of_it * (isAxial(2 * pair) ? of_edge : 2 * of_edge) : 0;
   }
+  const layout::vec4* stress = moments.stressOf(cell);
+  for (uint32_t pair = 0; pair < kSpringPairs && stress != nullptr; ++pair) {
+    const float length = 1 - strainOfStress(stress, kNeighborOffsets[2 * pair]);
+    planes[simd::cellNumberAt(local, simd::kBrokenSprings + pair, simd::kBrokenNumbers)] = 1 / (length * length) - 1;
+  }
+}
+
+/// For one more brick, all 0.
+float* CpuStrengths::newBrokenPlanes() {
+  if (broken_bricks_ == broken_slabs_.size() * kSlabBricks) addSlab(broken_slabs_);
+  float* planes = &broken_slabs_[broken_bricks_ / kSlabBricks][broken_bricks_ % kSlabBricks * kBrokenPlanes];
+  ++broken_bricks_;
+  std::fill(planes, planes + kBrokenPlanes, 0.0f);
+  return planes;
 }
 
 /// Has one of a cell's 24 springs softened? It resists by nothing else then, or it would hold a tear together.
@@ -183,10 +199,8 @@ void CpuStrengths::refresh(const CpuStore& store, uint32_t slot) {
   const bool stays = (bits.lo & layout::kFixedBit) != 0 || (isAlone(bits) && (bits.lo & layout::kGrabMask) == 0);
   mobility[slot] = stays ? 0 : 1 / mass[slot];
   if (store.connections(slot) == layout::kNetwork) return;
-  for (uint32_t pair = 0; pair < kSpringPairs; ++pair) {
+  for (uint32_t pair = 0; pair < kSpringPairs; ++pair)
     stiffness[stiffnessAt(slot, pair)] = springStiffness(store, slot, pair);
-    if (!cell_springs.empty()) setCellSpring(store, slot, pair);
-  }
   const uint32_t brick = slot / layout::kBrickSlots;
   for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
     const bool alive = springCount(bits, spring) != 0;
@@ -197,22 +211,8 @@ void CpuStrengths::refresh(const CpuStore& store, uint32_t slot) {
   uniform[brick] = uniform[brick] && isFull(store, slot);
   if (bulk.empty()) return;
   bulk[slot] = cellBulk(store, slot);
-  has_volumes |= bulk[slot] != 0;
-  if (!rigidity.empty()) rigidity[slot] = cellRigidity(store, slot);
-  if (!broken_planes_.empty()) breakCells(store, slot);
-  shareBulk(store, slot);
-}
-
-/// Tells the cell that owns a pair's even spring of its stiffness.
-void CpuStrengths::setCellSpring(const CpuStore& store, uint32_t slot, uint32_t pair) {
-  if (springCount(store.whole_nodes[slot], 2 * pair) == 0) return;
-  const auto& [corner, index] = kCellSpringOf[pair];
-  const uint32_t cell = neighborSlot(store.bricks, slot, {-corner[0], -corner[1], -corner[2]});
-  const float k = stiffness[stiffnessAt(slot, pair)];
-  cell_springs[simd::cellSpringAt(cell, index)] = k;
-  const layout::BodyParams& body = store.bodyOf(slot);
-  const float full = isAxial(2 * pair) ? 4 * body.axial_quarter_n_per_m : 2 * body.diagonal_half_n_per_m;
-  if (k != full) uniform_cells[cell / layout::kBrickSlots] = 0;
+  rigidity[slot] = cellRigidity(store, slot);
+  breakCells(store, slot);
 }
 
 /// Makes brick_moments and partial_rows.
@@ -230,59 +230,44 @@ void CpuStrengths::spreadMoments(const CpuStore& store) {
   for (size_t i = 0; i < partial.size(); ++i) {
     float* planes = &moment_planes_[i * kBrick];
     brick_moments[partial[i]] = planes;
-    const layout::BodyParams& body = store.bodies[store.bricks[partial[i]].body];
-    const float twice_h = 2 * body.origin_spacing.w;
     for (size_t local = 0; local < layout::kBrickSlots; ++local) {
       const uint32_t which = moments.of_cell[partial[i] * layout::kBrickSlots + local];
       if (which != 0) partial_rows[partial[i]] = static_cast<uint16_t>(partial_rows[partial[i]] | 1u << (local / 4));
       const layout::vec4* m = &moments.vectors[kVectorsPerFill * which];
       for (size_t v = 0; v < kVectorsPerFill; ++v) {
-        const float numbers[3] = {m[v].x, m[v].y, m[v].z};
         for (size_t c = 0; c < 3; ++c)
           planes[simd::cellNumberAt(static_cast<uint32_t>(local), static_cast<uint32_t>(3 * v + c),
-                                    simd::kMomentNumbers)] = body.law != layout::kLawSprings ? lawMoment(m, v, c)
-                                                             : v == 0                        ? twice_h * numbers[c]
-                                                                                             : numbers[c];
+                                    simd::kMomentNumbers)] = lawMoment(m, v, c);
       }
     }
   }
 }
 
-/// Makes brick_bends and thin_rows.
-void CpuStrengths::spreadBends(const CpuStore& store) {
-  constexpr size_t kBrick = layout::kBendNumbers * layout::kBrickSlots;
-  thin_rows.assign(store.brickCount(), 0);
-  std::vector<uint32_t> thin;
-  for (uint32_t b = 0; b < store.brickCount(); ++b) {
-    for (uint32_t local = 0; local < layout::kBrickSlots; ++local) {
-      if (moments.bendOf(b * layout::kBrickSlots + local) != nullptr)
-        thin_rows[b] = static_cast<uint16_t>(thin_rows[b] | 1u << (local / 4));
-    }
-    if (thin_rows[b] != 0) thin.push_back(b);
-  }
-  bend_planes_.resize(thin.size() * kBrick);
-  brick_bends.assign(store.brickCount(), nullptr);
-  for (size_t i = 0; i < thin.size(); ++i) {
-    float* planes = &bend_planes_[i * kBrick];
-    brick_bends[thin[i]] = planes;
-    const float twice_h = 2 * store.bodies[store.bricks[thin[i]].body].origin_spacing.w;
-    for (uint32_t local = 0; local < layout::kBrickSlots; ++local) {
-      const float* numbers = moments.bendOf(thin[i] * layout::kBrickSlots + local);
-      for (uint32_t n = 0; numbers != nullptr && n < layout::kBendNumbers; ++n)
-        planes[simd::cellNumberAt(local, n, layout::kBendNumbers)] =
-            n < layout::kBendPairs ? numbers[n] : twice_h * numbers[n];
-    }
+/// Makes brick_tensions.
+void CpuStrengths::spreadTensions(const CpuStore& store) {
+  constexpr size_t kBrick = simd::kTensionNumbers * layout::kBrickSlots;
+  brick_tensions.assign(store.brickCount(), nullptr);
+  if (moments.stress_of_cell.empty()) return;
+  tension_planes_.resize(store.brickCount() * kBrick);
+  for (uint32_t slot = 0; slot < store.slotCount(); ++slot) {
+    const layout::vec4* s = moments.stressOf(slot);
+    if (s == nullptr) continue;
+    const uint32_t brick = slot / layout::kBrickSlots, local = slot % layout::kBrickSlots;
+    float* planes = &tension_planes_[brick * kBrick];
+    brick_tensions[brick] = planes;
+    const float six[] = {s[0].x, s[0].y, s[0].z, s[1].x, s[1].y, s[1].z};
+    for (uint32_t n = 0; n < simd::kTensionNumbers; ++n)
+      planes[simd::cellNumberAt(local, n, simd::kTensionNumbers)] = six[n];
   }
 }
 
-/// Tells the corners of the cell above a slot of its bulk.
-void CpuStrengths::shareBulk(const CpuStore& store, uint32_t slot) {
-  if (!(store.whole_nodes[slot].lo & layout::kCellBit)) return;
-  for (int c = 0; c < 8; ++c) {
-    const uint32_t corner = neighborSlot(store.bricks, slot, {c & 1, c >> 1 & 1, c >> 2 & 1});
-    bulk_around[size_t{corner / layout::kBrickSlots} * 512 + static_cast<size_t>(c) * 64 +
-                corner % layout::kBrickSlots] = bulk[slot];
+float CpuStrengths::bulkAround(const CpuStore& store, uint32_t slot) const {
+  float sum = 0;
+  for (int c = 0; c < 8 && !bulk.empty(); ++c) {
+    const uint32_t cell = slotBeside(store.bricks, slot, {-(c & 1), -(c >> 1 & 1), -(c >> 2 & 1)});
+    if (cell != kNoSlot) sum += std::max(0.0f, bulk[cell]);
   }
+  return sum;
 }
 
 bool CpuStrengths::isFull(const CpuStore& store, uint32_t slot) const {
@@ -298,9 +283,10 @@ void CpuStrengths::refreshAll(const CpuStore& store) {
   for (size_t b = 0; b < store.bricks.size(); ++b)
     uniform[b] = store.first_active[b + 1] - store.first_active[b] == layout::kBrickSlots;
   std::fill(broken.begin(), broken.end(), nullptr);
+  broken_bricks_ = 0;
   for (uint32_t slot : store.active) refresh(store, slot);
   noteIdleRows();
-  if (!cell_springs.empty()) noteCells(store);
+  if (!rigidity.empty()) noteCells(store);
 }
 
 void CpuStrengths::noteIdleRows() {
@@ -315,18 +301,9 @@ void CpuStrengths::noteIdleRows() {
   }
 }
 
-/// Makes uniform_cells and idle_cells.
+/// Makes idle_cells.
 void CpuStrengths::noteCells(const CpuStore& store) {
-  constexpr size_t kBrick = layout::kBrickSlots * simd::kCellSprings;
   for (uint32_t b = 0; b < store.brickCount(); ++b) {
-    const layout::BodyParams& body = store.bodies[store.bricks[b].body];
-    bool uniform = true;
-    for (size_t i = 0; i < kBrick && uniform; ++i) {
-      const bool edge = i < size_t{3} * layout::kBrickSlots;
-      uniform =
-          cell_springs[b * kBrick + i] == (edge ? 4 * body.axial_quarter_n_per_m : 2 * body.diagonal_half_n_per_m);
-    }
-    uniform_cells[b] = uniform ? 1 : 0;
     idle_cells[b] = 0;
     for (uint32_t row = 0; row < 16; ++row) {
       if (isIdleRow(store, b * layout::kBrickSlots + 4 * row))
@@ -335,14 +312,11 @@ void CpuStrengths::noteCells(const CpuStore& store) {
   }
 }
 
-/// Are four cells absent, springs and all, or between nodes only that never move? @param first  slot of the first
+/// Do four cells obey no law, or are they between nodes only that never move? @param first  slot of the first
 bool CpuStrengths::isIdleRow(const CpuStore& store, uint32_t first) const {
   bool nothing = true, still = true;
   for (uint32_t slot = first; slot < first + 4; ++slot) {
-    nothing = nothing && rigidity[slot] == 0 && bulk[slot] == 0 && !(store.nodes[slot].lo & layout::kLawCellBit);
-    const bool springs = store.bodyOf(slot).law == layout::kLawSprings;
-    for (uint32_t s = 0; s < simd::kCellSprings && springs; ++s)
-      nothing = nothing && cell_springs[simd::cellSpringAt(slot, s)] == 0;
+    nothing = nothing && !(store.nodes[slot].lo & layout::kLawCellBit);
     for (int c = 0; c < 8; ++c) {
       still = still && mobility[neighborSlot(store.bricks, slot, {c & 1, c >> 1 & 1, c >> 2 & 1})] == 0;
     }

@@ -20,11 +20,8 @@ struct CpuStrengths {
   /// Fits what is derived from a node's bits (stiffness of its even springs, mobility) to bits that have changed.
   void refresh(const CpuStore& store, uint32_t slot);
   void refreshAll(const CpuStore& store);
-  /// Vectors per cell of what its energies do to its corners (shaders/solver/tissue/elastic.glsl); 0 where cells have
-  /// none.
-  size_t cellVectors() const {
-    return bulk.empty() ? 0 : rigidity.empty() ? layout::kVolumeVectors : layout::kMomentVectors;
-  }
+  /// Sum over the cells around a node of their positive bulks [J].
+  float bulkAround(const CpuStore& store, uint32_t slot) const;
 
   AlignedVector<float> stiffness;      ///< [9 * slots] N/m of even springs (stiffnessAt); 0 cut or absent
   std::vector<float> left;             ///< [9 * slots] share of it that tearing has left (stiffnessAt); empty unless
@@ -34,29 +31,23 @@ struct CpuStrengths {
   std::vector<uint32_t> surface_ways;  ///< [slots] surfaceWays(); empty where there are none
   AlignedVector<float> mobility;       ///< [slots] 1/kg of nodes that take part in a substep, held ones too; 0: absent,
                                        ///< fixed, alone
-  AlignedVector<float> bulk;         ///< [slots] J of the cell above the node; 0 torn or absent; empty without volumes
-  AlignedVector<float> both_ends;    ///< [18 * slots] N/m of all springs, from either end (springAt() in kernels.h)
-  AlignedVector<float> bulk_around;  ///< [8 * slots] J of the cells in which a slot is corner c (bits x, y, z), at
-                                     ///< (slot / 64) * 512 + c * 64 + slot % 64; empty without volumes
-  AlignedVector<float> rigidity;  ///< [slots] J of the cell above the node (moments.glsl); 0 torn, absent, or springs
-                                  ///< alone; empty without moments
+  AlignedVector<float> bulk;           ///< [slots] J of the cell above the node; 0 torn or absent; empty without a law
+  AlignedVector<float> both_ends;      ///< [18 * slots] N/m of all springs, from either end (springAt() in kernels.h)
+  AlignedVector<float> rigidity;  ///< [slots] J of the cell above the node (law.glsl); 0 torn, absent, or of springs;
+                                  ///< empty without a law
   JoinedMoments moments;          ///< empty without
-  std::vector<const float*> brick_moments;  ///< [bricks] [9 * 64] moments of its cells, number by number, the
-                                            ///< first ones times 2 h, or of a law those of LawMoments (law-inl.h);
-                                            ///< null where all are full; empty without moments
-  std::vector<const float*> broken;       ///< [bricks] [kBrokenSprings * 64] stiffness times 4 h of the springs within
-                                          ///< cells of a law that have lost one, number by number (kernels.h) [N];
-                                          ///< null where all are whole; empty without moments
-  std::vector<uint16_t> partial_rows;     ///< [bricks] bit r: some of the four cells from 4 r on is tissue in part
-  std::vector<const float*> brick_bends;  ///< [bricks] [kBendNumbers * 64] bends of its cells, number by number, those
-                                          ///< with strains times 2 h; null where none is; empty without thin walls
-  std::vector<uint16_t> thin_rows;        ///< [bricks] bit r: some of the four cells from 4 r on has a bend
-  AlignedVector<float> cell_springs;      ///< [kCellSprings * slots] N/m (kernels.h); empty without moments, as are
-  std::vector<uint8_t> uniform_cells;     ///< [bricks] all of these are whole and of the body's full strength
-  std::vector<uint16_t> idle_cells;       ///< [bricks] bit r: the four cells from 4 r on never do anything to a node
-                                          ///< that moves
-  bool has_parts = false;                 ///< some body has parts with elasticities of their own
-  bool has_volumes = false;               ///< some bulk is not 0
+  std::vector<const float*> brick_moments;   ///< [bricks] [9 * 64] moments of its cells, number by number, the
+                                             ///< those of LawMoments (law-inl.h); null where all are full; empty
+                                             ///< without a law
+  std::vector<const float*> brick_tensions;  ///< [bricks] [kTensionNumbers * 64] stress at rest of its cells over mu,
+                                             ///< number by number; null where none has one; empty without a law
+  std::vector<float*> broken;          ///< [bricks] [kBrokenNumbers * 64] stiffness times 4 h of the springs within
+                                       ///< cells of a law that have lost one, number by number (kernels.h) [N];
+                                       ///< null where all are whole; empty without a law
+  std::vector<uint16_t> partial_rows;  ///< [bricks] bit r: some of the four cells from 4 r on is tissue in part
+  std::vector<uint16_t> idle_cells;    ///< [bricks] bit r: the four cells from 4 r on never do anything to a node
+                                       ///< that moves
+  bool has_parts = false;              ///< some body has parts with elasticities of their own
   std::vector<uint8_t> uniform;     ///< [bricks] all springs of all its nodes are whole and of the body's full strength
   std::vector<uint16_t> idle_rows;  ///< [bricks] bit r: none of the four nodes from 4 r on will ever move
 
@@ -67,19 +58,19 @@ struct CpuStrengths {
   bool hasSoftened(const CpuStore& store, uint32_t slot) const;
   bool isFull(const CpuStore& store, uint32_t slot) const;
   void spreadMoments(const CpuStore& store);
-  void spreadBends(const CpuStore& store);
-  void shareBulk(const CpuStore& store, uint32_t slot);
+  void spreadTensions(const CpuStore& store);
   float wholeRigidity(const CpuStore& store, uint32_t slot) const;
   void breakCells(const CpuStore& store, uint32_t slot);
+  float* newBrokenPlanes();
   void setBroken(const CpuStore& store, uint32_t cell);
-  void setCellSpring(const CpuStore& store, uint32_t slot, uint32_t pair);
   void noteIdleRows();
   void noteCells(const CpuStore& store);
   bool isIdleRow(const CpuStore& store, uint32_t first) const;
 
-  AlignedVector<float> moment_planes_;               ///< what brick_moments points to
-  std::vector<AlignedVector<float>> broken_planes_;  ///< [bricks] what broken points to
-  AlignedVector<float> bend_planes_;                 ///< what brick_bends points to
+  AlignedVector<float> moment_planes_;              ///< what brick_moments points to
+  AlignedVector<float> tension_planes_;             ///< what brick_tensions points to
+  std::vector<AlignedVector<float>> broken_slabs_;  ///< what broken points to: planes of kSlab bricks each
+  size_t broken_bricks_ = 0;                        ///< how many there are
   Strengths table_;  ///< of models with parts, whose counts only say alive or cut; else empty
 };
 

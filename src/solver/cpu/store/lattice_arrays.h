@@ -19,29 +19,24 @@ inline simd::Arrays arraysOf(CpuLattice& lattice) {
   a.spring_stiffness = lattice.strengths.both_ends.data();
   a.mobility = lattice.strengths.mobility.data();
   a.nodes = lattice.store.nodes.data();
-  a.bulk_around = lattice.strengths.bulk_around.empty() ? nullptr : lattice.strengths.bulk_around.data();
   a.uniform = lattice.strengths.uniform.data();
   a.idle_rows = lattice.strengths.idle_rows.data();
   return a;
 }
 
-/// Its cells, where some resist by moments; else without rigidity. Sums are the caller's.
+/// Its cells, where some obey a law; else without rigidity. Sums are the caller's.
 inline simd::CellJob cellsOf(CpuLattice& lattice) {
   simd::CellJob job{};
   if (lattice.strengths.rigidity.empty()) return job;
   job.arrays = arraysOf(lattice);
-  job.springs = lattice.strengths.cell_springs.data();
-  job.uniform = lattice.strengths.uniform_cells.data();
   job.idle_rows = lattice.strengths.idle_cells.data();
   job.bulk = lattice.strengths.bulk.data();
   job.rigidity = lattice.strengths.rigidity.data();
   job.moments = lattice.strengths.brick_moments.data();
   job.partial_rows = lattice.strengths.partial_rows.data();
-  job.bends = lattice.strengths.brick_bends.empty() ? nullptr : lattice.strengths.brick_bends.data();
-  job.thin_rows = lattice.strengths.thin_rows.data();
+  job.tension = lattice.strengths.brick_tensions.data();
   job.broken = lattice.strengths.broken.data();
   job.parts = lattice.strengths.has_parts;
-  job.volumes = lattice.strengths.has_volumes;
   return job;
 }
 

@@ -83,8 +83,8 @@ struct CellKernel : Kernel {
 
 #define VARIANT_NAME TearCell
 #define VARIANT_BASE CellKernel
-#define VARIANT_TEXT "shaders/solver/tissue/volume.comp"
-#define VARIANT_FEATURES WITH_CUT | WITH_VOLUME
+#define VARIANT_TEXT "shaders/solver/tissue/cell_forces.comp"
+#define VARIANT_FEATURES WITH_CUT
 #include "solver/cpu/text/glsl_variant.inc"
 
 }  // namespace

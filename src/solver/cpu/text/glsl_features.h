@@ -18,7 +18,6 @@
 #define WITH_REBUILD (1 << 10)
 #define WITH_RELEASE (1 << 11)
 #define WITH_TOOLS (1 << 13)
-#define WITH_VOLUME (1 << 14)
 #define WITH_WIND (1 << 15)
 #define WITH_CONTACT (1 << 20)
 #define WITH_BEFORE (1 << 21)

@@ -78,8 +78,6 @@ struct Kernel {
         velocity(lattice.state.velocity[lattice.state.current]),
         next_displacement(lattice.state.displacement[1 - lattice.state.current]),
         next_velocity(lattice.state.velocity[1 - lattice.state.current]),
-        has_moments(!lattice.strengths.rigidity.empty()),
-        cell_vectors(static_cast<uint>(lattice.strengths.cellVectors())),
         grab_offsets(lattice.hands.grab_offsets),
         impulses_(lattice.hands.impulses.data()),
         touched_(lattice.hands.touched.data()),
@@ -90,9 +88,6 @@ struct Kernel {
         mass_(lattice.strengths.mass.data()),
         depth_(lattice.strengths.surface_depth.empty() ? nullptr : lattice.strengths.surface_depth.data()),
         ways_(lattice.strengths.surface_ways.empty() ? nullptr : lattice.strengths.surface_ways.data()),
-        bulk_(lattice.strengths.bulk.data()),
-        rigidity_(lattice.strengths.rigidity.data()),
-        moments_(&lattice.strengths.moments),
         rest_(lattice.links.network.rest_m.data()),
         link_starts_(lattice.links.network.starts.data()),
         links_(lattice.links.network.links.data()) {}
@@ -118,15 +113,12 @@ struct Kernel {
   const BodyParams* bodies;
   const uint* cells;
   Planes displacement, velocity, next_displacement, next_velocity;
-  bool has_moments;
-  uint cell_vectors;
   float dt_s = 0, kick_s = 0, sleep_distance_m = 0, push_speed = 0, edge_reach = 0, resting_speed = 0;
   vec3 gravity = vec3(0);
   const ToolMotion* tool_motions = nullptr;
   const ObstacleMotion* obstacles = nullptr;
   uint obstacle_count = 0;
   Vectors grab_offsets;
-  vec4* cell_forces = nullptr;
 
   uint neighborBrick(uint slot, uint direction) const { return bricks_[slot >> 6].neighbors[direction]; }
   ivec3 brickCoord(uint slot) const {
@@ -140,17 +132,6 @@ struct Kernel {
   float nodeMass(uint slot, const NodeBits&, const BodyParams&) const { return mass_[slot]; }
   float surfaceDepth(uint slot) const { return depth_ ? depth_[slot] : 0; }
   uint surfaceWay(uint slot) const { return ways_ ? ways_[slot] : 0; }
-  float cellBulk(uint slot, const BodyParams&) const { return bulk_[slot]; }
-  float cellRigidity(uint slot, const BodyParams&) const { return rigidity_ ? rigidity_[slot] : 0; }
-  /// @tparam Moments  CellMoments of shaders/solver/tissue/moments.glsl, which is not known here
-  template <class Moments>
-  Moments momentsAt(uint slot) const {
-    const layout::vec4* m = &moments_->vectors[kVectorsPerFill * moments_->of_cell[slot]];
-    return {xyz(m[0]), xyz(m[1]), xyz(m[2]), moments_->bend_of_cell.empty() ? 0 : moments_->bend_of_cell[slot]};
-  }
-  float bendNumber(uint bend, uint number) const {
-    return (&moments_->vectors[size_t{bend} * layout::kBendVectors].x)[number];
-  }
   float springStiffness(uint slot, uint far, uint spring, uint, const BodyParams&) const {
     return stiffness_[stiffnessAt((spring & 1u) == 0u ? slot : far, spring >> 1)];
   }
@@ -173,8 +154,6 @@ struct Kernel {
   const Brick* bricks_;
   const float *stiffness_, *mass_, *depth_;
   const uint* ways_;
-  const float *bulk_, *rigidity_;
-  const JoinedMoments* moments_;
   const layout::vec4* rest_;
   const uint* link_starts_;
   const Link* links_;

@@ -15,7 +15,7 @@
 namespace viscera {
 
 // What styluses do to a CpuLattice (VR05 2.7, physics.md 5). The equations are the text of
-// shaders/solver/tools/grab.comp, cut.comp, volume.comp and contact.glsl, compiled as C++. On one thread, except where
+// shaders/solver/tools/grab.comp, cut.comp, solver/tissue/cell_forces.comp and contact.glsl, compiled as C++. On one thread, except where
 // it says otherwise.
 
 /// Takes hold of free nodes within a radius around the tip.
@@ -25,7 +25,7 @@ void takeHold(CpuLattice& lattice, uint32_t stylus, const Pose& pose, double rad
 /// Lets go what a stylus holds. @param stats  of the tick, with what the stylus gave in it
 void letGo(CpuLattice& lattice, uint32_t stylus, const Release& release, const layout::TickStats& stats);
 
-/// Erases the springs that a swept blade crosses, from both ends, and with them the volumes of their cells. Allocates
+/// Erases the springs that a swept blade crosses, from both ends, and with them cells that were whole. Allocates
 /// nothing once it has cut.
 class CpuCut {
  public:
@@ -37,7 +37,7 @@ class CpuCut {
   /// @return springs cut
   uint32_t run(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles, const uint8_t* spared = nullptr,
                bool at_rest = false);
-  /// Drops the volumes of cells around nodes of the last run that have lost a spring, to it or to the links of networks
+  /// Marks the cells around nodes of the last run that have lost a spring, to it or to the links of networks
   /// that were cut after it.
   void tearCells(CpuLattice& lattice) const;
   /// Looked at in the last run.

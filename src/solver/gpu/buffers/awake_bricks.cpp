@@ -18,7 +18,7 @@ namespace {
 
 /// Blocks of the kernel that has most of them, LIST.
 size_t mostBlocks(const FeatureSet& features) {
-  return features.volume ? 10 : 8;
+  return features.law ? 10 : 8;
 }
 
 /// Invocations of a brick: side by side on a GPU. On the processor, where they would run one after the other and wait
@@ -50,7 +50,7 @@ void countIn(const std::vector<uint32_t>& slots, std::vector<layout::SleepingBri
 std::vector<layout::SleepingBrick> bricksOf(const Model& model, const FeatureSet& features, size_t count) {
   std::vector<layout::SleepingBrick> out(count);
   countIn(activeSlots(model), out, &layout::SleepingBrick::first_node, &layout::SleepingBrick::node_count);
-  if (features.volume)
+  if (features.law)
     countIn(cellSlots(model), out, &layout::SleepingBrick::first_cell, &layout::SleepingBrick::cell_count);
   return out;
 }
@@ -79,9 +79,9 @@ AwakeBricks::AwakeBricks(const Model& model, const FeatureSet& features, const L
       nodes_(listBytes(buffers.store.active_count), "awake nodes"),
       slow2_(static_cast<float>(speed_m_per_s * speed_m_per_s)),
       deepest_m_(deepest(model) + edgeReach(model)),
-      beside_(features.moments ? layout::kFarthestTissue : 0),
+      beside_(features.law ? layout::kFarthestTissue : 0),
       group_size_(features.group_size) {
-  if (features.volume) cells_ = gpu::RawBuffer(listBytes(buffers.store.cells.size()), "awake cells");
+  if (features.law) cells_ = gpu::RawBuffer(listBytes(buffers.store.cells.size()), "awake cells");
   if (!features.tools) return;
   look_with_tools_ = compiled(features, "LOOK", true);
   near_ = compiled(features, "WAKE_NEAR");

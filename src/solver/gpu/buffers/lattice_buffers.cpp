@@ -22,7 +22,7 @@ StoreBuffers::StoreBuffers(const Model& model, const std::vector<layout::BodyPar
       nodes(slot_count, "nodes"),
       whole_nodes_(allNodes(model)),
       brick_texels_(bricks.raw(), gpu::TexelFormat::kR32ui) {
-  if (features.volume) cells = gpu::Buffer<uint32_t>(cellSlots(model), "cells");
+  if (features.law) cells = gpu::Buffer<uint32_t>(cellSlots(model), "cells");
   bodies.write(params);
   nodes.write(whole_nodes_);
 }
@@ -75,12 +75,7 @@ StrengthBuffers::StrengthBuffers(const Model& model, const FeatureSet& features,
   if (features.parts) {
     const Strengths table = allStrengths(model);
     spring_stiffness = gpu::Buffer<float>(inPlanes(table.spring_n_per_m, kSpringPairs), "spring stiffness");
-    if (features.moments) {
-      writeMoments(model, table);
-    } else {
-      cell_bulk = gpu::Buffer<float>(table.bulk_j, "cell bulk");
-      bulk_texels_ = gpu::TexelView(cell_bulk.raw(), gpu::TexelFormat::kR32f);
-    }
+    if (features.law) writeMoments(model, table);
     if (masses.empty()) masses = table.mass_kg;
     spring_texels_ = gpu::TexelView(spring_stiffness.raw(), gpu::TexelFormat::kR32f);
   }
@@ -93,9 +88,9 @@ void StrengthBuffers::writeMoments(const Model& model, const Strengths& table) {
   const JoinedMoments moments = allMoments(model);
   std::vector<layout::vec4> cells(table.bulk_j.size());
   for (size_t slot = 0; slot < cells.size(); ++slot) {
-    const uint32_t bend = moments.bend_of_cell.empty() ? 0 : moments.bend_of_cell[slot];
+    const uint32_t stress = moments.stress_of_cell.empty() ? 0 : moments.stress_of_cell[slot];
     cells[slot] = {table.bulk_j[slot], table.rigidity_j[slot], static_cast<float>(moments.of_cell[slot]),
-                   static_cast<float>(bend)};
+                   static_cast<float>(stress)};
   }
   cell_strengths = gpu::Buffer<layout::vec4>(cells, "cell strengths");
   cell_moments = gpu::Buffer<layout::vec4>(moments.vectors, "cell moments");
@@ -109,7 +104,7 @@ void StrengthBuffers::writeMoments(const Model& model, const Strengths& table) {
 void StrengthBuffers::bind() const {
   if (spring_stiffness.size()) {
     spring_texels_.bind(layout::kUnitSpringStiffness);
-    bulk_texels_.bind(layout::kUnitCellBulk);
+    if (cell_strengths.size()) bulk_texels_.bind(layout::kUnitCellBulk);
     if (gpu::driverLimits().loads) {  // elsewhere kernels have texels alone, which may be longer
       spring_stiffness.bindStorage(layout::kBindSpringStiffness);
       if (cell_strengths.size()) cell_strengths.bindStorage(layout::kBindCellStrengths);
@@ -180,9 +175,8 @@ LatticeBuffers::LatticeBuffers(const Model& model, const std::vector<layout::Bod
     cut_sides = gpu::Buffer<layout::vec4>(record.size() / 3, "sides of cuts");
     cut_sides.clear();
   }
-  if (features.volume) {
-    const size_t vectors = features.moments ? layout::kMomentVectors : layout::kVolumeVectors;
-    cell_forces = gpu::Buffer<layout::vec4>(vectors * store.slot_count, "cell forces");
+  if (features.law) {
+    cell_forces = gpu::Buffer<layout::vec4>(layout::kCellVectors * store.slot_count, "cell forces");
     cell_force_texels_ = gpu::TexelView(cell_forces.raw(), gpu::TexelFormat::kRgba32f);
   }
   bind();  // what is too large for the driver is said now

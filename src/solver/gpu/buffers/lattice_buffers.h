@@ -45,11 +45,10 @@ struct StrengthBuffers {
 
   gpu::Buffer<float> spring_stiffness;  ///< [9 * slots] N/m, in planes; feature parts
   gpu::Buffer<float> node_mass;  ///< [slots] kg; features parts, network; [2 * slots] with surfaceDepths() in turn
-  gpu::Buffer<float> cell_bulk;  ///< [slots] J; feature parts, without moments
   gpu::Buffer<layout::vec4>
-      cell_strengths;                      ///< [slots] x bulk, y rigidity [J], z which moments; features parts, moments
-  gpu::Buffer<layout::vec4> cell_moments;  ///< JoinedMoments::vectors; features parts, moments
-  gpu::Buffer<uint32_t> surface_ways;      ///< [slots] surfaceWays(), or 0 everywhere; features parts, moments
+      cell_strengths;                      ///< [slots] x bulk, y rigidity [J], z which moments, w stress; features parts, law
+  gpu::Buffer<layout::vec4> cell_moments;  ///< JoinedMoments::vectors; features parts, law
+  gpu::Buffer<uint32_t> surface_ways;      ///< [slots] surfaceWays(), or 0 everywhere; features parts, law
 
  private:
   void writeMoments(const Model& model, const Strengths& table);
@@ -146,7 +145,7 @@ struct LatticeBuffers {
   gpu::Buffer<layout::vec4> cut_sides;    ///< [slots] where there is axial_cut: see shaders/solver/tools/cut_sides.glsl
   gpu::Buffer<float> axial_cut;           ///< [record.size()] of implicit lattices; features cuts, lattice
   gpu::Buffer<layout::TickStats> stats;   ///< [1]
-  gpu::Buffer<layout::vec4> cell_forces;  ///< [3 or 8 * slots] N, see shaders/solver/tissue/volume.comp; feature volume
+  gpu::Buffer<layout::vec4> cell_forces;  ///< [8 * slots] N, see shaders/solver/tissue/cell_forces.comp; feature law
 
  private:
   gpu::TexelView cell_force_texels_;

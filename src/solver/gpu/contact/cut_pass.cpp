@@ -7,7 +7,7 @@ namespace viscera {
 CutPass::CutPass(const FeatureSet& features) : group_size_(features.group_size) {
   if (features.lattice) lattice_ = compiled("cut.comp", features.defines());
   if (features.network) links_ = compiled("cut_links.comp", features.defines());
-  if (features.volume) torn_cells_.emplace(features);
+  if (features.law) torn_cells_.emplace(features);
 }
 
 CutPass::Programs CutPass::compiled(const char* shader, std::vector<std::string> defines) const {

@@ -8,7 +8,7 @@
 
 #include "gpu/program.h"
 #include "solver/gpu/buffers/lattice_buffers.h"
-#include "solver/gpu/forces/volume_pass.h"
+#include "solver/gpu/forces/cell_pass.h"
 #include "solver/tissue/features.h"
 
 namespace viscera {

@@ -36,11 +36,9 @@ GpuDevice::Pass GpuDevice::pass(const char* name, uint32_t told) const {
   return out;
 }
 
-void GpuDevice::run(const Pass& pass, const Substep& step, Over over, std::initializer_list<Uniform> uniforms) const {
-  std::optional<gpu::TimedStage> timed;
-  if (over == Over::kCells) timed.emplace(gpu::Stage::kVolume);
+void GpuDevice::run(const Pass& pass, const Substep& step, Over /*over*/, std::initializer_list<Uniform> uniforms) const {
   const gpu::Program& program = pass.programs[step.tools && pass.programs[1]];
-  const size_t count = over == Over::kCells ? lattice_.store.cells.size() : lattice_.store.active_count;
+  const size_t count = lattice_.store.active_count;
   program.use();
   if (pass.told & kInSubstep) setSubstep(program, lattice_, step);
   program.set("active_count", static_cast<uint32_t>(count));

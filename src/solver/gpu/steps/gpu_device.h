@@ -39,7 +39,6 @@ class GpuDevice {
   size_t slots() const { return lattice_.store.slot_count; }
   size_t sumSize() const;
   uint32_t contactRows() const { return viscera::contactRows(features_.tools, features_.obstacles); }
-  bool hasVolumes() const { return features_.volume; }
 
   Pass pass(const char* name, uint32_t told) const;
   void bindLattice() const { lattice_.bind(); }

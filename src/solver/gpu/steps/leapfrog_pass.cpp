@@ -9,7 +9,7 @@ LeapfrogPass::LeapfrogPass(const FeatureSet& features, AwakeBricks* awake)
   std::vector<std::string> defines = features.defines();
   if (awake) defines.push_back("AWAKE");
   plain_ = gpu::Program::compute("leapfrog.comp", defines);
-  if (features.volume) volume_.emplace(features, awake);
+  if (features.law) cells_.emplace(features, awake);
   if (!features.tools) return;
   defines.push_back("TOOLS");
   with_tools_ = gpu::Program::compute("leapfrog.comp", defines);
@@ -18,7 +18,7 @@ LeapfrogPass::LeapfrogPass(const FeatureSet& features, AwakeBricks* awake)
 
 void LeapfrogPass::run(LatticeBuffers& buffers, const Substep& step) {
   if (awake_) awake_->list();
-  if (volume_) volume_->run(buffers);
+  if (cells_) cells_->run(buffers);
   const gpu::Program& program = step.tools ? with_tools_ : plain_;
   program.use();
   setSubstep(program, buffers, step);

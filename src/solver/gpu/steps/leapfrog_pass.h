@@ -6,7 +6,7 @@
 
 #include "solver/gpu/buffers/awake_bricks.h"
 #include "solver/gpu/contact/edges_pass.h"
-#include "solver/gpu/forces/volume_pass.h"
+#include "solver/gpu/forces/cell_pass.h"
 #include "solver/gpu/steps/stepper.h"
 
 namespace viscera {
@@ -22,7 +22,7 @@ class LeapfrogPass : public Stepper {
  private:
   gpu::Program plain_, with_tools_;
   std::optional<EdgesPass> edges_;
-  std::optional<VolumePass> volume_;
+  std::optional<CellPass> cells_;
   AwakeBricks* awake_;
   uint32_t group_size_;
 };

@@ -18,7 +18,7 @@ VerletPaperPass::VerletPaperPass(const FeatureSet& features, const LatticeBuffer
   plain_ = gpu::Program::compute("verlet_paper.comp", defines);
   rebuild_ = variant("REBUILD");
   if (features.tools) with_tools_ = variant("TOOLS");
-  if (features.volume) volume_.emplace(features);
+  if (features.law) cells_.emplace(features);
   for (int i = 0; i < 2; ++i) {
     positions_[i] = gpu::Buffer<layout::vec4>(buffers.store.slot_count, "positions");
     position_texels_[i] = gpu::TexelView(positions_[i].raw(), gpu::TexelFormat::kRgba32f);
@@ -45,7 +45,7 @@ void VerletPaperPass::run(LatticeBuffers& buffers, const Substep& step) {
   positions_[1 - current_].bindStorage(layout::kBindPositionsBefore);
   if (step.restarted || step.dt_s != last_dt_s_) rebuild(buffers, step);
   last_dt_s_ = step.dt_s;
-  if (volume_) volume_->run(buffers);
+  if (cells_) cells_->run(buffers);
   position_texels_[current_].bind(layout::kUnitPositions);
   const gpu::Program& program = step.tools ? with_tools_ : plain_;
   program.use();

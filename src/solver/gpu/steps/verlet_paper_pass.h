@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "solver/gpu/forces/volume_pass.h"
+#include "solver/gpu/forces/cell_pass.h"
 #include "solver/gpu/steps/stepper.h"
 
 namespace viscera {
@@ -22,7 +22,7 @@ class VerletPaperPass : public Stepper {
   void rebuild(const LatticeBuffers& buffers, const Substep& step) const;
 
   gpu::Program plain_, with_tools_, rebuild_;
-  std::optional<VolumePass> volume_;
+  std::optional<CellPass> cells_;
   gpu::Buffer<layout::vec4> positions_[2];  ///< [slots] m: x at current_, x_prev at the other, which x+ overwrites
   gpu::TexelView position_texels_[2];
   int current_ = 0;

@@ -13,7 +13,6 @@
 namespace viscera {
 
 class Archive;
-class TissueJump;
 
 /// What tissue does to a needle at one place of it (docs/thread.md 6).
 struct NeedleLaw {
@@ -67,8 +66,6 @@ class Needle {
   double farthest_m() const { return farthest_m_; }  ///< of tissue on the shaft from it, then
   /// Springs were cut.
   void embedAgain(const TissuePoints& tissue);
-  /// Tissue was put elsewhere: a needle in it that no hand leads goes along.
-  void carry(const TissueJump& jump);
   void reset();
   void persist(Archive& archive);
 

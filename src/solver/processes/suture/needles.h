@@ -28,8 +28,6 @@ class Needles {
   size_t holderOf(size_t thread) const;
   /// Springs were cut.
   void embedAgain(const TissuePoints& tissue);
-  /// Tissue was put elsewhere.
-  void carry(const TissueJump& jump);
   /// A stylus that begins takes the nearest needle within its reach, also from another hand.
   void beginTick(const ToolMotions& motions);
   /// A substep of the tissue that was just made.

@@ -7,7 +7,6 @@
 
 #include "math/number_text.h"
 #include "model/fracture/tearing.h"
-#include "solver/processes/suture/tissue_jump.h"
 #include "viscera/math/error.h"
 #include "viscera/math/state_hash.h"
 #include "viscera/model/scene/scene.h"
@@ -65,13 +64,6 @@ void ThreadBodies::cutsChanged(const CutSprings& cuts) {
     piece.skin.forget();
   }
   if (needles_) needles_->embedAgain(*tissue_);
-}
-
-void ThreadBodies::tissueMoved(const std::vector<layout::vec4>& before_m, const HostState& after) {
-  if (!tissue_) return;
-  const TissueJump jump(*tissue_, before_m, after);
-  if (needles_) needles_->carry(jump);
-  for (size_t t = 0; t < pieces_.size(); ++t) viscera::carry(jump, needle(t), pieces_[t]);
 }
 
 void ThreadBodies::beginTick(const ProcessTick& tick) {

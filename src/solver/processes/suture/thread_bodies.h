@@ -41,7 +41,6 @@ class ThreadBodies : public TissueProcess {
   bool readsCuts() const override { return tissue_ != nullptr; }
   void cutsChanged(const CutSprings& cuts) override;
   /// Moves what the tissue carries.
-  void tissueMoved(const std::vector<layout::vec4>& before_m, const HostState& after) override;
   void beginTick(const ProcessTick& tick) override;
   bool act(TissuePort& port, const ProcessTick& tick, const ProcessSubstep& substep) override;
   bool endTick(TissuePort& port, const ProcessTick& tick, const TissueProcesses& all) override;

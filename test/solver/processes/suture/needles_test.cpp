@@ -155,8 +155,6 @@ TEST(Needles, GoThroughBothLipsOfAWoundAndOutOfThem) {
   Scene scene = sewnScene();
   scene.environment.gravity_m_per_s2.setZero();
   BodyConfig& block = scene.bodies[0];
-  block.structure = Structure::kExplicit;
-  block.material.cells = Cells::kSprings;
   block.material.prestress.strains = {0.08, 0, 0};  // the wound gapes
   StylusConfig knife;
   knife.button1 = ToolMode::kCut;
@@ -222,38 +220,6 @@ TEST(Needles, StatesAreTheSameInEveryRunAndWithAnyNumberOfThreads) {
   for (Sewing* sewing : {&one, &again, &four}) sewing->turn(0, kSewnPi, 0.2);
   EXPECT_EQ(one.hash(), again.hash());
   EXPECT_EQ(one.hash(), four.hash());
-}
-
-TEST(Needles, GoWithTissueThatIsPutElsewhereAndTheirThreadsWithThem) {
-  constexpr double kTurn_rad = 0.3, kOffTurn_rad = 0.02, kOff_m = 3e-4, kOnTail_m = 1e-5;
-  const Eigen::Affine3d jump =
-      Eigen::Translation3d(0.004, 0.003, 0.002) * Eigen::AngleAxisd(kTurn_rad, Vector3d(1, 2, 2).normalized());
-  Sewing sewing;
-  sewing.turn(0, 0.75 * kSewnPi, 0.2);
-  sewing.tick(Sewing::handAt(0.75 * kSewnPi), ToolMode::kNone);
-  ASSERT_GE(sewing.needle().crossings(), 5u);
-  const Pose before = sewing.needle().pose();
-  HostState state = sewing.solver().readState();
-  const std::vector<layout::vec4> before_m = state.displacement_m;
-  const Body& body = sewing.model().bodies[0];
-  for (const uint32_t slot : body.lattice.active_slots) {
-    const Vector3d rest_m = restPosition(body, slot);
-    const layout::vec4& u = before_m[slot];
-    const Vector3f there = (jump * (rest_m + Vector3f(u.x, u.y, u.z).cast<double>()) - rest_m).cast<float>();
-    state.displacement_m[slot] = {there.x(), there.y(), there.z(), 0};
-    state.velocity_m_per_s[slot] = {};
-  }
-  findProcess<ThreadBodies>(sewing.solver())->tissueMoved(before_m, state);
-  const Needle& needle = sewing.needle();
-  const Quaterniond turned(Eigen::Matrix3d(jump.linear() * before.orientation.toRotationMatrix()));
-  EXPECT_LT(needle.pose().orientation.angularDistance(turned), kOffTurn_rad);
-  EXPECT_LT((needle.pose().position_m - jump * before.position_m).norm(), kOff_m);
-  const Chain& chain = findProcess<ThreadBodies>(sewing.solver())->chain(0);
-  EXPECT_LT((chain.places_m()[0] - needle.tail_m()).norm(), kOnTail_m);
-  for (size_t i = 0; i + 1 < chain.nodes(); ++i) {
-    EXPECT_NEAR((chain.places_m()[i + 1] - chain.places_m()[i]).norm(), chain.link_m(), 1e-3 * chain.link_m()) << i;
-    EXPECT_EQ(chain.tension_n(i), 0) << i;
-  }
 }
 
 TEST(Needles, GoOnFromASavedStateToTheBit) {

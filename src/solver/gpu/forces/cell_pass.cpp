@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/gpu/forces/volume_pass.h"
+#include "solver/gpu/forces/cell_pass.h"
 
 #include "gpu/stage_clock.h"
 
@@ -17,15 +17,15 @@ void dispatchCells(const gpu::Program& program, const LatticeBuffers& buffers, u
 
 }  // namespace
 
-VolumePass::VolumePass(const FeatureSet& features, const AwakeBricks* awake)
+CellPass::CellPass(const FeatureSet& features, const AwakeBricks* awake)
     : awake_(awake), group_size_(features.group_size) {
   std::vector<std::string> defines = features.defines();
   if (awake) defines.push_back("AWAKE");
-  cells_ = gpu::Program::compute("volume.comp", defines);
+  cells_ = gpu::Program::compute("cell_forces.comp", defines);
 }
 
-void VolumePass::run(const LatticeBuffers& buffers) const {
-  const gpu::TimedStage timed(gpu::Stage::kVolume);
+void CellPass::run(const LatticeBuffers& buffers) const {
+  const gpu::TimedStage timed(gpu::Stage::kCells);
   if (!awake_) {
     dispatchCells(cells_, buffers, group_size_);
     return;
@@ -38,7 +38,7 @@ void VolumePass::run(const LatticeBuffers& buffers) const {
 TornCellsPass::TornCellsPass(const FeatureSet& features) : group_size_(features.group_size) {
   std::vector<std::string> defines = features.defines();
   defines.push_back("CUT");
-  torn_ = gpu::Program::compute("volume.comp", defines);
+  torn_ = gpu::Program::compute("cell_forces.comp", defines);
 }
 
 void TornCellsPass::run(const LatticeBuffers& buffers) const {

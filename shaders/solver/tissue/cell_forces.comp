@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// volume.comp - forces of every cell's energies: of its volume, by moments.   Owner: solver/gpu/forces/volume_pass.h   physics.md 1
-// in  displacement, nodes     out  cell forces [cell_vectors * slots]: LEAVE_CELL_FORCES in elastic.glsl
-// (implicit_cells.comp writes the same for its iterates, with a majoriser in w.) Feature CUT drops the cells that
+// cell_forces.comp - forces of cells that obey a law on their corners.   Owner: solver/gpu/forces/cell_pass.h   physics.md 1
+// in  displacement, nodes     out  cell forces [kCellVectors * slots]
+// Feature CUT drops the cells that
 // lost a spring instead; AWAKE: only cells beside bricks that are awake.
 #ifndef __cplusplus
 #define MAKES_CELL_FORCES
@@ -63,7 +63,6 @@ layout(std430, binding = kBindCellForces) writeonly buffer CellForcesBuffer { ve
 #endif
 
 vec3 u(uint slot) { return xyz(stateAt(displacement, int(slot))); }
-#ifdef LAW
 #include "solver/tissue/broken_cell.glsl"
 
 /// Of a body with a law: where its nodes will be, which damps (physics.md 2). Leaves a cell's forces. @param whole  it has all springs
@@ -79,42 +78,25 @@ void leaveLawForces(uint slot, BodyParams body, bool whole) {
 #endif
   }
   if (!whole) {
-    BrokenCell cell = brokenCell(slot, at, h, cellRigidity(slot, body));
+    BrokenCell cell = brokenCell(slot, at, h, cellRigidity(slot, body), cellMoments(slot));
     for (uint c = 0u; c < 8u; ++c) cell_forces_out[cellVector(slot, c)] = vec4(cell.force[c], 0.0f);
     return;
   }
   CellForces f = lawForces(at, body, cellBulk(slot, body), cellRigidity(slot, body), cellMoments(slot));
-  LEAVE_CELL_FORCES(slot, f, 0.0f)
+  for (uint c = 0u; c < 8u; c += 2u) {  // the corners at x -1 and 1
+    vec3 s = cornerSide(c);
+    vec3 even = s.y * f.b + s.z * f.c + (s.y * s.z) * f.hx;
+    vec3 odd = f.a + s.y * f.hz + s.z * f.hy + (s.y * s.z) * f.hxyz;
+    cell_forces_out[cellVector(slot, c)] = vec4(odd - even, 0.0f);
+    cell_forces_out[cellVector(slot, c + 1u)] = vec4(-(even + odd), 0.0f);
+  }
 }
-#endif
 
 void main() {
   uint i = globalIndex();
   if (i >= cell_count) return;
   uint slot = cells[i];
   NodeBits bits = nodes[slot];
-#ifdef LAW
-  if ((bits.lo & kLawCellBit) != 0u) {
-    leaveLawForces(slot, bodies[bodyOf(bits)], (bits.lo & kCellBit) != 0u);
-    return;
-  }
-#endif
-#ifndef NO_SPRINGS  // software rasterisers run what no cell needs too
-  CellForces f = {vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f), vec3(0.0f)};
-  if ((bits.lo & kCellBit) != 0u) {
-    BodyParams body = bodies[bodyOf(bits)];
-    float h = body.origin_spacing.w;
-    vec3 at[8];
-    for (uint c = 0u; c < 8u; ++c) at[c] = u(cornerSlot(slot, c));
-    float quarter = 0.25f / h;
-    vec3 da = quarter * ((at[1] - at[0]) + (at[3] - at[2]) + (at[5] - at[4]) + (at[7] - at[6]));
-    vec3 db = quarter * ((at[2] - at[0]) + (at[3] - at[1]) + (at[6] - at[4]) + (at[7] - at[5]));
-    vec3 dc = quarter * ((at[4] - at[0]) + (at[5] - at[1]) + (at[6] - at[2]) + (at[7] - at[3]));
-    CellShape s = cellShape(da, db, dc);
-    float bulk = cellBulk(slot, body);
-    f = cellForces(at, s, volumePressure(bulk, s.e) * quarter, h, bulk, cellRigidity(slot, body), cellMoments(slot));
-  }
-  LEAVE_CELL_FORCES(slot, f, 0.0f)
-#endif
+  if ((bits.lo & kLawCellBit) != 0u) leaveLawForces(slot, bodies[bodyOf(bits)], (bits.lo & kCellBit) != 0u);
 }
 #endif

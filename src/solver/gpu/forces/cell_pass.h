@@ -9,12 +9,12 @@
 
 namespace viscera {
 
-/// Forces of the cells' energy of volume, for the integrators to gather (physics.md 1). Owner of
-/// shaders/solver/tissue/volume.comp. Exists only where some cell's Poisson's ratio is not 1/4.
-class VolumePass {
+/// Computes what cells that obey a law do to their corners, for the integrators to gather (physics.md 1). Owner of
+/// shaders/solver/tissue/cell_forces.comp. Exists only where some body has a law.
+class CellPass {
  public:
   /// @param awake  of cells beside these bricks only; null: of all
-  explicit VolumePass(const FeatureSet& features, const AwakeBricks* awake = nullptr);
+  explicit CellPass(const FeatureSet& features, const AwakeBricks* awake = nullptr);
   /// Leaves the forces of every cell in buffers.cell_forces.
   void run(const LatticeBuffers& buffers) const;
 
@@ -24,7 +24,7 @@ class VolumePass {
   uint32_t group_size_;
 };
 
-/// Takes the energy of volume from cells that have lost a spring. Owner of shaders/solver/tissue/volume.comp (feature
+/// Marks cells that have lost a spring: they are no longer whole. Owner of shaders/solver/tissue/cell_forces.comp (feature
 /// CUT).
 class TornCellsPass {
  public:
