@@ -1,5 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+#include <cmath>
 #include <set>
 
 #include "body_samples.h"
@@ -86,10 +88,11 @@ TEST(FixedNodes, NodesOfAMeshLieOnThePlaneThatHoldsIt) {
     for (const uint32_t slot : lattice.active_slots) {
       const double at = lattice.restPosition(slot).z() - 0.3;
       if (isFixed(lattice.nodes[slot])) lowest_fixed = std::min(lowest_fixed, at);
-      if (!isFixed(lattice.nodes[slot])) highest_free = std::max(highest_free, at);
+      const bool in_tissue = (lattice.restPosition(slot) - config.position_m).norm() < 0.04;
+      if (!isFixed(lattice.nodes[slot]) && in_tissue) highest_free = std::max(highest_free, at);
     }
     EXPECT_NEAR(lowest_fixed, z, kRounding);
-    EXPECT_NEAR(highest_free, z - 0.01, kRounding);
+    EXPECT_LT(highest_free, z - kRounding);    // nodes that no tissue reaches are free
     config.fixed[0].shape = FixedShape::kBox;  // the same by a box
     config.fixed[0].min_m = {-1, -1, z};
     config.fixed[0].max_m = {1, 1, 1};
@@ -104,8 +107,24 @@ TEST(FixedNodes, NodesNearerThanHalfACellToASlopingPlaneAreHeld) {
   const Lattice lattice = build(config).lattice;
   for (const uint32_t slot : lattice.active_slots) {
     const double in_front = normal.dot(lattice.restPosition(slot) - point);
-    EXPECT_EQ(isFixed(lattice.nodes[slot]), in_front < 0.005) << in_front;
+    const bool held = isFixed(lattice.nodes[slot]), in_tissue = lattice.restPosition(slot).norm() < 0.04;
+    if (in_front >= 0.005 || in_tissue) {  // no tissue reaches the others
+      EXPECT_EQ(held, in_front < 0.005) << in_front;
+    }
   }
+}
+
+/// Near its pole a plane cuts a disc out of a ball: nodes are held that it reaches, at most a cell's diagonal farther
+/// out.
+TEST(FixedNodes, OnlyNodesOfFacesThatTissueReachesAreHeld) {
+  constexpr double kPlane_m = 0.036, kCell_m = 0.01;
+  const double disc_m = std::sqrt(0.04 * 0.04 - kPlane_m * kPlane_m);
+  BodyConfig config = meshConfig(sphereMesh(Vector3f::Zero(), 0.04f, 24), kCell_m);
+  config.fixed = {planeAt({0, 0, -kPlane_m}, {0, 0, 1})};
+  const std::set<std::array<double, 3>> held = fixedPositions(build(config).lattice);
+  EXPECT_GT(held.size(), 4U);
+  for (const std::array<double, 3>& at : held)
+    EXPECT_LT(std::hypot(at[0], at[1]), disc_m + kCell_m * std::sqrt(2.0)) << at[0] << " " << at[1];
 }
 
 TEST(FixedNodes, AFixedShapeThatMatchesNothingIsRefused) {

@@ -3,6 +3,8 @@
 #include "model/body/fixed_nodes.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
 
 #include "math/number_text.h"
@@ -41,17 +43,71 @@ Holds shapeOf(const FixedConfig& fixed, double slack_m) {
   }
 }
 
-size_t fix(const std::vector<uint32_t>& slots, Lattice& lattice) {
-  for (const uint32_t slot : slots) lattice.nodes[slot].lo |= layout::kFixedBit;
+/// How a node is held: its slot is in a shape's reach, and why it stays so.
+enum class Hold : uint8_t { kNone, kInShape, kOnFace, kFirm };
+
+/// @return  how many nodes of `slots` there are
+size_t hold(const std::vector<uint32_t>& slots, Hold how, std::vector<Hold>& holds) {
+  for (const uint32_t slot : slots) holds[slot] = std::max(holds[slot], how);
   return slots.size();
 }
 
-size_t fixShape(const Holds& holds, const Pose& to_body, Body& body) {
+size_t holdShape(const Holds& in_shape, const Pose& to_body, const Body& body, std::vector<Hold>& holds) {
   std::vector<uint32_t> held;
   for (const uint32_t slot : body.lattice.active_slots) {
-    if (holds(to_body * restPosition(body, slot))) held.push_back(slot);
+    if (in_shape(to_body * restPosition(body, slot))) held.push_back(slot);
   }
-  return fix(held, body.lattice);
+  return hold(held, Hold::kInShape, holds);
+}
+
+/// Does a cell's tissue reach its face on a side of an axis? As the slab with its mean and variance along the axis
+/// does.
+bool reaches(const CellFill& fill, int axis, int side) {
+  constexpr double kNear = 0.15;  // of a cell: what a wedge's slab lacks of its edge
+  const double mean = fill.first[axis] / fill.share, spread = fill.second(axis, axis) / fill.share - mean * mean;
+  return side * mean + std::sqrt(3 * std::max(0.0, spread)) > 0.5 - kNear;
+}
+
+/// Calls visit(four slots) for a cell's faces, with the axis and the side of each.
+template <class Visit>
+void forEachFace(const std::array<uint32_t, 8>& corners, Visit visit) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int side : {-1, 1}) {
+      std::array<uint32_t, 4> face{};
+      size_t n = 0;
+      for (size_t c = 0; c < 8; ++c)
+        if ((c >> axis & 1) == (side > 0 ? 1U : 0U)) face[n++] = corners[c];
+      visit(face, axis, side);
+    }
+  }
+}
+
+/// Lets go of nodes on the border of what shapes hold where no tissue reaches the faces between them: tissue that ends
+/// in a cell of its own beside them would hang at what is not there. Where that would leave none, all stay.
+void letGoBesideTissue(const Lattice& lattice, std::vector<Hold>& holds) {
+  const auto is_held = [&](uint32_t slot) { return holds[slot] != Hold::kNone; };
+  const auto firmly = [&](auto& slots) { hold({slots.begin(), slots.end()}, Hold::kFirm, holds); };
+  for (const uint32_t lowest : lattice.active_slots) {
+    if (lattice.cell_labels[lowest] == 0) continue;
+    std::array<uint32_t, 8> corners{};
+    size_t c = 0;
+    forEachCorner(lattice, lowest, [&](const Vector3i&, uint32_t slot) { corners[c++] = slot; });
+    const auto held = std::count_if(corners.begin(), corners.end(), is_held);
+    if (held == 8) firmly(corners);
+    if (held < 4 || held == 8) continue;
+    const CellFill fill = fillOf(lattice, lowest);
+    forEachFace(corners, [&](const std::array<uint32_t, 4>& face, int axis, int side) {
+      if (!std::all_of(face.begin(), face.end(), is_held)) return;
+      if (reaches(fill, axis, side))
+        firmly(face);
+      else
+        hold({face.begin(), face.end()}, Hold::kOnFace, holds);
+    });
+  }
+  const bool any = std::any_of(holds.begin(), holds.end(), [](Hold how) { return how == Hold::kFirm; });
+  for (Hold& how : holds) {
+    if (any && how == Hold::kOnFace) how = Hold::kNone;
+  }
 }
 
 std::string listed(const std::vector<std::string>& names) {
@@ -90,6 +146,7 @@ size_t fixNodes(const BodyConfig& config, const PartNodes& parts, Body& body) {
   const Pose to_body = bodyPose(config).inverse();
   const double spacing_m = body.lattice.spacing_m;
   const double slack_m = spacing_m * slackOf(config);
+  std::vector<Hold> holds(body.lattice.nodes.size(), Hold::kNone);
   for (size_t i = 0; i < config.fixed.size(); ++i) {
     const FixedConfig& fixed = config.fixed[i];
     const std::string key = "fixed[" + std::to_string(i) + "]";
@@ -99,15 +156,19 @@ size_t fixNodes(const BodyConfig& config, const PartNodes& parts, Body& body) {
         throw BodyKeyError(config.name, key, ": no part '" + fixed.part + "'; the parts are " + listed(parts.names));
       }
       const auto label = static_cast<uint16_t>(part - parts.names.begin() + 1);
-      if (fix(parts.slots(label), body.lattice) == 0) {
+      if (hold(parts.slots(label), Hold::kFirm, holds) == 0) {
         throw BodyKeyError(config.name, key,
                            ": part '" + fixed.part + "' fills no cell at spacing_m " + numberText(spacing_m));
       }
-    } else if (fixShape(shapeOf(fixed, slack_m), to_body, body) == 0) {
+    } else if (holdShape(shapeOf(fixed, slack_m), to_body, body, holds) == 0) {
       throw BodyKeyError(config.name, key, " matches no node; " + extentOf(body, to_body));
     }
   }
-  const Lattice& lattice = body.lattice;
+  Lattice& lattice = body.lattice;
+  if (!lattice.fills.empty()) letGoBesideTissue(lattice, holds);
+  for (const uint32_t slot : lattice.active_slots) {
+    if (holds[slot] != Hold::kNone) lattice.nodes[slot].lo |= layout::kFixedBit;
+  }
   return static_cast<size_t>(std::count_if(lattice.active_slots.begin(), lattice.active_slots.end(),
                                            [&](uint32_t slot) { return isFixed(lattice.nodes[slot]); }));
 }

@@ -20,9 +20,9 @@ void visitFields(V& v, FixedConfig& c) {
             {"sphere", FixedShape::kSphere},
             {"plane", FixedShape::kPlane},
             {"part", FixedShape::kPart}},
-           "which nodes are held in space; coordinates are the body's own, before its pose. With material.cells: "
-           "moments, nodes within half a cell of the region are held too, and nodes lie on a plane that is parallel to "
-           "the lattice (docs/fill_rule.md)");
+           "which nodes are held in space; coordinates are the body's own, before its pose. With material.law: "
+           "neo_hookean nodes within half a cell of the region are held too, on its border only those of faces that "
+           "tissue reaches, and nodes lie on a plane that is parallel to the lattice (docs/fill_rule.md)");
   v.vector("min_m", c.min_m, kCoordinate, "m", "box: lower corner");
   v.vector("max_m", c.max_m, kCoordinate, "m", "box: upper corner");
   v.vector("center_m", c.center_m, kCoordinate, "m", "sphere: centre");

@@ -30,7 +30,8 @@ constexpr double kShorter = 0.6;  ///< substep of the next attempt over that of 
 constexpr int kAttempts = 5;
 constexpr double kDiverged = 1e3;  ///< residual over the load
 constexpr int kMostSubsteps = 100000;
-constexpr int kWindow = 32;  ///< substeps over which the slowest motion is looked at
+constexpr int kWindow = 32;   ///< substeps over which the slowest motion is looked at
+constexpr size_t kRates = 8;  ///< windows in which the slowest motion shows at least once
 /// Substeps in a row that must be settled: what swings is slow at its turning points.
 constexpr int kCalm = 8;
 /// `left` where rounding leaves more than kSettled of the forces.
@@ -172,7 +173,7 @@ class Relaxation {
       if (s == 0) load_n_ = std::max(load_n_, std::sqrt(sums.force2));
       report.residual = load_n_ > 0 ? std::sqrt(sums.force2) / load_n_ : 0;
       if (!(report.residual < kDiverged)) return false;
-      if (renews && sums.way2 > 0) rate2_ = std::max(0.0, sums.pull / sums.way2);
+      if (renews && sums.way2 > 0) noteRate(std::max(0.0, sums.pull / sums.way2));
       calm = isSettled(sums, report) ? calm + 1 : 0;
     }
     report.settled = calm == kCalm;
@@ -196,12 +197,20 @@ class Relaxation {
  private:
   bool isSettled(const Sums& sums, SettleReport& report) const {
     if (sums.speed2 == 0) report.left = 0;
-    if (sums.speed2 == 0 || rate2_ == 0) return sums.speed2 == 0;
-    const double way2 = sums.speed2 / rate2_;  // what is left of a critically damped motion, mass times squared length
+    const double slowest2 = *std::min_element(rates2_.begin(), rates2_.end());
+    if (sums.speed2 == 0 || slowest2 == 0) return sums.speed2 == 0;
+    const double way2 =
+        sums.speed2 / slowest2;  // what is left of a critically damped motion, mass times squared length
     report.left = sums.size2 > 0 ? std::sqrt(way2 / sums.size2) : 1;
     if (way2 <= unresolved2_) return true;
     return report.left <= kLeft && (report.residual <= kSettled || report.left <= kLeftAtMost) &&
            report.residual <= kLargestResidual;
+  }
+
+  /// Something that moves fast in one place hides what moves slowly elsewhere: the least of the last windows counts.
+  void noteRate(double rate2) {
+    rate2_ = rate2;
+    rates2_[windows_++ % rates2_.size()] = rate2;
   }
 
   Vector3f influenceOn(uint32_t slot) const {
@@ -295,6 +304,8 @@ class Relaxation {
   std::unique_ptr<CpuStepper> stepper_;
   bool pushed_ = false;
   double mass_kg_ = 0, load_n_ = 0, unresolved2_ = 0;
+  std::array<double, kRates> rates2_{};  ///< of the last windows
+  size_t windows_ = 0;
   double rate2_ = 0;  ///< squared angular frequency of what moves slowest [1/s2], by Rayleigh's quotient
 };
 
