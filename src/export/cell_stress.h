@@ -33,7 +33,7 @@ class CellStresses {
     double lambda, mu;
   };
   const Body& body_;
-  std::vector<Lame> lames_;                   ///< [parts + 1] of no part, then by label
+  std::vector<Lame> lames_;  ///< [parts + 1] of no part, then by label
   CellMoments moments_;
 };
 

@@ -20,7 +20,7 @@ thread_local StageClock* clock_of_thread = nullptr;
 }  // namespace
 
 const char* stageName(Stage stage) {
-  constexpr const char* kNames[kStages] = {"cells",  "step",    "cut",      "measure", "reaction", "upload",
+  constexpr const char* kNames[kStages] = {"cells",   "step",    "cut",      "measure", "reaction", "upload",
                                            "surface", "normals", "mapping",  "render",  "tissue",   "light",
                                            "edges",   "tools",   "overlays", "resolve", "read-back"};
   return kNames[static_cast<size_t>(stage)];

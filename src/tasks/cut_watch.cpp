@@ -96,7 +96,7 @@ std::vector<Vector3d> CutWatch::fresh(const CutState& cuts) {
         const size_t at = offset + size_t{3} * slot + static_cast<size_t>(axis);
         if (at >= cuts.axial_cut.size() || cuts.axial_cut[at] == 0 || seen_axial_[at]) continue;
         seen_axial_[at] = true;
-          out.push_back(body.lattice.restPosition(slot) +
+        out.push_back(body.lattice.restPosition(slot) +
                       shareAlong(cuts.axial_cut[at]) * body.lattice.spacing_m * Vector3d::Unit(axis));
       }
     }

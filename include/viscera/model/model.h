@@ -24,8 +24,8 @@ struct Body {
   std::vector<PartConfig> parts;         ///< elasticities of their own
   Lattice lattice;                       ///< of a body of structure surface: only slots, bricks that lie nowhere
   std::optional<SpringNetwork> network;  ///< explicit connections: they act instead of the lattice's
-  /// [slots] stress that cells have in the given shape (second Piola-Kirchhoff, as xx, yy, zz, yz, zx, xy) over their mu;
-  /// empty without a prestress.
+  /// [slots] stress that cells have in the given shape (second Piola-Kirchhoff, as xx, yy, zz, yz, zx, xy) over their
+  /// mu; empty without a prestress.
   std::vector<std::array<float, 6>> prestress;
   Skin skin;
   Vector3d color = Vector3d::Ones();

@@ -228,7 +228,8 @@ void CpuBackend::measure() {
   stats_ = out;
 }
 
-/// Largest (2 sum k + 1.5/h^2 sum of bulks) / m of a node that is not fixed [1/s2] (physics.md 2; shaders/solver/step/measure.comp).
+/// Largest (2 sum k + 1.5/h^2 sum of bulks) / m of a node that is not fixed [1/s2] (physics.md 2;
+/// shaders/solver/step/measure.comp).
 float CpuBackend::largestRate() const {
   float largest = 0;
   for (uint32_t slot : lattice_.store.active) {

@@ -57,10 +57,7 @@ CpuDevice::Run find(const std::string& name, int features) {
 }  // namespace
 
 CpuDevice::CpuDevice(CpuLattice& lattice, const Parallel& parallel, CpuNodePairs* contacts)
-    : pairs(contacts),
-      lattice_(lattice),
-      parallel_(parallel),
-      energies_(nodeJobs(lattice)) {
+    : pairs(contacts), lattice_(lattice), parallel_(parallel), energies_(nodeJobs(lattice)) {
   bound_.contact_rows = viscera::contactRows(!lattice.hands.impulses.empty(), lattice.hands.obstacle_count);
 }
 

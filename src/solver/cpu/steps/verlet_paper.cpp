@@ -67,8 +67,7 @@ void CpuVerletPaper::run(CpuLattice& lattice, const Substep& step, const layout:
   // x_prev is a whole substep behind x: another length of it makes another x_prev.
   if (step.restarted || step.dt_s != last_dt_s_) runNodes(parallel_, lattice, kernel<glsl::Rebuild>(lattice, step));
   last_dt_s_ = step.dt_s;
-  step.tools ? advance<glsl::AdvanceWithTools>(lattice, step, motions)
-             : advance<glsl::Advance>(lattice, step, motions);
+  step.tools ? advance<glsl::AdvanceWithTools>(lattice, step, motions) : advance<glsl::Advance>(lattice, step, motions);
   current_ = 1 - current_;
 }
 

@@ -15,8 +15,8 @@
 namespace viscera {
 
 // What styluses do to a CpuLattice (VR05 2.7, physics.md 5). The equations are the text of
-// shaders/solver/tools/grab.comp, cut.comp, solver/tissue/cell_forces.comp and contact.glsl, compiled as C++. On one thread, except where
-// it says otherwise.
+// shaders/solver/tools/grab.comp, cut.comp, solver/tissue/cell_forces.comp and contact.glsl, compiled as C++. On one
+// thread, except where it says otherwise.
 
 /// Takes hold of free nodes within a radius around the tip.
 /// @param stylus  index, < kMaxStyluses   @param pose  of the stylus, tissue frame   @param radius_m  of the grip

@@ -46,7 +46,7 @@ struct StrengthBuffers {
   gpu::Buffer<float> spring_stiffness;  ///< [9 * slots] N/m, in planes; feature parts
   gpu::Buffer<float> node_mass;  ///< [slots] kg; features parts, network; [2 * slots] with surfaceDepths() in turn
   gpu::Buffer<layout::vec4>
-      cell_strengths;                      ///< [slots] x bulk, y rigidity [J], z which moments, w stress; features parts, law
+      cell_strengths;  ///< [slots] x bulk, y rigidity [J], z which moments, w stress; features parts, law
   gpu::Buffer<layout::vec4> cell_moments;  ///< JoinedMoments::vectors; features parts, law
   gpu::Buffer<uint32_t> surface_ways;      ///< [slots] surfaceWays(), or 0 everywhere; features parts, law
 

@@ -24,8 +24,8 @@ class CellPass {
   uint32_t group_size_;
 };
 
-/// Marks cells that have lost a spring: they are no longer whole. Owner of shaders/solver/tissue/cell_forces.comp (feature
-/// CUT).
+/// Marks cells that have lost a spring: they are no longer whole. Owner of shaders/solver/tissue/cell_forces.comp
+/// (feature CUT).
 class TornCellsPass {
  public:
   explicit TornCellsPass(const FeatureSet& features);

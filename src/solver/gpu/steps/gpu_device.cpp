@@ -36,7 +36,8 @@ GpuDevice::Pass GpuDevice::pass(const char* name, uint32_t told) const {
   return out;
 }
 
-void GpuDevice::run(const Pass& pass, const Substep& step, Over /*over*/, std::initializer_list<Uniform> uniforms) const {
+void GpuDevice::run(const Pass& pass, const Substep& step, Over /*over*/,
+                    std::initializer_list<Uniform> uniforms) const {
   const gpu::Program& program = pass.programs[step.tools && pass.programs[1]];
   const size_t count = lattice_.store.active_count;
   program.use();
