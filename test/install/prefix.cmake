@@ -1,7 +1,14 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
 # `cmake --install BUILD --prefix PREFIX`: all files are below the prefix, and its setup file makes ROS find them there.
-# cmake -DBUILD=... -DPREFIX=... -P prefix.cmake
+# cmake -DBUILD=... -P prefix.cmake
+# The prefix is not below the package: roslaunch would find its launch files twice.
+set(temporary $ENV{TMPDIR})
+if(NOT temporary)
+  set(temporary /tmp)
+endif()
+string(MD5 of_build "${BUILD}")
+set(PREFIX ${temporary}/viscera_prefix_${of_build})
 file(REMOVE_RECURSE ${PREFIX})
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX} OUTPUT_VARIABLE said RESULT_VARIABLE status)
 if(status)

@@ -77,7 +77,7 @@ std::vector<Start> extremeStarts(const Model& model) {
   out.push_back(pose.at("random", [&](const Vector3d&) {
     return Vector3d(pose.low() + Vector3d(unit(random), unit(random), unit(random)).cwiseProduct(pose.size()));
   }));
-  out.push_back(pose.at("collapsed to a point", [&](const Vector3d&) { return middle; }));
+  out.push_back(pose.at(kCollapsed, [&](const Vector3d&) { return middle; }));
   out.push_back(pose.at("flattened", [&](const Vector3d& x) { return Vector3d(x.x(), x.y(), middle.z()); }));
   out.push_back(pose.at("mirrored", [&](const Vector3d& x) { return Vector3d(2 * middle.x() - x.x(), x.y(), x.z()); }));
   out.push_back(pose.at("10x in one axis", [&](const Vector3d& x) {

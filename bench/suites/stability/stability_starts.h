@@ -9,6 +9,8 @@
 
 namespace viscera::bench {
 
+constexpr const char* kCollapsed = "collapsed to a point";  ///< the start in which no force has a direction
+
 /// A state that no session should ever be in.
 struct Start {
   std::string name;

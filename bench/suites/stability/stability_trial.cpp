@@ -30,6 +30,20 @@ bool isFinite(const Model& model, const HostState& state) {
 
 }  // namespace
 
+Model askewBox(int cells, double poisson_ratio) {
+  BodyConfig body;
+  body.name = "box";
+  body.source = TissueSource::kBox;
+  body.box_size_m = Vector3d::Constant(kStabilitySpacing_m * (cells - 1));
+  body.rotation_deg = Vector3d(20, 35, 10);
+  body.spacing_m = kStabilitySpacing_m;
+  body.material.law = Law::kNeoHookean;
+  body.material.poisson_ratio = poisson_ratio;
+  Scene scene;
+  scene.bodies.push_back(body);
+  return buildModel(scene);
+}
+
 Scene sceneAt(const Model& model, Integrator integrator, double ratio) {
   Scene scene;
   scene.environment.gravity_m_per_s2 = Vector3d::Zero();
@@ -48,8 +62,10 @@ Outcome tryStart(Backend backend, const Model& model, const Scene& scene, const 
   ReferenceSolver reference(model, Vector3d::Zero(), solver.dt_s());
   solver.writeState(start.state);
   const double whole_j = governorLimits(model, 0, 0).energy_j;
-  const double first_j = std::max(energyOf(reference, start.state, 0), kNoEnergy * whole_j);
+  const double at_start_j = energyOf(reference, start.state, 0);
+  const double first_j = std::max(at_start_j, kNoEnergy * whole_j);
   Outcome out;
+  out.had_energy = at_start_j >= kNoEnergy * whole_j;
   out.ticks = std::clamp(static_cast<int>(kSweeps / sweepsPerTick(scene)), std::min(kFewest, ticks), ticks);
   for (int t = 1; t <= out.ticks; ++t) {
     solver.step({});

@@ -7,13 +7,22 @@
 
 namespace viscera::bench {
 
+constexpr double kStabilitySpacing_m = 0.005;
+/// Of the start's energy: what may stay folded after a second of extremeStarts(). Cells turned inside out that lean on
+/// each other rest so, 0.064 of it at most where this was chosen; what does not get out of its start has all of it.
+constexpr double kStillFolded = 0.1;
+
+/// A box of the law, askew to its lattice, so that cells in part are among its own.
+Model askewBox(int cells, double poisson_ratio);
+
 /// What became of a session.
 struct Outcome {
   bool finite = true;  ///< no node was ever published that is not finite
   /// Largest energy at the end of a tick over that of the start; one without energy counts as a millionth of M c_p^2.
   double energy_ratio = 0;
   double over_bound = 0;       ///< largest energy over what the governor lets pass, 2 (start + M c_p^2)
-  double energy_left = 0;      ///< the same at the end
+  double energy_left = 0;      ///< over that of the start, at the end
+  bool had_energy = true;      ///< at the start
   uint64_t trips = 0;          ///< of the governor
   int frames_to_recover = -1;  ///< ticks until energy fell below a hundredth of the start's; -1: it did not
   int ticks = 0;

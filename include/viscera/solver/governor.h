@@ -17,7 +17,7 @@ constexpr double kStrainedStretch = 1.0;
 /// last tick.
 struct Health {
   uint64_t trips = 0;       ///< ticks that were rolled back
-  bool recovering = false;  ///< pd goes on in place of the scene's integrator; no force is given
+  bool recovering = false;  ///< the tissue descends towards rest (physics.md 3); no force is given
   bool strained = false;    ///< the state calls for a shorter substep
   bool only_long = false;   ///< it does so by long springs alone, and no tool is at the tissue
   double kinetic_j = 0;     ///< energies of the last tick

@@ -368,7 +368,8 @@ void visitFields(V& v, SolverConfig& c) {
   v.boolean("compensated", c.compensated,
             "leapfrog: sum displacement and velocity with compensation (Kahan); always where substeps are below 50 us");
   v.boolean("governor", c.governor, "watch every tick, roll an explosion back and recover from it");
-  v.number("recovery_s", c.recovery_s, {0, 10}, "s", "governor: simulated time for which pd goes on after a roll-back");
+  v.number("recovery_s", c.recovery_s, {0, 10}, "s",
+           "governor: simulated time for which tissue recovers after a roll-back");
   v.number("sleep_distance_m", c.sleep_distance_m, {0.01, 100}, "m",
            "a node is stopped this far from its place at rest: where fragments that fall come to lie");
   v.number("sleep_speed_m_per_s", c.sleep_speed_m_per_s, {0, 0.1}, "m/s",

@@ -13,6 +13,7 @@
 #include "solver/cpu/steps/network.h"
 #include "solver/cpu/store/lattice_arrays.h"
 #include "solver/cpu/text/node_pairs.h"
+#include "solver/tissue/slowing.h"
 #include "viscera/math/error.h"
 #include "viscera/model/scene/scene.h"
 #include "viscera/solver/material.h"
@@ -172,9 +173,29 @@ void CpuBackend::cutWith(const layout::ToolMotion& motion, bool particles, const
 
 void CpuBackend::advance(const Substep& step, bool recovery) {
   if (recovery && step.restarted) sleep_.wakeAll(lattice_);
-  (recovery ? *recovery_ : *stepper_).run(lattice_, step, motion_);
+  (recovery && recovery_ ? *recovery_ : *stepper_).run(lattice_, step, motion_);
   lattice_.swap();
+  if (recovery && !recovery_) slow(step);
   if (tearing_ && !recovery) tear();
+}
+
+/// After a substep of a recovery without pd (slowing.h). Bricks that sleep have no velocity.
+void CpuBackend::slow(const Substep& step) {
+  CpuState& state = lattice_.state;
+  float* const u = state.displacement[state.current].data();
+  float* const v = state.velocity[state.current].data();
+  pool_(sleep_.awake().size(), [&](size_t i) {
+    const uint32_t brick = sleep_.awake()[i], first = lattice_.store.first_active[brick];
+    const layout::BodyParams& body = lattice_.store.bodies[lattice_.store.bricks[brick].body];
+    const float most = step.most_way * body.origin_spacing.w / step.dt_s;
+    for (uint32_t n = first; n < lattice_.store.first_active[brick + 1]; ++n) {
+      const uint32_t slot = lattice_.store.active[n];
+      const Vector3f speed = planesAt(v, slot);
+      const float share = speed.norm() > most ? most / speed.norm() : 1;
+      setPlanes(u, slot, planesAt(u, slot) - (1 - share) * step.dt_s * speed);
+      setPlanes(v, slot, kSlowingKeeps * share * speed);
+    }
+  });
 }
 
 void CpuBackend::tear() {

@@ -93,6 +93,7 @@ class CpuBackend : public SolverBackend {
   void wakeForTools(const std::vector<layout::ToolMotion>& motions);
   void changeAll();
   void noteHeld();
+  void slow(const Substep& step);
   void tear();
   float largestRate() const;
 
@@ -108,7 +109,7 @@ class CpuBackend : public SolverBackend {
   std::optional<CpuSurroundings> surroundings_;
   std::unique_ptr<CpuNodePairs> pairs_;  ///< null where contacts between nodes are not solved for
   std::unique_ptr<CpuStepper> stepper_;
-  std::unique_ptr<CpuStepper> recovery_;     ///< only with a governor
+  std::unique_ptr<CpuStepper> recovery_;     ///< pd; only with a governor, where no body obeys a law
   std::vector<layout::ToolMotion> motions_;  ///< of this tick
   const layout::ToolMotion* motion_ = nullptr;
   std::optional<CpuCut> cut_;

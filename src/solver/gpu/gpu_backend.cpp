@@ -53,9 +53,10 @@ GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& p
       has_springs_(std::isfinite(plan.dt_safe_s) && plan.dt_safe_s > 0),
       stats_ring_(sizeof(layout::TickStats) + sizeof(layout::AwakeList), kStatsInFlight, "the measurements of a tick") {
   if (plan.governed()) {
-    recovery_.emplace(
-        Recovery{GoodStates(buffers_.store.slot_count, kGoodStates + kLag), GuardPass(features_),
-                 plan.recovers_by_pd ? makeRecoveryStepper(kRecoveryIterations, features_, buffers_) : nullptr});
+    recovery_.emplace(Recovery{
+        GoodStates(buffers_.store.slot_count, kGoodStates + kLag), GuardPass(features_),
+        plan.recovers_by_pd ? makeRecoveryStepper(kRecoveryIterations, features_, buffers_) : nullptr, std::nullopt});
+    if (!plan.recovers_by_pd) recovery_->slow.emplace(features_);
     recovery_->good.save(buffers_);
   }
   if (plan.surroundings) surroundings_.emplace(model, scene, features_, buffers_);
@@ -195,10 +196,12 @@ void GpuBackend::advance(const Substep& step, bool recovery) {
     return;
   }
   const gpu::TimedStage timed(gpu::Stage::kStep);
-  Stepper& stepper = recovery ? *recovery_->stepper : *stepper_;
+  const bool by_pd = recovery && recovery_->stepper;
+  Stepper& stepper = by_pd ? *recovery_->stepper : *stepper_;
   if (surroundings_ && step.implicit) surroundings_->bindObstacles(step);
   stepper.run(buffers_, step);
   buffers_.swap();
+  if (recovery && !by_pd) recovery_->slow->run(buffers_, step);
 }
 
 void GpuBackend::beginSurroundings(const Surroundings& surroundings) {

@@ -19,6 +19,7 @@
 #include "solver/gpu/guard_pass.h"
 #include "solver/gpu/measure_pass.h"
 #include "solver/gpu/rest_watch.h"
+#include "solver/gpu/slow_pass.h"
 #include "solver/gpu/steps/stepper.h"
 #include "solver/ticks/solver_backend.h"
 #include "solver/ticks/tick_plan.h"
@@ -108,7 +109,8 @@ class GpuBackend final : public SolverBackend {
   struct Recovery {  ///< what only a scene with a governor needs
     GoodStates good;
     GuardPass guard;
-    std::unique_ptr<Stepper> stepper;  ///< pd without acceleration: every sweep descends
+    std::unique_ptr<Stepper> stepper;  ///< pd without acceleration: every sweep descends; null where a body obeys a law
+    std::optional<SlowPass> slow;      ///< only there
   };
 
   FeatureSet features_;

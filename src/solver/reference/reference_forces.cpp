@@ -65,7 +65,13 @@ Field ReferenceLattice::lawPlaces(const Field& u_m, const Field& v_m_per_s) cons
 
 double ReferenceLattice::dissipation(const Field& u_m, const Field& v_m_per_s) const {
   double sum = 0;
+  Field now, soon;
   for (uint32_t slot : active) {
+    if (obeysLaw(slot)) {
+      if (now.empty()) now = elasticForces(u_m), soon = elasticForces(lawPlaces(u_m, v_m_per_s));
+      sum -= 0.5 * v_m_per_s[slot].dot(soon[slot] - now[slot]);
+      continue;
+    }
     for (uint32_t s = 0; s < springsOf(slot); ++s) {
       const double c = isFirstEnd(slot, s) ? dashpot(slot, s) : 0;
       if (c == 0) continue;

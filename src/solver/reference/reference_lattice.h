@@ -76,7 +76,8 @@ class ReferenceLattice {
   /// What leapfrog's dashpots do to a node: axial ones, but of a lattice whose springs are predicted that of mild
   /// springs is what they pull where their ends will be less what they pull now [N] (physics.md 2).
   Vector3d dampingForce(const Field& u_m, const Field& v_m_per_s, uint32_t slot) const;
-  /// Half the power that the dashpots take, sum of c/2 (n . (v_far - v_near))^2 [W].
+  /// Half the power that damping takes [W]: of springs the sum of c/2 (n . (v_far - v_near))^2, of nodes that obey a
+  /// law that of -v . dampingForce() / 2.
   double dissipation(const Field& u_m, const Field& v_m_per_s) const;
   double elasticEnergy(const Field& u_m) const;  ///< [J]
   double springEnergy(const Field& u_m) const;   ///< [J]

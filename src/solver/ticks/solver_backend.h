@@ -41,8 +41,8 @@ class SolverBackend : public ToolTarget, public TissuePort {
   /// From now on cut() and advance() see the motions of this substep of the tick.
   virtual void selectMotions(size_t substep) = 0;
   /// Advances every active node by a substep; the result is the current state.
-  /// @param recovery  pd without acceleration instead of the scene's integrator; only where there is a governor and
-  /// TickPlan::recovers_by_pd
+  /// @param recovery  only where there is a governor: pd without acceleration instead of the scene's integrator, or,
+  /// without TickPlan::recovers_by_pd, the scene's, after which nodes are slowed (slowing.h)
   virtual void advance(const Substep& step, bool recovery) = 0;
   /// Tells of the tick that begins, only where there are surroundings.
   virtual void beginSurroundings(const Surroundings& surroundings) = 0;

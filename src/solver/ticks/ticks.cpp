@@ -18,6 +18,7 @@
 #include "solver/ticks/registry.h"
 #include "solver/ticks/stable_step.h"
 #include "solver/tissue/joined_lattice.h"
+#include "solver/tissue/slowing.h"
 #include "tools/motion_packing.h"
 #include "viscera/math/error.h"
 #include "viscera/model/scene/scene.h"
@@ -186,6 +187,7 @@ void Ticks::substep(int index, const ProcessTick& tick, bool contacts) {
   step.tools = contacts;
   step.restarted = restarted_;
   step.index = index;
+  if (recovering_) step.most_way = slowedWay(watch_->setbacks());
   step.implicit = stepsByPd() || !traitsOf(config_.integrator).is_explicit;
   step.resting_speed_m_per_s = restingSpeed(step);
   if (surroundings_) {
@@ -193,7 +195,7 @@ void Ticks::substep(int index, const ProcessTick& tick, bool contacts) {
     step.obstacle_count = static_cast<uint32_t>(surroundings_->obstacleCount());
   }
   if (surroundings_ && step.implicit && surroundings_->blows()) backend_->blow(step, *surroundings_);
-  backend_->advance(step, stepsByPd());
+  backend_->advance(step, recovering_);
   if (surroundings_ && (!step.implicit || surroundings_->features().collisions)) {
     backend_->surround(step, *surroundings_);
   }
@@ -335,15 +337,7 @@ bool Ticks::heed(const Watch::Verdict& verdict) {
   if (!verdict.rolled_back) return false;
   seen_cuts_.nodes.clear();  // restored tracks were embedded under older cuts: embed again
   cut_revision_ += processes_.restart(*backend_);
-  if (watch_->health().recovering && !recovers_by_pd_) stopTissue();
   return true;
-}
-
-/// What pd does by its own damping: what the tissue was thrown with is gone, and it is let go where it was.
-void Ticks::stopTissue() {
-  HostState state = backend_->readState();
-  for (layout::vec4& v : state.velocity_m_per_s) v = {};
-  backend_->loadState(state);
 }
 
 /// Rounded down: substeps that change in every tick make small forces flicker, and there is a margin for that.
@@ -375,7 +369,7 @@ void Ticks::relaxSubsteps(const layout::TickStats& stats) {
 
 double Ticks::velocityLag_s() {
   if (watch_ && watch_->openIsBad()) return 0;  // the state was put back already
-  const bool lags = traitsOf(config_.integrator).staggered && !stepsByPd() && !restarted_;
+  const bool lags = traitsOf(config_.integrator).staggered && !recovering_ && !restarted_;
   return lags ? 0.5 * last_dt_s_ : 0;
 }
 

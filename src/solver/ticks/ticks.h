@@ -76,7 +76,6 @@ class Ticks : public Solver {
   void keepStats(const TickFindings& findings);
   void measureTick(const ToolMotions& motions, bool contacts);
   bool heed(const Watch::Verdict& verdict);
-  void stopTissue();
   void relaxSubsteps(const layout::TickStats& stats);
   void persistSubsteps(Archive& archive);
 

@@ -35,6 +35,8 @@ class Watch {
   Watch(SolverBackend& backend, const Governor& governor, bool may_be_fast, double tick_s, ProcessList& processes);
 
   /// As the governor has it: with one tick less than were made while one is open.
+  /// Roll-backs in a row.
+  int setbacks() const { return governor_.setbacks(); }
   const Health& health() const { return governor_.health(); }
 
   /// Has the backend itself stop a bad tick where the governor would see it only later. After its measurements.

@@ -18,6 +18,7 @@ struct Substep {
   bool tools = false;            ///< probe or held nodes are about: the kernel that knows them is used
   bool restarted = false;        ///< the state was written from outside since the last substep
   int index = 0;                 ///< of the tick's substeps
+  float most_way = 0;            ///< slowing.h, in a recovery: that a node goes at most, over its body's spacing
   bool implicit = false;         ///< implicit Euler: what comes from outside is part of the solution
   const layout::ObstacleMotion* obstacles = nullptr;  ///< [kMaxObstacles], of which obstacle_count are there
   uint32_t obstacle_count = 0;
