@@ -63,6 +63,11 @@ TEST(TissuePresets, EveryRowIsWithinItsRangeAndSaysHowAndWhereItWasMeasured) {
     if (preset.toughness_j_per_m2 > 0) {
       EXPECT_TRUE(hasTwoDigits(preset.toughness_j_per_m2));
     }
+    EXPECT_EQ(std::string(preset.stiffening_test).find('|'), std::string::npos) << "spoils the table";
+    EXPECT_EQ(preset.stiffening > 0, std::string(preset.stiffening_test).size() > 10);
+    if (preset.stiffening > 0) {
+      EXPECT_TRUE(hasTwoDigits(preset.stiffening));
+    }
     expectNumbers(materialOf(std::string("tissue: ") + preset.name), preset.young_modulus_pa, preset.poisson_ratio,
                   preset.density_kg_per_m3);
   }
@@ -92,6 +97,19 @@ TEST(TissuePresets, GiveTheirToughnessWhereItIsAskedForAlone) {
              {"s.yaml: body 'tissue': material.cut.toughness_j_per_m2: auto needs a tissue whose toughness is known "
               "(liver,"}));
   }
+}
+
+TEST(TissuePresets, GiveTheirStiffeningWhereItIsAskedForAlone) {
+  EXPECT_EQ(materialOf("tissue: skin").stiffening, 0);
+  EXPECT_EQ(materialOf("tissue: skin, stiffening: auto").stiffening, 11);
+  EXPECT_EQ(materialOf("tissue: skin, stiffening: 3").stiffening, 3);
+  for (const char* tissue : {"", "tissue: spleen, "}) {
+    EXPECT_TRUE(says(test::messageOf<SceneError>([&] { materialOf(std::string(tissue) + "stiffening: auto"); }),
+                     {"s.yaml: body 'tissue': material.stiffening: auto needs a tissue whose stiffening is known "
+                      "(skin, heart_muscle, brain, lung), not "}));
+  }
+  EXPECT_TRUE(says(test::messageOf<SceneError>([&] { materialOf("tissue: skin, law: springs, stiffening: auto"); }),
+                   {"needs material.law: neo_hookean"}));
 }
 
 TEST(TissuePresets, OfAPartGoBeforeItsBodysMaterialAndBehindItsOwnNumbers) {

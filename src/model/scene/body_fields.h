@@ -87,9 +87,11 @@ void visitFields(V& v, MaterialConfig& c) {
       "what the cells are made of: a neo-Hookean energy each, accurate at large strain, cells at the surface filled in "
       "part (structure lattice, solver.integrator leapfrog), or springs as in the papers, cells full or empty; auto is "
       "neo_hookean in structure lattice where leapfrog steps and weights is cell, else springs");
-  v.number("stiffening", c.stiffening, {0, 100}, "1",
-           "law neo_hookean: b of its shear energy mu/(2 b) (exp(b (I1 - 3)) - 1), so that tissue stiffens as it is "
-           "stretched, by exp(b (I1 - 3)) and 20 times at most; 0: none, and costs nothing");
+  v.numberOrAuto(
+      "stiffening", c.stiffening, c.stiffens_as_tissue, {0, 100}, "1",
+      "law neo_hookean: b of its shear energy mu/(2 b) (exp(b (I1 - 3)) - 1), so that tissue stiffens as it is "
+      "stretched, by exp(b (I1 - 3)) and 20 times at most; 0: none, and costs nothing; auto: that of the tissue "
+      "(docs/tissues.md#stiffening)");
   v.group("cut", c.cut, "what it takes to part the tissue");
   v.group(
       "prestress", c.prestress,

@@ -102,7 +102,8 @@ void takeToughness(const std::string& where, const std::string& tissue, Fracture
   const TissuePreset* preset = tissueNamed(tissue);
   if (!preset || !(preset->toughness_j_per_m2 > 0)) {
     throw SceneError(where + ".cut.toughness_j_per_m2: auto needs a tissue whose toughness is known (" +
-                     toughTissues() + "), not " + (preset ? tissue : "none") + "; or give a number");
+                     tissuesWith(&TissuePreset::toughness_j_per_m2) + "), not " + (preset ? tissue : "none") +
+                     "; or give a number");
   }
   cut.toughness_j_per_m2 = preset->toughness_j_per_m2;
 }
@@ -115,6 +116,19 @@ void takeToughnesses(const std::string& file, BodyConfig& body) {
     takeToughness(where + "parts[" + std::to_string(i) + "]", part.tissue.empty() ? body.material.tissue : part.tissue,
                   part.cut);
   }
+}
+
+/// `stiffening: auto`.
+void takeStiffening(const std::string& file, const BodyConfig& body, MaterialConfig& material) {
+  if (!material.stiffens_as_tissue) return;
+  const TissuePreset* preset = tissueNamed(material.tissue);
+  if (!preset || !(preset->stiffening > 0)) {
+    throw SceneError(file + ": body '" + body.name +
+                     "': material.stiffening: auto needs a tissue whose stiffening is " + "known (" +
+                     tissuesWith(&TissuePreset::stiffening) + "), not " + (preset ? material.tissue : "none") +
+                     "; or give a number");
+  }
+  material.stiffening = preset->stiffening;
 }
 
 void requireThread(const std::string& file, const ThreadConfig& thread) {
@@ -244,6 +258,7 @@ Scene parseScene(const std::string& yaml, const std::string& name, const Overrid
   for (BodyConfig& body : scene.bodies) {
     leaveOutNuOfPreset(body);
     takeToughnesses(name, body);
+    takeStiffening(name, body, body.material);
   }
   requireConsistent(name, scene);
   return scene;

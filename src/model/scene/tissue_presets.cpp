@@ -51,7 +51,8 @@ const std::vector<TissuePreset> kPresets = {
     {"skin", 56000, 40000, 73000, 0.48, 1150,
      "suction in vivo, breast, 7 volunteers; other tests and skins differ by far more",
      "In vivo measurement of breast tissues stiffness using a light aspiration device, Clin Biomech 2022", "", 1100,
-     "needle, pig, 1136; scissors 1700 (rat), 2800 (chicken); torn 17,000 to 30,000. [Review](#toughness)"},
+     "needle, pig, 1136; scissors 1700 (rat), 2800 (chicken); torn 17,000 to 30,000. [Review](#toughness)", 11,
+     "[pig, two ways](#stiffening)"},
     {"muscle", 11000, 3000, 15000, kWet, 1050,
      "ultrasound elastography at rest, calf; MR elastography of the buttock has 3 kPa. Fibrous: lattices are isotropic",
      "Arda et al. 2011, AJR 197:532; Hatt et al. 2023, J Mech Behav Biomed Mater",
@@ -60,13 +61,15 @@ const std::vector<TissuePreset> kPresets = {
      "[Review](#toughness)"},
     {"heart_muscle", 7800, 6000, 21000, kWet, 1040,
      "ultrasound elastography at the end of diastole, 20 to 80 years. Fibrous: lattices are isotropic",
-     "Villemain et al. 2019, JACC Cardiovasc Imaging", "myocardium, heart myocardium"},
+     "Villemain et al. 2019, JACC Cardiovasc Imaging", "myocardium, heart myocardium", 0, "", 9.8,
+     "[human, shear](#stiffening)"},
     {"brain", 1600, 1100, 5600, kWet, 1040,
      "flat punch, ox: grey 1.4 +- 0.3, white 1.9 +- 0.6 kPa; indentation of pigs in vivo has 5.6 at once",
-     "Budday et al. 2015, J Mech Behav Biomed Mater 46:318; table 1 of J Funct Biomater 3:839, 2012", ""},
+     "Budday et al. 2015, J Mech Behav Biomed Mater 46:318; table 1 of J Funct Biomater 3:839, 2012", "", 0, "", 22,
+     "[human cortex](#stiffening)"},
     {"lung", 1700, 740, 3900, 0.43, 290,
      "indentation and tension, dog: 1.5 to 2 times the pressure of the air, 5 to 20 cm of water; here 10",
-     "Lai-Fook et al. 1976, J Appl Physiol 40:508", "lungs"},
+     "Lai-Fook et al. 1976, J Appl Physiol 40:508", "lungs", 0, "", 1.2, "[rat, slices](#stiffening)"},
     {"cartilage", 1000000, 480000, 1600000, 0.02, 1100,
      "creep indentation, human tibia, drained: after minutes; within seconds nu is near 1/2",
      "Keenan et al. 2009, Comput Methods Biomech Biomed Engin 12:415", "articular cartilage", 410,
@@ -149,23 +152,24 @@ const TissuePreset* tissueOfLabel(const std::string& label) {
   return nullptr;
 }
 
-std::string toughTissues() {
+std::string tissuesWith(double TissuePreset::*number) {
   std::string out;
   for (const TissuePreset& preset : kPresets) {
-    if (preset.toughness_j_per_m2 > 0) out += (out.empty() ? "" : ", ") + std::string(preset.name);
+    if (preset.*number > 0) out += (out.empty() ? "" : ", ") + std::string(preset.name);
   }
   return out;
 }
 
 std::string tissueTable() {
   TextOut out;
-  out << "| tissue | E, Pa | from, to, Pa | nu | density, kg/m3 | J, J/m2 | test of E | source | test and source of J "
-         "|\n|---|---|---|---|---|---|---|---|---|\n";
+  out << "| tissue | E, Pa | from, to, Pa | nu | density, kg/m3 | J, J/m2 | b | test of E | source | test and source "
+         "of J | test of b |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const TissuePreset& p : kPresets) {
     out << "| `" << p.name << "` | " << numberOf(p.young_modulus_pa) << " | " << numberOf(p.low_pa) << ", "
         << numberOf(p.high_pa) << " | " << p.poisson_ratio << " | " << p.density_kg_per_m3 << " | "
-        << (p.toughness_j_per_m2 > 0 ? numberOf(p.toughness_j_per_m2) : "") << " | " << p.test << " | " << p.source
-        << " | " << p.toughness_test << " |\n";
+        << (p.toughness_j_per_m2 > 0 ? numberOf(p.toughness_j_per_m2) : "") << " | "
+        << (p.stiffening > 0 ? numberOf(p.stiffening) : "") << " | " << p.test << " | " << p.source << " | "
+        << p.toughness_test << " | " << p.stiffening_test << " |\n";
   }
   return out.str();
 }

@@ -18,6 +18,8 @@ struct TissuePreset {
   const char* labels;             ///< what label maps call it besides, a comma between
   double toughness_j_per_m2 = 0;  ///< of what a blade parts; 0: not known
   const char* toughness_test = "";
+  double stiffening = 0;  ///< MaterialConfig::stiffening; 0: not known
+  const char* stiffening_test = "";
 };
 
 const std::vector<TissuePreset>& tissuePresets();
@@ -29,8 +31,8 @@ const TissuePreset* tissueNamed(const std::string& name);
 /// numbers aside: "left_kidney", "Liver", "lung_upper_lobe_left", but not "liver_vessels".   @return null: none
 const TissuePreset* tissueOfLabel(const std::string& label);
 
-/// Names of those whose toughness is known.
-std::string toughTissues();
+/// Names of those of which a number is known. @param number  such as &TissuePreset::toughness_j_per_m2
+std::string tissuesWith(double TissuePreset::*number);
 
 /// Markdown table of all presets.
 std::string tissueTable();
