@@ -8,6 +8,7 @@
 
 #include "layout/law.h"
 #include "math/decompositions.h"
+#include "solver/tissue/law_laminate.h"
 
 namespace viscera {
 
@@ -93,7 +94,9 @@ CellStresses::CellStresses(const Body& body) : body_(body) {
       if (body.lattice.part_names[p] == part.part) lames_[p + 1] = lameOf(part.young_modulus_pa, part.poisson_ratio);
     }
   }
-  if (body.material.law == Law::kNeoHookean) moments_ = cellMoments(body);
+  if (body.material.law != Law::kNeoHookean) return;
+  moments_ = cellMoments(body);
+  laminates_ = cellLaminates(body).cells;
 }
 
 CellStress CellStresses::at(uint32_t cell, const std::array<Vector3d, 8>& u_m) const {
@@ -110,8 +113,15 @@ CellStress CellStresses::at(uint32_t cell, const std::array<Vector3d, 8>& u_m) c
     const std::array<float, 6>& s = body_.prestress[cell];
     prestress << s[0], s[5], s[4], s[5], s[1], s[3], s[4], s[3], s[2];
   }
-  return neoHookean(gradientAt(motion, centroid, lame.lambda / (lame.lambda + 2 * lame.mu)), lame.lambda, lame.mu,
-                    body_.material.stiffening, prestress);
+  Matrix3d f = gradientAt(motion, centroid, lame.lambda / (lame.lambda + 2 * lame.mu));
+  const auto found = std::lower_bound(laminates_.begin(), laminates_.end(), cell,
+                                      [](const CellLaminate& laminate, uint32_t of) { return laminate.cell < of; });
+  if (found != laminates_.end() && found->cell == cell) {
+    const LawLaminate laminate = lawLaminateOf(*found);
+    const LawLayer& layer = laminate.layers[found->label_a == label ? 0 : 1];
+    f += layer.jump * laminateJump(laminate, f, body_.material.stiffening) * laminate.normal.transpose();
+  }
+  return neoHookean(f, lame.lambda, lame.mu, body_.material.stiffening, prestress);
 }
 
 }  // namespace viscera

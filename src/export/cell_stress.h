@@ -6,11 +6,13 @@
 #include <array>
 #include <vector>
 
+#include "viscera/model/body/cell_laminates.h"
 #include "viscera/model/body/elasticity.h"
 
 namespace viscera {
 
-/// Stress of a cell at the centroid of its tissue: Cauchy's, of large strain.
+/// Stress of a cell at the centroid of its tissue: Cauchy's, of large strain. In a cell of two materials that of the
+/// one that it is labelled with.
 struct CellStress {
   double energy_j_per_m3;  ///< of the volume at rest
   double von_mises_pa;
@@ -35,6 +37,7 @@ class CellStresses {
   const Body& body_;
   std::vector<Lame> lames_;  ///< [parts + 1] of no part, then by label
   CellMoments moments_;
+  std::vector<CellLaminate> laminates_;  ///< ascending by cell
 };
 
 }  // namespace viscera

@@ -74,6 +74,8 @@ Body buildLatticeBody(const BodyConfig& config, const Scene& scene, const Tissue
   addToughnessNotes(body);
   const std::string walls = wallsNote(tissue.walls(), solid.spacing_m);
   if (!walls.empty()) body.notes.push_back(walls);
+  const std::string laminates = laminatesNote(body);
+  if (!laminates.empty()) body.notes.push_back(laminates);
   addPiecesNote(config, body);
   if (progress) progress("extract skin", 0);
   const TriangleMesh surface =

@@ -49,6 +49,24 @@ TEST(CellStress, OfTheNeoHookeanLawIsCauchysWhicheverWayTheCellIsTurned) {
   }
 }
 
+/// Two layers that are pulled across their border bear one stress, whichever of them a cell is labelled with.
+TEST(CellStress, OfACellOfTwoMaterialsIsThatOfItsLabelsLayer) {
+  constexpr double kNewton = 1e-6;  // of the stress: the jump is found to rounding, stress is its derivative
+  Body body = ofLaw(boxBody({1, 1, 1}, kEdge_m), 0.3);
+  body.material.young_modulus_pa = 20e3;
+  body = twoMaterials(body, {1, 0, 0}, 0.4, {"stiff", 200e3, 0.3, 1e3});
+  const uint32_t cell = body.lattice.active_slots[0];
+  std::array<Vector3d, 8> u_m;
+  for (size_t c = 0; c < 8; ++c) u_m[c] = Vector3d(c & 1 ? 0.2 * kEdge_m : 0, 0, 0);
+  ASSERT_EQ(body.lattice.cell_labels[cell], 2);
+  const CellStress stiff = CellStresses(body).at(cell, u_m);
+  body.lattice.cell_labels[cell] = 1;
+  const CellStress soft = CellStresses(body).at(cell, u_m);
+  EXPECT_NEAR(stiff.principal_pa[0], soft.principal_pa[0], kNewton * soft.principal_pa[0]);
+  EXPECT_GT(std::abs(stiff.principal_pa[1] - soft.principal_pa[1]), 0.01 * soft.principal_pa[0]);
+  EXPECT_GT(soft.energy_j_per_m3, 3 * stiff.energy_j_per_m3);
+}
+
 TEST(CellStress, OfRestIsNothing) {
   for (const Law law : {Law::kSprings, Law::kNeoHookean}) {
     Body body = boxBody({2, 2, 2}, kEdge_m);

@@ -100,6 +100,30 @@ TEST_P(LawStarts, RandomOnesComeToRest) {
   }
 }
 
+/// Of two materials, 10 : 1, whose border runs askew through the cells.
+TEST_P(LawStarts, RandomOnesOfTwoMaterialsComeToRest) {
+  for (const Shape shape : {Shape::kCell, Shape::kBlock, Shape::kBall}) {
+    for (const double nu : {0.3, 0.45}) {
+      for (uint32_t seed = 0; seed < seeds(); ++seed) {
+        SCOPED_TRACE(::testing::Message() << static_cast<int>(shape) << " nu " << nu << " seed " << seed);
+        const Body plain = startBody(shape, nu);
+        const double at = shape == Shape::kCell ? 0.8 : 2.4;
+        const Body body =
+            twoMaterials(plain, {0.7, 0.5, 0.3}, at,
+                         {"stiff", 10 * plain.material.young_modulus_pa, nu, plain.material.density_kg_per_m3});
+        const Ended ended = run(body, 1.0, [&](const Lattice& lattice, HostState& state) {
+          std::mt19937 random(seed);
+          for (const uint32_t slot : lattice.active_slots)
+            state.displacement_m[slot] = vec4(randomVector(random, 0.3 * kStartSpacing_m));
+        });
+        const bool may_trip = shape == Shape::kBall;
+        EXPECT_TRUE(may_trip || ended.trips == 0) << ended.trips;
+        expectAtRest(ended);
+      }
+    }
+  }
+}
+
 TEST_P(LawStarts, MirroredBlocksTurnBack) {
   for (const Shape shape : {Shape::kCell, Shape::kBlock}) {
     for (const double nu : {0.3, 0.45}) {

@@ -148,4 +148,33 @@ inline Model modelOf(std::vector<Body> bodies) {
 /// Node counts that bracket a work group, and one that fills many.
 constexpr size_t kSizes[] = {1, 63, 64, 65, 1234};
 
+/// The same body of two materials: `part` is what lies beyond a plane. Cells are sampled, whatever part of them is
+/// tissue. @param normal  of the plane   @param at  of the plane along it, in cells from the lattice's first node
+inline Body twoMaterials(Body body, const Vector3d& normal, double at, const PartConfig& part) {
+  constexpr int kSamples = 12;
+  const Vector3d n = normal.normalized();
+  Lattice& lattice = body.lattice;
+  lattice.part_names = {"rest", part.part};
+  body.parts = {part};
+  for (uint32_t slot = 0; slot < lattice.nodes.size(); ++slot) {
+    if (!lattice.cell_labels[slot]) continue;
+    CellFill fills[2];
+    for (CellFill& fill : fills) fill = {0, Vector3d::Zero(), Eigen::Matrix3d::Zero()};
+    for (int i = 0; i < kSamples * kSamples * kSamples; ++i) {
+      const Vector3d p =
+          (Vector3d(i % kSamples, i / kSamples % kSamples, i / kSamples / kSamples).array() + 0.5) / kSamples - 0.5;
+      const Vector3d x = lattice.nodeAt(slot).cast<double>() + Vector3d::Constant(0.5) + p;
+      CellFill& fill = fills[x.dot(n) > at ? 1 : 0];
+      fill.share += std::pow(kSamples, -3);
+      fill.first += std::pow(kSamples, -3) * p;
+      fill.second +=
+          std::pow(kSamples, -3) * (p * p.transpose() + Eigen::Matrix3d::Identity() * std::pow(kSamples, -2) / 12);
+    }
+    lattice.cell_labels[slot] = fills[1].share > 0.5 ? 2 : 1;
+    if (fills[0].share < 1e-9 || fills[1].share < 1e-9) continue;
+    for (uint16_t label = 1; label <= 2; ++label) lattice.shared.push_back({slot, label, fills[label - 1]});
+  }
+  return body;
+}
+
 }  // namespace viscera::test

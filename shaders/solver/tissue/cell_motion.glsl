@@ -13,6 +13,10 @@ struct CellMoments {
 #ifdef PRESTRESS
   vec3 pulled, sheared;  // its stress at rest over mu: xx, yy, zz; yz, zx, xy
 #endif
+#ifdef LAMINATES
+  vec4 plane;   // normal of the plane between its two materials, from a to b; share of a, 1 where there is one material
+  vec4 layers;  // shear moduli of a and b over their mean, K/mu of both
+#endif
 };
 
 /// Mean edges less their rest value, and hourglass motions, over h.
@@ -56,6 +60,9 @@ CellMoments fullMoments() {
   t.square = vec3(1.0f / 12.0f);
 #ifdef PRESTRESS
   t.pulled = t.sheared = vec3(0.0f);
+#endif
+#ifdef LAMINATES
+  t.plane = vec4(0.0f, 0.0f, 0.0f, 1.0f);
 #endif
   return t;
 }

@@ -3,7 +3,7 @@
 //
 // What a node, a spring and a cell are made of (physics.md 1). After lattice.glsl.
 // Features: LATTICE (some body has implicit connections), NETWORK (some body has explicit ones: network.glsl), PARTS (strengths differ within a body: tables),
-// LAW (the cells of some bodies obey a hyperelastic law), PRESTRESS (some of these are stressed at rest), INCREMENT (implicit integrators: the state is displacement + increment), MAKES_CELL_FORCES (of kernels that do).
+// LAW (the cells of some bodies obey a hyperelastic law), PRESTRESS (some of these are stressed at rest), LAMINATES (some are of two materials), INCREMENT (implicit integrators: the state is displacement + increment), MAKES_CELL_FORCES (of kernels that do).
 #include "solver/tissue/spring.glsl"
 #include "solver/tissue/cell_motion.glsl"
 #ifdef LAW
@@ -67,7 +67,7 @@ layout(binding = kUnitCellForces) uniform samplerBuffer cell_forces;  // the sam
 #endif
 #endif
 #if defined(LAW) && defined(PARTS)
-layout(binding = kUnitCellMoments) uniform samplerBuffer cell_moments;  // [3 * (1 + fills)], then stresses of cells, two each
+layout(binding = kUnitCellMoments) uniform samplerBuffer cell_moments;  // [3 * (1 + fills)], then stresses and laminates of cells, two each (JoinedMoments)
 /// (lambda - mu) h^3 and mu h^3, times the cell's share [J].
 float cellBulk(uint slot, BodyParams body) { return cellStrengths(slot).x; }
 float cellRigidity(uint slot, BodyParams body) { return cellStrengths(slot).y; }
@@ -75,13 +75,19 @@ CellMoments cellMoments(uint slot) {
   vec4 strengths = cellStrengths(slot);
   int fill = 3 * int(strengths.z);
   CellMoments t;
-  t.first = texelFetch(cell_moments, fill).xyz;
+  vec4 first = texelFetch(cell_moments, fill);
+  t.first = first.xyz;
   t.square = texelFetch(cell_moments, fill + 1).xyz;
   t.mixed = texelFetch(cell_moments, fill + 2).xyz;
 #ifdef PRESTRESS
   int stress = int(strengths.w);
   t.pulled = stress == 0 ? vec3(0.0f) : texelFetch(cell_moments, stress).xyz;
   t.sheared = stress == 0 ? vec3(0.0f) : texelFetch(cell_moments, stress + 1).xyz;
+#endif
+#ifdef LAMINATES
+  int laminate = int(first.w);
+  t.plane = laminate == 0 ? vec4(0.0f, 0.0f, 0.0f, 1.0f) : texelFetch(cell_moments, laminate);
+  t.layers = laminate == 0 ? vec4(1.0f) : texelFetch(cell_moments, laminate + 1);
 #endif
   return t;
 }

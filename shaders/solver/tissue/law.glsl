@@ -58,18 +58,32 @@ float lawSize(LawColumns d) { return 2.0f * (d.a.x + d.b.y + d.c.z) + dot(d.a, d
 /// How much more shear resists, at x.
 float lawStiffer(float x, float stiffening) { return stiffening == 0.0f ? 1.0f : exp(min(stiffening * x, kMostExponent)); }
 
+/// What makes up dW/dF = shear (F - C) + kappa C over mu, C = cof F; `off` is what kappa loses to shear, over shear.
+struct LawLayer {
+  float e, shear, kappa, off, inverse, slope;
+};
+/// @param e  J - 1   @param size  |F|^2 - 3   @param bulk  K/mu
+LawLayer lawLayer(float e, float size, float bulk, float stiffening) {
+  LawVolume v = lawVolume(e);
+  LawLayer y;
+  y.e = e;
+  y.inverse = v.inverse;
+  y.slope = v.slope;
+  y.off = 1.0f + e >= kLeastVolume ? (size / 3.0f - e) * v.inverse : v.slope * (1.0f + size / 3.0f) - 1.0f;
+  float pressure = 0.5f * bulk * (e + (1.0f + e >= kLeastVolume ? e * v.inverse : 1.0f - v.inverse));
+  y.shear = v.phi * lawStiffer(v.phi * (3.0f + size) - 3.0f, stiffening);
+  y.kappa = pressure - y.shear * y.off;
+  return y;
+}
+
 /// dW/dF over mu. @param c, e  cofactors and dilation of d   @param bulk  K/mu
 LawColumns lawStress(LawColumns d, LawColumns c, float e, float bulk, float stiffening) {
-  LawVolume v = lawVolume(e);
-  float size = lawSize(d);
-  float off = 1.0f + e >= kLeastVolume ? (size / 3.0f - e) * v.inverse : v.slope * (1.0f + size / 3.0f) - 1.0f;
-  float pressure = 0.5f * bulk * (e + (1.0f + e >= kLeastVolume ? e * v.inverse : 1.0f - v.inverse));
-  float shear = v.phi * lawStiffer(v.phi * (3.0f + size) - 3.0f, stiffening);
-  float kappa = pressure - shear * off, of_c = kappa - shear;
-  LawColumns p = lawColumns(shear * d.a + of_c * c.a, shear * d.b + of_c * c.b, shear * d.c + of_c * c.c);
-  p.a.x += kappa;
-  p.b.y += kappa;
-  p.c.z += kappa;
+  LawLayer y = lawLayer(e, lawSize(d), bulk, stiffening);
+  float of_c = y.kappa - y.shear;
+  LawColumns p = lawColumns(y.shear * d.a + of_c * c.a, y.shear * d.b + of_c * c.b, y.shear * d.c + of_c * c.c);
+  p.a.x += y.kappa;
+  p.b.y += y.kappa;
+  p.c.z += y.kappa;
   return p;
 }
 
@@ -91,9 +105,9 @@ float lawShear(float x, float stiffening) {
   return (lawExp1(least) + exp(least) * (y - least)) / stiffening;
 }
 
-/// W over mu.
-float lawDensity(LawColumns d, float e, float bulk, float stiffening) {
-  float j = 1.0f + e, size = lawSize(d);
+/// W over mu. @param size  |F|^2 - 3
+float lawDensity(float size, float e, float bulk, float stiffening) {
+  float j = 1.0f + e;
   if (j >= kLeastVolume) {
     float log_ = lawLog1(e), less = lawExp1((-2.0f / 3.0f) * log_);  // phi - 1
     float shear = lawShear(3.0f * less + (1.0f + less) * size, stiffening);
@@ -184,6 +198,19 @@ float lawTension(CellMoments t) {
 }
 #endif
 
+#ifdef LAMINATES
+#include "solver/tissue/laminate.glsl"
+#endif
+
+/// dW/dF over mu at the centroid of a cell's tissue, and W over mu. @param c, e  cofactors and dilation of d
+LawColumns lawPoint(LawColumns d, LawColumns c, float e, float bulk, float stiffening, CellMoments t, OUT(float) density) {
+#ifdef LAMINATES
+  if (t.plane.w < 1.0f) return lawLaminateStress(t, d, c, e, stiffening, density);
+#endif
+  density = lawDensity(lawSize(d), e, bulk, stiffening);
+  return lawStress(d, c, e, bulk, stiffening);
+}
+
 /// The law's energy and its derivatives. @param rigidity  mu h^3 times the cell's share [J]   @param bulk_j  (lambda - mu) h^3 times the same [J]
 CellPull lawPull(CellMotion q, CellMoments moments, float rigidity, float bulk_j, float stiffening) {
   float ratio = bulk_j / rigidity, bulk = ratio + 5.0f / 3.0f;  // K/mu = lambda/mu + 2/3
@@ -195,8 +222,9 @@ CellPull lawPull(CellMotion q, CellMoments moments, float rigidity, float bulk_j
   pull.energy = 0.5f * (dot(r.a, s.a) + dot(r.b, s.b) + dot(r.c, s.c)) + 0.5f * kLawAlternating * dot(q.hxyz, q.hxyz);
   LawColumns p;
   if (dot(t.center, t.center) == 0.0f) {
-    p = lawStress(d, c, e, bulk, stiffening);
-    pull.energy += lawDensity(d, e, bulk, stiffening);
+    float density;
+    p = lawPoint(d, c, e, bulk, stiffening, moments, density);
+    pull.energy += density;
 #ifdef PRESTRESS
     lawAddPrestress(moments, d, p, pull.energy);
 #endif
@@ -205,8 +233,9 @@ CellPull lawPull(CellMotion q, CellMoments moments, float rigidity, float bulk_j
     LawColumns star = lawColumns(d.a + lawTimes(d, g.a), d.b + lawTimes(d, g.b), d.c + lawTimes(d, g.c));
     LawColumns of_star = lawCofactors(star);
     float e_star = lawDilation(star, of_star);
-    LawColumns ps = lawStress(star, of_star, e_star, bulk, stiffening);
-    pull.energy += lawDensity(star, e_star, bulk, stiffening);
+    float density;
+    LawColumns ps = lawPoint(star, of_star, e_star, bulk, stiffening, moments, density);
+    pull.energy += density;
 #ifdef PRESTRESS
     lawAddPrestress(moments, star, ps, pull.energy);
 #endif
@@ -265,6 +294,20 @@ float lawStiffeningAt(LawColumns d, LawColumns c, float ratio, float stiffening,
   return min(max(1.0f, waves / (ratio + 3.0f)), kMostStiffening);
 }
 
+#ifdef LAMINATES
+LawColumns lawSum(LawColumns a, float s, LawColumns b) { return lawColumns(a.a + s * b.a, a.b + s * b.b, a.c + s * b.c); }
+
+/// The same of a cell of two materials: the mean of its layers', by what they are of the fastest wave at rest.
+float lawLaminateStiffening(CellMoments t, LawColumns d, LawColumns c, float ratio, float stiffening, float tension) {
+  LawLaminate y = lawLaminate(t, d, c, lawDilation(d, c), stiffening);
+  LawColumns by = lawJumpColumns(y.jump, t.plane.xyz), turn = lawJumpCofactors(d, y.jump, t.plane.xyz);
+  float sa = 1.0f - t.plane.w, sb = -t.plane.w, ratio_a = t.layers.z - 5.0f / 3.0f, ratio_b = t.layers.w - 5.0f / 3.0f;
+  float of_a = lawStiffeningAt(lawSum(d, sa, by), lawSum(c, sa, turn), ratio_a, stiffening, tension);
+  float of_b = lawStiffeningAt(lawSum(d, sb, by), lawSum(c, sb, turn), ratio_b, stiffening, tension);
+  return (t.plane.w * t.layers.x * (ratio_a + 3.0f) * of_a + sa * t.layers.y * (ratio_b + 3.0f) * of_b) / (ratio + 3.0f);
+}
+#endif
+
 /// The larger of those at the cell's mean gradient and at its tissue's centroid.
 float lawStiffening(CellMotion q, CellMoments moments, float ratio, float stiffening) {
   LawColumns d = lawColumns(q.da, q.db, q.dc), c = lawCofactors(d);
@@ -278,5 +321,10 @@ float lawStiffening(CellMotion q, CellMoments moments, float ratio, float stiffe
   if (dot(t.center, t.center) == 0.0f) return found;
   LawColumns g = lawAtCentroid(t, lawFrame(q, c, lawDilation(d, c)));
   LawColumns star = lawColumns(d.a + lawTimes(d, g.a), d.b + lawTimes(d, g.b), d.c + lawTimes(d, g.c));
-  return max(found, lawStiffeningAt(star, lawCofactors(star), ratio, stiffening, tension));
+  LawColumns of_star = lawCofactors(star);
+  found = max(found, lawStiffeningAt(star, of_star, ratio, stiffening, tension));
+#ifdef LAMINATES
+  if (moments.plane.w < 1.0f) found = max(found, lawLaminateStiffening(moments, star, of_star, ratio, stiffening, tension));
+#endif
+  return found;
 }

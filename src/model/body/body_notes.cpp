@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "math/number_text.h"
+#include "viscera/model/body/cell_laminates.h"
 
 namespace viscera {
 namespace {
@@ -103,6 +104,17 @@ std::string wallsNote(const std::vector<Wall>& walls, double spacing_m) {
   if (out.tellp() <= 0) return "";
   out << ": walls thinner than a cell of " << spacing_m * 1e3 << " mm, they have holes before anything touches them; "
       << "a spacing_m of " << walls.front().thickness_m << " or less leaves none";
+  return out.str();
+}
+
+std::string laminatesNote(const Body& body) {
+  const CellLaminates laminates = cellLaminates(body);
+  if (laminates.cells.empty() && laminates.others == 0) return "";
+  TextOut out;
+  out << "borders of parts: " << laminates.cells.size() << " cells of two materials";
+  if (laminates.others > 0)
+    out << ", " << laminates.others
+        << " of three or more or without a plane between them, which have the mean stiffness";
   return out.str();
 }
 

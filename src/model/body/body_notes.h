@@ -17,6 +17,7 @@ std::string networkNote(const Body& body, size_t fixed_nodes);
 std::string linksNote(const SpringNetwork& network);                      ///< of an explicit lattice
 std::string piecesNote(const Body& body);                                 ///< empty: one piece
 std::string wallsNote(const std::vector<Wall>& walls, double spacing_m);  ///< empty: none is thinner than a cell
+std::string laminatesNote(const Body& body);                              ///< empty: no cell is of two materials
 std::string skinNote(const Skin& skin);
 
 }  // namespace viscera

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "math/nearest_names.h"
+#include "model/body/mixed_cells.h"
 #include "model/scene/key_place.h"
 #include "viscera/math/error.h"
 
@@ -15,24 +16,6 @@ namespace {
 /// Of a cell of which `share` is tissue.
 Elasticity scaled(const Elasticity& e, double share) {
   return {share * e.spring_n_per_m, share * e.bulk_j, share * e.rigidity_j, share * e.cell_mass_kg};
-}
-
-bool isSame(const Elasticity& a, const Elasticity& b) {
-  return a.spring_n_per_m == b.spring_n_per_m && a.bulk_j == b.bulk_j && a.cell_mass_kg == b.cell_mass_kg;
-}
-
-/// Calls visit(first, last) for the parts of every cell that shares materials, indices into Lattice::shared.
-template <class Visit>
-void forEachMixedCell(const Lattice& lattice, const std::vector<Elasticity>& by_label, Visit visit) {
-  const std::vector<PartFill>& shared = lattice.shared;
-  for (size_t first = 0; first < shared.size();) {
-    size_t last = first;
-    bool differ = false;
-    for (; last < shared.size() && shared[last].cell == shared[first].cell; ++last)
-      differ = differ || !isSame(by_label[shared[last].label], by_label[shared[first].label]);
-    if (differ) visit(first, last);
-    first = last;
-  }
 }
 
 /// (slot, full cell) in place of that of the cell's part where a cell shares materials: the energy of a cell is an

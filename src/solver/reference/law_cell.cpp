@@ -14,7 +14,7 @@ namespace {
 template <class T>
 T energyOf(const LawCell& cell, const Eigen::Matrix<T, 21, 1>& motion) {
   return cell.rigidity_j *
-         lawEnergy<T>(cell.bulk_j / cell.rigidity_j, cell.stiffening, cell.fill, cell.prestress, motion);
+         lawEnergy<T>(cell.bulk_j / cell.rigidity_j, cell.stiffening, cell.fill, cell.laminate, cell.prestress, motion);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "solver/tissue/law_laminate.h"
 #include "viscera/math/types.h"
 #include "viscera/model/shape/solid.h"
 
@@ -24,6 +25,7 @@ struct LawCell {
   double bulk_j = 0;                                    ///< (lambda - mu) h^3 times its share
   double stiffening = 0;                                ///< b of lawShear()
   CellFill fill;                                        ///< over its share, which is 1
+  LawLaminate laminate;                                 ///< its two materials; exists() only where it has two
   Eigen::Matrix3d prestress = Eigen::Matrix3d::Zero();  ///< its stress at rest over mu
 };
 

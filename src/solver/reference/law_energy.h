@@ -6,44 +6,46 @@
 #include <cmath>
 
 #include "layout/law.h"
+#include "solver/tissue/law_density.h"
+#include "solver/tissue/law_laminate.h"
 #include "viscera/model/shape/solid.h"
 
 namespace viscera {
 
-/// Returns the shear energy of the law over mu/2: (exp(b x) - 1) / b, straight from b x = kMostExponent on; x without
-/// stiffening.
+/// Returns the value of a number that may carry derivatives.
+inline double valueOf(double x) {
+  return x;
+}
 template <class T>
-T lawShear(const T& x, double stiffening) {
-  using std::exp;
-  if (stiffening == 0) return x;
-  const double most = static_cast<double>(layout::kMostExponent);
-  if (stiffening * x <= most) return (exp(stiffening * x) - 1.0) / stiffening;
-  return (std::exp(most) * (1.0 + stiffening * x - most) - 1.0) / stiffening;
+double valueOf(const T& dual) {
+  return dual.value();
 }
 
-/// Returns W of the neo-Hookean law over mu (physics.md 1): 1/2 (J^(-2/3) |F|^2 - 3) + K/(4 mu) (J^2 - 1 - 2 ln J).
-/// Below kLeastVolume 1/J is constant and J^(-2/3) levels off, both without a jump in the stress.
+/// Returns the energy of two layers at a mean gradient over the mean shear modulus. Their jump is at its minimum, so
+/// that the energy's derivatives are those at that jump held.
 template <class T>
-T lawDensity(const Eigen::Matrix<T, 3, 3>& f, double bulk_over_mu, double stiffening) {
-  using std::log;
-  using std::pow;
-  const double kLeast = static_cast<double>(layout::kLeastVolume);
-  const T j = f.col(0).dot(f.col(1).cross(f.col(2))), size = f.squaredNorm();
-  if (j >= kLeast)
-    return 0.5 * lawShear<T>(pow(j, -2.0 / 3) * size - 3.0, stiffening) +
-           0.25 * bulk_over_mu * (j * j - 1.0 - 2.0 * log(j));
-  const T phi = std::pow(kLeast, -2.0 / 3) * (1.0 + 2.0 / 3 * (kLeast - j) / (2 * kLeast - j));
-  const T logarithm = std::log(kLeast) + (j - kLeast) / kLeast;
-  return 0.5 * lawShear<T>(phi * size - 3.0, stiffening) + 0.25 * bulk_over_mu * (j * j - 1.0 - 2.0 * logarithm);
+T laminateDensity(const LawLaminate& laminate, const Eigen::Matrix<T, 3, 3>& f, double stiffening) {
+  Eigen::Matrix3d values;
+  for (int i = 0; i < 9; ++i) values(i) = valueOf(f(i));
+  const Vector3d a = laminateJump(laminate, values, stiffening);
+  T energy(0.0);
+  for (const LawLayer& layer : laminate.layers) {
+    const Eigen::Matrix3d by_jump = layer.jump * a * laminate.normal.transpose();
+    Eigen::Matrix<T, 3, 3> of_layer = f;
+    for (int i = 0; i < 9; ++i) of_layer(i) += by_jump(i);
+    energy += layer.weight * lawDensity<T>(of_layer, layer.bulk_over_mu, stiffening);
+  }
+  return energy;
 }
 
 /// Returns the energy of a cell of the neo-Hookean law over rigidity (physics.md 1, Law).
 /// @param ratio  lambda / mu - 1   @param stiffening  b of lawShear()   @param fill  moments of the cell's tissue over
-/// its share   @param prestress  S over mu: its stress at rest has the energy S : (F^T F - 1) / 2
+/// its share   @param laminate  the cell's two materials, if it has two
+/// @param prestress  S over mu: its stress at rest has the energy S : (F^T F - 1) / 2
 /// @param motion  mean edges less their rest value, hourglass motions, alternating motion, over h (law_cell.h)
 template <class T>
-T lawEnergy(double ratio, double stiffening, const CellFill& fill, const Eigen::Matrix3d& prestress,
-            const Eigen::Matrix<T, 21, 1>& motion) {
+T lawEnergy(double ratio, double stiffening, const CellFill& fill, const LawLaminate& laminate,
+            const Eigen::Matrix3d& prestress, const Eigen::Matrix<T, 21, 1>& motion) {
   using Tensor = Eigen::Matrix<T, 3, 3>;
   const double lambda = 1 + ratio, poisson = lambda / (lambda + 2);
   const Vector3d& c = fill.first;
@@ -74,7 +76,8 @@ T lawEnergy(double ratio, double stiffening, const CellFill& fill, const Eigen::
     g(b, n) -= c[n] * s(n, a);
   }
   const Tensor at_centroid = f + f * g;
-  T energy = lawDensity<T>(at_centroid, lambda + 2.0 / 3, stiffening);
+  T energy = laminate.exists() ? laminateDensity<T>(laminate, at_centroid, stiffening)
+                               : lawDensity<T>(at_centroid, lambda + 2.0 / 3, stiffening);
   const Tensor right = at_centroid.transpose() * at_centroid - Eigen::Matrix3d::Identity();
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) energy += 0.5 * prestress(i, k) * right(i, k);

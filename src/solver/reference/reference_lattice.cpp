@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "solver/tissue/joined_lattice.h"
+#include "viscera/model/body/cell_laminates.h"
 
 namespace viscera {
 
@@ -42,6 +43,8 @@ void ReferenceLattice::addBody(const Model& model, size_t b, double dt_safe_s) {
   params_.push_back(bodyParams(body, dt_safe_s));
   strengths_.push_back(isHeterogeneous(body) ? strengths(body) : Strengths{});
   moments_ = cellMoments(body);
+  laminates_.clear();
+  for (const CellLaminate& cell : cellLaminates(body).cells) laminates_[cell.cell] = lawLaminateOf(cell);
   if (body.network) strengths_[b].mass_kg.assign(body.network->masses_kg.begin(), body.network->masses_kg.end());
   const bool of_law = body.material.law == Law::kNeoHookean;
   for (layout::NodeBits bits : lattice.nodes) {
@@ -141,6 +144,8 @@ void ReferenceLattice::addCell(const Body& body, size_t b, uint32_t local) {
       const std::array<float, 6>& s = body.prestress[local];
       cell.law.prestress << s[0], s[5], s[4], s[5], s[1], s[3], s[4], s[3], s[2];
     }
+    const auto laminate = laminates_.find(local);
+    if (laminate != laminates_.end()) cell.law.laminate = laminate->second;
   }
   cells_.push_back(cell);
 }

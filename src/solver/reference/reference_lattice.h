@@ -5,6 +5,7 @@
 #include <Eigen/SparseCore>
 #include <array>
 #include <map>
+#include <unordered_map>
 #include <vector>
 
 #include "solver/reference/law_cell.h"
@@ -154,9 +155,10 @@ class ReferenceLattice {
 
   bool predicts_;  ///< predictsSprings()
   std::vector<layout::BodyParams> params_;
-  std::vector<Strengths> strengths_;    ///< [bodies] empty where a body has one material; masses of networks
-  CellMoments moments_;                 ///< of the body that is being added
-  std::vector<uint32_t> first_;         ///< [bodies] slot offsets
+  std::vector<Strengths> strengths_;  ///< [bodies] empty where a body has one material; masses of networks
+  CellMoments moments_;               ///< of the body that is being added
+  std::unordered_map<uint32_t, LawLaminate> laminates_;  ///< likewise, by cell
+  std::vector<uint32_t> first_;                          ///< [bodies] slot offsets
   std::vector<bool> has_valences_;      ///< [bodies] NodeBits hold valences, not the counts of a lattice
   std::vector<uint32_t> starts_ = {0};  ///< [slots + 1] into neighbors_
   std::vector<Neighbor> neighbors_;     ///< node by node

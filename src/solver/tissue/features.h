@@ -23,6 +23,7 @@ struct FeatureSet {
   bool predicted = false;    ///< a lattice of springs has dashpots: leapfrog has its springs pull where nodes will be
   bool law = false;          ///< the cells of some body obey a hyperelastic law
   bool prestress = false;    ///< some of these cells are stressed at rest
+  bool laminates = false;    ///< some of these cells are of two materials
   bool springs = true;       ///< something is made of springs: not all bodies obey one
   bool parts = false;        ///< strengths differ within a body
   bool compensated = false;  ///< u and v are summed with Kahan's compensation

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "layout/surface_ways.h"
+#include "viscera/model/body/cell_laminates.h"
 
 namespace viscera {
 
@@ -110,6 +111,30 @@ std::vector<Number> atSurface(const Model& model, NumberOf numberOf) {
   return out;
 }
 
+void addStresses(const Model& model, JoinedMoments& out) {
+  out.stress_of_cell.resize(out.of_cell.size());
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    for (uint32_t slot = 0; slot < body.prestress.size(); ++slot) {
+      if (body.lattice.cell_labels[slot] == 0) continue;
+      const std::array<float, 6>& s = body.prestress[slot];
+      out.stress_of_cell[model.slotOffset(b) + slot] = static_cast<uint32_t>(out.vectors.size());
+      out.vectors.push_back({s[0], s[1], s[2], 0});
+      out.vectors.push_back({s[3], s[4], s[5], 0});
+    }
+  }
+}
+
+void addLaminate(const CellLaminate& cell, uint32_t slot, JoinedMoments& out) {
+  constexpr double kFromRatio = 5.0 / 3;  // K/mu = lambda/mu + 2/3
+  const auto packed = [&](double x, double y, double z, double w) {
+    out.vectors.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), static_cast<float>(w)});
+  };
+  out.vectors[kVectorsPerFill * out.of_cell[slot]].w = static_cast<float>(out.vectors.size());
+  packed(cell.normal.x(), cell.normal.y(), cell.normal.z(), cell.share_a);
+  packed(cell.rigidity_a, cell.rigidity_b(), cell.ratio_a + kFromRatio, cell.ratio_b + kFromRatio);
+}
+
 }  // namespace
 
 std::vector<float> surfaceDepths(const Model& model) {
@@ -141,6 +166,11 @@ bool hasCellPrestress(const Model& model) {
                      [](const Body& body) { return !body.prestress.empty(); });
 }
 
+bool hasLaminates(const Model& model) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(),
+                     [](const Body& body) { return !cellLaminates(body).cells.empty(); });
+}
+
 JoinedMoments allMoments(const Model& model) {
   JoinedMoments out;
   out.add(CellFill{});
@@ -152,17 +182,10 @@ JoinedMoments allMoments(const Model& model) {
     out.of_cell.resize(model.slotOffset(b) + lattice.nodes.size());
     for (const CellFill& fill : moments.fills) out.add(fill);
   }
-  if (!hasCellPrestress(model)) return out;
-  out.stress_of_cell.resize(out.of_cell.size());
+  if (hasCellPrestress(model)) addStresses(model, out);
   for (size_t b = 0; b < model.bodies.size(); ++b) {
-    const Body& body = model.bodies[b];
-    for (uint32_t slot = 0; slot < body.prestress.size(); ++slot) {
-      if (body.lattice.cell_labels[slot] == 0) continue;
-      const std::array<float, 6>& s = body.prestress[slot];
-      out.stress_of_cell[model.slotOffset(b) + slot] = static_cast<uint32_t>(out.vectors.size());
-      out.vectors.push_back({s[0], s[1], s[2], 0});
-      out.vectors.push_back({s[3], s[4], s[5], 0});
-    }
+    for (const CellLaminate& cell : cellLaminates(model.bodies[b]).cells)
+      addLaminate(cell, model.slotOffset(b) + cell.cell, out);
   }
   return out;
 }

@@ -24,11 +24,15 @@ std::vector<layout::NodeBits> allNodes(const Model& model);
 /// strengths() of all bodies: spring_n_per_m [9 * slots], mass_kg [slots], bulk_j [slots], rigidity_j [slots]
 Strengths allStrengths(const Model& model);
 
+constexpr size_t kVectorsPerFill = 3;
+
 /// Moments of the cells of all bodies over their shares (shaders/solver/tissue/cell_motion.glsl).
 struct JoinedMoments {
   std::vector<uint32_t> of_cell;         ///< [slots] which moments the cell above a node has; 0: those of a full one
   std::vector<layout::vec4> vectors;     ///< [kVectorsPerFill * fills] xyz: of p; of its squares; of yz, zx, xy; then
-                                         ///< stresses of cells, over mu: xx, yy, zz; yz, zx, xy
+                                         ///< stresses of cells, over mu: xx, yy, zz; yz, zx, xy; then laminates:
+                                         ///< normal and share_a; rigidity_a, rigidity_b, K/mu of a and of b. w of p:
+                                         ///< where the cell's laminate is, 0 none
   std::vector<uint32_t> stress_of_cell;  ///< [slots] where in vectors a cell's prestress is, 0 none; empty without
 
   void add(const CellFill& fill);
@@ -37,11 +41,17 @@ struct JoinedMoments {
     const uint32_t at = stress_of_cell.empty() ? 0 : stress_of_cell[slot];
     return at == 0 ? nullptr : &vectors[at];
   }
+  /// Where the laminate of a cell of two materials is; null: it has one material.
+  const layout::vec4* laminateOf(uint32_t slot) const {
+    const auto at = static_cast<size_t>(vectors[kVectorsPerFill * of_cell[slot]].w);
+    return at == 0 ? nullptr : &vectors[at];
+  }
 };
-constexpr size_t kVectorsPerFill = 3;
 JoinedMoments allMoments(const Model& model);
 /// Has a body of a law a prestress?
 bool hasCellPrestress(const Model& model);
+/// Are there cells of a law that two materials share (cellLaminates())?
+bool hasLaminates(const Model& model);
 
 /// [slots] how deep nodes lie below the surface of their tissue [m], negative outside, where tools and obstacles are to
 /// know it: in bodies with cells that are tissue in part, of nodes less than half a cell deep; 0 elsewhere. Empty

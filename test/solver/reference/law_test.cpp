@@ -55,7 +55,10 @@ TEST(Law, ForcesAndStiffnessAreDerivativesOfTheEnergy) {
   Body stiffening = ball, stressed = ball;
   stiffening.material.stiffening = 4;
   stressed.prestress.assign(ball.lattice.nodes.size(), {0.3f, -0.1f, 0.2f, 0.1f, -0.2f, 0.05f});
-  for (const Model& model : {lawBlockModel(), modelOf({ball}), modelOf({stiffening}), modelOf({stressed})}) {
+  const Body layers =
+      twoMaterials(ball, {0.3, 0.8, 0.5}, 1.5, {"stiff", 10 * ball.material.young_modulus_pa, 0.45, 1e3});
+  for (const Model& model :
+       {lawBlockModel(), modelOf({ball}), modelOf({stiffening}), modelOf({stressed}), modelOf({layers})}) {
     const ReferenceLattice lattice(model);
     for (const double size : {0.05, 0.3, 1.0}) {
       const HostState state = randomState(model, size * kLawBlockSpacing_m, 0, 5);
@@ -102,8 +105,9 @@ TEST(Law, TissueThatIsFreedTakesTheShapeThatItsPrestressAsksFor) {
 
 TEST(Law, RigidMotionHasNoEnergyAndTurningChangesNone) {
   constexpr double kRounding = 1e-12;  // of the energy of the same strain
-  const Model model = modelOf({momentBody({3, 3, 3}, kLawBlockSpacing_m,
-                                          [](const Vector3d& p) { return p.dot(Vector3d(1, 0.7, 0.4)) < 3.1; })});
+  const Body cut =
+      momentBody({3, 3, 3}, kLawBlockSpacing_m, [](const Vector3d& p) { return p.dot(Vector3d(1, 0.7, 0.4)) < 3.1; });
+  const Model model = modelOf({twoMaterials(cut, {0.3, 0.8, 0.5}, 1.5, {"stiff", 1e5, 0.45, 1e3})});
   const ReferenceLattice lattice(model);
   const HostState state = randomState(model, 0.1 * kLawBlockSpacing_m, 0, 5);
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Vector3d(1, 2, -1).normalized()).toRotationMatrix();

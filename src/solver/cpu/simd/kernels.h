@@ -68,6 +68,8 @@ constexpr size_t cellNumberAt(uint32_t slot, uint32_t number, uint32_t numbers) 
 }
 constexpr uint32_t kMomentNumbers = 9;   ///< first, square, mixed (cell_motion.glsl)
 constexpr uint32_t kTensionNumbers = 6;  ///< of a stress at rest: xx, yy, zz, yz, zx, xy
+/// Of a laminate: its normal, share of a, shear moduli of a and b over their mean, K/mu of a and of b.
+constexpr uint32_t kLaminateNumbers = 8;
 constexpr uint32_t kBrokenSprings = 24;  ///< within a cell: 12 edges, along x, y and z, then 12 face diagonals
 /// Of a broken cell: stiffness of its springs, then how much shorter those along nine directions are at rest.
 constexpr uint32_t kBrokenNumbers = kBrokenSprings + 9;
@@ -98,11 +100,13 @@ struct CellJob {
   const float* const* moments;   ///< [bricks] [9 * 64] of its cells (CpuStrengths); null where all are full
   const uint16_t* partial_rows;  ///< [bricks] bit r: some of the four cells from 4 r on is tissue in part
   const float* const* tension;   ///< [bricks] [kTensionNumbers * 64] of its cells; null where none is stressed at rest
-  const float* const* broken;    ///< [bricks] [kBrokenNumbers * 64] N of cells of a law that have lost a spring
-                                 ///< (CpuStrengths); null where all are whole
-  bool parts;                    ///< bulk over rigidity differs within a body
-  bool dashpot;                  ///< some body has one
-  float* sums;                   ///< [kCellSums * bricks] N
+  const float* const*
+      laminates;               ///< [bricks] [kLaminateNumbers * 64] of its cells; null where none is of two materials
+  const float* const* broken;  ///< [bricks] [kBrokenNumbers * 64] N of cells of a law that have lost a spring
+                               ///< (CpuStrengths); null where all are whole
+  bool parts;                  ///< bulk over rigidity differs within a body
+  bool dashpot;                ///< some body has one
+  float* sums;                 ///< [kCellSums * bricks] N
 };
 /// Sums of the cells of some bricks.
 using BrickCells = void (*)(const CellJob& job, const uint32_t* bricks, size_t count);

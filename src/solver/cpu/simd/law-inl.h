@@ -10,152 +10,14 @@
 #define VISCERA_SOLVER_CPU_LAW_INL_H
 #endif
 
-#include "hwy/contrib/math/math-inl.h"
 #include "hwy/highway.h"
-#include "layout/law.h"
-#include "solver/cpu/simd/cell_motion-inl.h"
-#include "solver/cpu/simd/kernels.h"
+#include "solver/cpu/simd/laminate-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
-using layout::kMostExponent, layout::kLawAlternating, layout::kLeastVolume, layout::kMostStiffening;
-
 // Displacements are scaled by 1 / (4 h) as they are loaded, so that a cell's motion is made of plain sums: D of the
 // mean edges, half of the hourglass motions H, and a fourth of T = sqrt(8) H_xyz.
-
-/// Constants of a body over mu, in all lanes.
-struct LawBody {
-  V per_4h;                ///< 1 / (4 h): of a rigidity [J] to a force [N]
-  V bulk;                  ///< K / mu
-  V along, aside;          ///< plane stress over 3, as the second moments of full cells
-  V poisson;               ///< lambda / (lambda + 2 mu)
-  V stiffening;            ///< b
-  bool stiffens;           ///< it is not 0
-  float scale, dashpot_s;  ///< 1 / (4 h), and 0 without a dashpot
-};
-/// @param ratio  lambda/mu - 1
-HWY_INLINE LawBody lawBodyOf(const layout::BodyParams& body, V ratio, bool dashpot) {
-  const V lambda = hn::Add(ratio, set(1)), per = hn::Div(set(1), hn::Add(lambda, set(2)));
-  const float scale = 0.25f / body.origin_spacing.w;
-  return {set(scale),
-          hn::Add(lambda, set(2.0f / 3)),
-          hn::Mul(set(4.0f / 3), hn::Mul(hn::Add(lambda, set(1)), per)),
-          hn::Mul(set(2.0f / 3), hn::Mul(lambda, per)),
-          hn::Mul(lambda, per),
-          set(body.stiffening),
-          body.stiffening != 0,
-          scale,
-          dashpot ? body.dashpot_s : 0};
-}
-
-/// Columns of a 3x3 matrix.
-struct Columns {
-  Vec3 a, b, c;
-};
-
-HWY_INLINE V minorOf(V p, V q, V r, V s, V t) {  // p q - (r s + t)
-  return hn::MulSub(p, q, hn::MulAdd(r, s, t));
-}
-HWY_INLINE V ownMinorOf(V p, V q, V r, V s) {  // (1 + p)(1 + q) - 1 - r s
-  return hn::NegMulAdd(r, s, hn::Add(hn::MulAdd(p, q, p), q));
-}
-/// cof(1 + D) - 1, without cancellation.
-HWY_INLINE Columns cofactorsOf(const Columns& d) {
-  const Vec3 &a = d.a, &b = d.b, &c = d.c;
-  return {{ownMinorOf(b.y, c.z, b.z, c.y), minorOf(b.z, c.x, b.x, c.z, b.x), minorOf(b.x, c.y, b.y, c.x, c.x)},
-          {minorOf(c.y, a.z, c.z, a.y, a.y), ownMinorOf(c.z, a.x, c.x, a.z), minorOf(c.x, a.y, c.y, a.x, c.y)},
-          {minorOf(a.y, b.z, a.z, b.y, a.z), minorOf(a.z, b.x, a.x, b.z, b.z), ownMinorOf(a.x, b.y, a.y, b.x)}};
-}
-/// det(1 + D) - 1. @param c  cofactorsOf(d)
-HWY_INLINE V dilationOf(const Columns& d, const Columns& c) {
-  return hn::MulAdd(d.a.x, c.a.x, hn::MulAdd(d.a.y, c.a.y, hn::MulAdd(d.a.z, c.a.z, hn::Add(d.a.x, c.a.x))));
-}
-/// (1 + M) v and (1 + M)^T v.
-HWY_INLINE Vec3 timesOf(const Columns& m, const Vec3& v) {
-  return mulAdd(v.x, m.a, mulAdd(v.y, m.b, mulAdd(v.z, m.c, v)));
-}
-HWY_INLINE Vec3 transposedOf(const Columns& m, const Vec3& v) {
-  const auto of = [&](const Vec3& column, V own) HWY_ATTR {
-    return hn::MulAdd(column.x, v.x, hn::MulAdd(column.y, v.y, hn::MulAdd(column.z, v.z, own)));
-  };
-  return {of(m.a, v.x), of(m.b, v.y), of(m.c, v.z)};
-}
-/// p + x a + y b + z c
-HWY_INLINE Vec3 plusThree(const Vec3& p, const Vec3& x, V a, const Vec3& y, V b, const Vec3& z, V c) {
-  return mulAdd(a, x, mulAdd(b, y, mulAdd(c, z, p)));
-}
-/// p - x a - y b - z c
-HWY_INLINE Vec3 minusThree(const Vec3& p, const Vec3& x, V a, const Vec3& y, V b, const Vec3& z, V c) {
-  const auto of = [&](V p1, V x1, V y1, V z1)
-                      HWY_ATTR { return hn::NegMulAdd(x1, a, hn::NegMulAdd(y1, b, hn::NegMulAdd(z1, c, p1))); };
-  return {of(p.x, x.x, y.x, z.x), of(p.y, x.y, y.y, z.y), of(p.z, x.z, y.z, z.z)};
-}
-
-/// What W needs of J = 1 + e: phi = J^(-2/3), its slope as -3/2 phi'/phi, and 1/J.
-struct Volume {
-  V phi, slope, inverse;
-};
-/// @tparam kAny  J may be less than kLeastVolume
-template <bool kAny>
-HWY_INLINE Volume volumeOf(V e) {
-  const hn::RebindToSigned<Tag> di;
-  const V one = set(1), least = set(kLeastVolume), here = hn::Add(e, one), j = hn::Max(here, least);
-  // J^(-1/3): a first guess from the bits, to 4 %, then twice t (1 + k/3 + 2 k^2/9), k = 1 - J t^3.
-  const V third = hn::Mul(hn::ConvertTo(Tag(), hn::BitCast(di, j)), set(1.0f / 3));
-  V t = hn::BitCast(Tag(), hn::Sub(hn::Set(di, 0x54a21d2a), hn::NearestInt(third)));
-  for (int i = 0; i < 2; ++i) {
-    const V k = hn::NegMulAdd(hn::Mul(j, t), hn::Mul(t, t), one);
-    t = hn::MulAdd(hn::Mul(t, k), hn::MulAdd(k, set(2.0f / 9), set(1.0f / 3)), t);
-  }
-  Volume v;
-  v.phi = hn::Mul(t, t);
-  v.inverse = v.slope = hn::Mul(v.phi, t);
-  if constexpr (kAny) {
-    const M below = hn::Lt(here, least);
-    const V rest = hn::Sub(hn::Add(least, least), here);
-    const V grown = hn::MulAdd(set(2.0f / 3), hn::Div(hn::Sub(least, here), hn::Max(rest, least)), one);
-    v.slope = hn::IfThenElse(below, hn::Div(least, hn::Mul(hn::Mul(rest, rest), grown)), v.slope);
-    v.phi = hn::IfThenElse(below, hn::Mul(v.phi, grown), v.phi);
-  }
-  return v;
-}
-
-/// |1 + D|^2 - 3.
-HWY_INLINE V sizeOf(const Columns& d) {
-  const V trace = hn::Add(d.a.x, hn::Add(d.b.y, d.c.z));
-  return hn::MulAdd(set(2), trace, hn::Add(dot(d.a, d.a), hn::Add(dot(d.b, d.b), dot(d.c, d.c))));
-}
-
-/// x of the stiffening law. @param size  |F|^2 - 3
-HWY_INLINE V shearOf(V phi, V size) {
-  return hn::MulSub(phi, hn::Add(size, set(3)), set(3));
-}
-/// How much more shear resists, at x.
-inline HWY_NOINLINE V stifferAt(const LawBody& body, V x) {
-  return hn::Exp(Tag(), hn::Min(hn::Mul(body.stiffening, x), set(kMostExponent)));
-}
-
-/// mu dW/dF. @param c, e, v  of d
-template <bool kAny>
-HWY_INLINE Columns lawStress(const LawBody& body, V mu, const Columns& d, const Columns& c, V e, const Volume& v) {
-  const V third = set(1.0f / 3), one = set(1), size = sizeOf(d);
-  V off = hn::Mul(hn::MulSub(third, size, e), v.inverse), y = hn::Mul(e, v.inverse);
-  if constexpr (kAny) {
-    const M below = hn::Lt(hn::Add(e, one), set(kLeastVolume));
-    off = hn::IfThenElse(below, hn::MulSub(v.slope, hn::MulAdd(third, size, one), one), off);
-    y = hn::IfThenElse(below, hn::Sub(one, v.inverse), y);
-  }
-  V scale = hn::Mul(mu, v.phi);
-  if (HWY_UNLIKELY(body.stiffens)) scale = hn::Mul(scale, stifferAt(body, shearOf(v.phi, size)));
-  const V pressure = hn::Mul(hn::Mul(hn::Mul(set(0.5f), body.bulk), mu), hn::Add(e, y));
-  const V kappa = hn::NegMulAdd(scale, off, pressure), rest = hn::Sub(kappa, scale);
-  Columns p = {mulAdd(rest, c.a, scale * d.a), mulAdd(rest, c.b, scale * d.b), mulAdd(rest, c.c, scale * d.c)};
-  p.a.x = hn::Add(p.a.x, kappa);
-  p.b.y = hn::Add(p.b.y, kappa);
-  p.c.z = hn::Add(p.c.z, kappa);
-  return p;
-}
 
 /// s of three hourglass motions: components along the frame's axes.
 struct Bends {
@@ -165,26 +27,6 @@ struct Bends {
 struct LawMoments {
   Vec3 centroid2, square, mixed;
 };
-
-/// A cell's stress at rest over mu: xx, yy, zz; yz, zx, xy.
-struct LawTension {
-  Vec3 pulled, sheared;
-};
-/// @param numbers  of the first cell; the next is 16 farther
-HWY_INLINE LawTension loadTension(const float* numbers) {
-  return {{load(numbers), load(numbers + 16), load(numbers + 32)},
-          {load(numbers + 48), load(numbers + 64), load(numbers + 80)}};
-}
-/// Columns of F S.
-HWY_INLINE Columns tensionAt(const LawTension& t, const Columns& d) {
-  return {timesOf(d, {t.pulled.x, t.sheared.z, t.sheared.y}), timesOf(d, {t.sheared.z, t.pulled.y, t.sheared.x}),
-          timesOf(d, {t.sheared.y, t.sheared.x, t.pulled.z})};
-}
-/// Adds mu F S to mu dW/dF. @param tension  as of loadTension()
-inline HWY_NOINLINE void addTension(const float* tension, V mu, const Columns& d, Columns& p) {
-  const Columns f = tensionAt(loadTension(tension), d);
-  p = {mulAdd(mu, f.a, p.a), mulAdd(mu, f.b, p.b), mulAdd(mu, f.c, p.c)};
-}
 
 /// Derivatives of s.K.s/2 by s over mu. @tparam kFull  all cells are full, `m` is not looked at
 template <bool kFull>
@@ -262,13 +104,14 @@ HWY_INLINE Columns addCofactorPull(const Columns& p, V r, const Bends& k, const 
 }
 
 /// lawPull() of law.glsl. @param mu  rigidity over 4 h [N], 0 where there is no cell   @param tension  as of
-/// loadTension(); null: none is stressed at rest   @param q  motion of
-/// displacements over 4 h   @param out  derivatives by it [N]   @tparam kFull  all cells are full, `m` is not looked at
+/// loadTension(); null: none is stressed at rest   @param laminate  as of loadLaminate(); null: none is of two
+/// materials   @param q  motion of displacements over 4 h   @param out  derivatives by it [N]   @tparam kFull  all
+/// cells are full, `m` is not looked at
 /// @tparam kAny  cells may be squeezed to less than kLeastVolume
 /// @return false if kAny is needed: `out` is not set then
 template <bool kFull, bool kAny>
-HWY_INLINE bool lawForcesOf(const LawBody& body, const LawMoments& m, const float* tension, V mu, const CellMotion& q,
-                            CellMotion& out) {
+HWY_INLINE bool lawForcesOf(const LawBody& body, const LawMoments& m, const float* tension, const float* laminate, V mu,
+                            const CellMotion& q, CellMotion& out) {
   const V one = set(1), least = set(kLeastVolume - 1);
   const M there = hn::Gt(mu, hn::Zero(Tag()));
   const Columns d = {q.da, q.db, q.dc}, c = cofactorsOf(d);
@@ -294,7 +137,9 @@ HWY_INLINE bool lawForcesOf(const LawBody& body, const LawMoments& m, const floa
     const Columns of_star = cofactorsOf(star);
     const V e_star = hn::IfThenElseZero(there, dilationOf(star, of_star));
     if (!kAny && HWY_UNLIKELY(!hn::AllTrue(Tag(), hn::Ge(e_star, least)))) return false;
-    Columns ps = lawStress<kAny>(body, mu, star, of_star, e_star, volumeOf<kAny>(e_star));
+    Columns ps = HWY_UNLIKELY(laminate != nullptr)
+                     ? laminateStress(body, laminate, mu, star, of_star, e_star)
+                     : lawStress<kAny>(body, mu, star, of_star, e_star, volumeOf<kAny>(e_star));
     if (HWY_UNLIKELY(tension != nullptr)) addTension(tension, mu, star, ps);
     addAtCentroid(body.poisson, {transposedOf(d, ps.a), transposedOf(d, ps.b), transposedOf(d, ps.c)}, m.centroid2, k);
     p = {plusThree(ps.a, ps.a, g.a.x, ps.b, g.b.x, ps.c, g.c.x), plusThree(ps.b, ps.a, g.a.y, ps.b, g.b.y, ps.c, g.c.y),
@@ -318,15 +163,15 @@ HWY_INLINE bool lawForcesOf(const LawBody& body, const LawMoments& m, const floa
   return true;
 }
 template <bool kFull>
-HWY_NOINLINE void squeezedForces(const LawBody& body, const LawMoments& m, const float* tension, V mu,
-                                 const CellMotion& q, CellMotion& out) {
-  lawForcesOf<kFull, true>(body, m, tension, mu, q, out);
+HWY_NOINLINE void squeezedForces(const LawBody& body, const LawMoments& m, const float* tension, const float* laminate,
+                                 V mu, const CellMotion& q, CellMotion& out) {
+  lawForcesOf<kFull, true>(body, m, tension, laminate, mu, q, out);
 }
 template <bool kFull>
-HWY_INLINE void lawForces(const LawBody& body, const LawMoments& m, const float* tension, V mu, const CellMotion& q,
-                          CellMotion& out) {
-  if (HWY_UNLIKELY((!lawForcesOf<kFull, false>(body, m, tension, mu, q, out))))
-    squeezedForces<kFull>(body, m, tension, mu, q, out);
+HWY_INLINE void lawForces(const LawBody& body, const LawMoments& m, const float* tension, const float* laminate, V mu,
+                          const CellMotion& q, CellMotion& out) {
+  if (HWY_UNLIKELY((!lawForcesOf<kFull, false>(body, m, tension, laminate, mu, q, out))))
+    squeezedForces<kFull>(body, m, tension, laminate, mu, q, out);
 }
 
 /// @param numbers  of their brick (CpuStrengths)   @param cell  index of the vector's first cell in it

@@ -112,16 +112,18 @@ HWY_NOINLINE void lawCells(const LawBrick& of, int cell, V rigidity, const Face&
   const CellMotion q = motionOf4(below, above);
   const float* tension = of.job.tension[of.b];
   if (HWY_UNLIKELY(tension != nullptr)) tension += cellNumberAt(static_cast<uint32_t>(cell), 0, kTensionNumbers);
+  const float* laminate = kFull ? nullptr : of.job.laminates[of.b];
+  if (HWY_UNLIKELY(laminate != nullptr)) laminate += cellNumberAt(static_cast<uint32_t>(cell), 0, kLaminateNumbers);
   const LawMoments moments = kFull ? LawMoments{zero3(), zero3(), zero3()} : loadLawMoments(of.job.moments[of.b], cell);
   if (HWY_LIKELY(!of.job.parts)) {
-    lawForces<kFull>(of.body, moments, tension, mu, q, out);
+    lawForces<kFull>(of.body, moments, tension, laminate, mu, q, out);
     return;
   }
   const V bulk = load(of.job.bulk + size_t{of.b} * 64 + static_cast<size_t>(cell));
   const M there = hn::Gt(rigidity, hn::Zero(Tag()));
   const V ratio = hn::IfThenElseZero(there, hn::Div(bulk, hn::Max(rigidity, set(1e-30f))));
   LawBody body = lawBodyOf(of.params, ratio, of.job.dashpot);
-  lawForces<kFull>(body, moments, tension, mu, q, out);
+  lawForces<kFull>(body, moments, tension, laminate, mu, q, out);
 }
 
 /// What the four vectors of cells of a column do. @param i  place of the column's vectors in their planes

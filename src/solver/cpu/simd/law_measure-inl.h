@@ -27,9 +27,9 @@ HWY_INLINE V shearEnergy(const LawBody& body, V x) {
   return hn::Div(hn::Add(hn::Expm1(Tag(), least), straight), body.stiffening);
 }
 
-/// W over mu.
-HWY_INLINE V lawDensity(const LawBody& body, const Columns& d, V e) {
-  const V one = set(1), two = set(2), least = set(kLeastVolume), j = hn::Add(one, e), size = sizeOf(d);
+/// W over mu. @param bulk  K/mu   @param size  |F|^2 - 3
+HWY_INLINE V lawDensity(const LawBody& body, V bulk, V size, V e) {
+  const V one = set(1), two = set(2), least = set(kLeastVolume), j = hn::Add(one, e);
   const V above = hn::Max(e, set(kLeastVolume - 1)), logarithm = hn::Log1p(Tag(), above);
   const V less = hn::Expm1(Tag(), hn::Mul(set(-2.0f / 3), logarithm));  // phi - 1
   const V shape = hn::MulAdd(set(3), less, hn::Mul(hn::Add(one, less), size));
@@ -38,7 +38,7 @@ HWY_INLINE V lawDensity(const LawBody& body, const Columns& d, V e) {
   // J^2 - 1 - 2 ln J, its logarithm going on straight below kLeastVolume
   const V straight = hn::Add(logarithm, hn::Div(hn::Sub(j, hn::Max(j, least)), least));
   const V volume = hn::NegMulAdd(two, straight, hn::Mul(e, hn::Add(e, two)));
-  return hn::MulAdd(hn::Mul(set(0.25f), body.bulk), volume,
+  return hn::MulAdd(hn::Mul(set(0.25f), bulk), volume,
                     hn::Mul(set(0.5f), shearEnergy(body, hn::IfThenElse(below, squeezed, shape))));
 }
 
@@ -66,16 +66,16 @@ HWY_INLINE V largestOf(const LawTension& t) {
 }
 
 /// lawStiffening() of law.glsl. @param tension  of its stress at rest
-HWY_INLINE V stiffeningOf(const LawBody& body, const Columns& d, const Columns& c, V e, V tension) {
+HWY_INLINE V stiffeningOf(const LawBody& body, V bulk, const Columns& d, const Columns& c, V e, V tension) {
   const V one = set(1), zero = hn::Zero(Tag()), j = hn::Add(e, one);
   const Volume v = volumeOf<true>(e);
   const V size = hn::Add(set(3), sizeOf(d)), x = hn::MulSub(v.phi, size, set(3)), across = largestOf(c);
   const V shear = body.stiffens ? hn::Mul(v.phi, stifferAt(body, x)) : v.phi, slope = hn::Mul(shear, v.slope);
   const V pressing = hn::MulAdd(hn::Mul(set(5.0f / 9), hn::Mul(slope, v.slope)), size,
-                                hn::Mul(hn::Mul(set(0.5f), body.bulk), hn::MulAdd(v.inverse, v.inverse, one)));
+                                hn::Mul(hn::Mul(set(0.5f), bulk), hn::MulAdd(v.inverse, v.inverse, one)));
   V waves = hn::Add(tension, hn::MulAdd(pressing, across, shear));
   waves = hn::NegMulAdd(hn::Mul(set(4.0f / 3), slope), hn::Max(j, zero), waves);
-  const V turned = hn::MulAdd(set(2.0f / 3), slope, hn::Mul(hn::Mul(set(0.5f), body.bulk), v.inverse));
+  const V turned = hn::MulAdd(set(2.0f / 3), slope, hn::Mul(hn::Mul(set(0.5f), bulk), v.inverse));
   waves = hn::IfThenElse(hn::Lt(j, set(kLeastVolume)), hn::MulAdd(turned, hn::Sqrt(size), waves), waves);
   if (body.stiffens) {  // along d x / d F = 2 phi (F - size/(3 J) C)
     const V y = hn::Mul(body.stiffening, x), third = hn::Mul(set(1.0f / 3), hn::Mul(size, v.inverse));
@@ -85,7 +85,31 @@ HWY_INLINE V stiffeningOf(const LawBody& body, const Columns& d, const Columns& 
     waves = hn::Add(waves, hn::IfThenElseZero(grows, more));
   }
   // lambda/mu + 2 = K/mu + 4/3
-  return hn::Max(one, hn::Div(waves, hn::Add(body.bulk, set(4.0f / 3))));
+  return hn::Max(one, hn::Div(waves, hn::Add(bulk, set(4.0f / 3))));
+}
+
+/// Energy of cells of two materials over mu, and lawLaminateStiffening() of laminate.glsl: the mean of the layers', by
+/// what they are of the fastest wave at rest.
+struct LaminateMeasured {
+  V density, stiffening;
+};
+inline HWY_NOINLINE LaminateMeasured measureLaminate(const LawBody& body, const float* numbers, const Columns& d,
+                                                     const Columns& c, V e, V tension) {
+  LawLaminate l = loadLaminate(numbers);
+  findJump(body, d, c, e, l);
+  const Columns by = jumpColumns(l), turn = jumpCofactors(l, d);
+  LaminateMeasured out = {hn::Zero(Tag()), hn::Zero(Tag())};
+  for (const LawLayer* y : {&l.a, &l.b}) {
+    const auto moved = [&](const Columns& from, const Columns& jump) HWY_ATTR {
+      return Columns{mulAdd(y->s, jump.a, from.a), mulAdd(y->s, jump.b, from.b), mulAdd(y->s, jump.c, from.c)};
+    };
+    const V of_waves = hn::Mul(y->weight, hn::Add(y->bulk, set(4.0f / 3)));
+    out.density = hn::MulAdd(y->weight, lawDensity(body, y->bulk, y->size, y->e), out.density);
+    out.stiffening =
+        hn::MulAdd(of_waves, stiffeningOf(body, y->bulk, moved(d, by), moved(c, turn), y->e, tension), out.stiffening);
+  }
+  out.stiffening = hn::Div(out.stiffening, hn::Add(body.bulk, set(4.0f / 3)));
+  return out;
 }
 
 /// Energy of whole cells [J], and how much stiffer the stiffest is than at rest.
@@ -117,18 +141,27 @@ inline HWY_NOINLINE LawMeasured measureLaw(const CellJob& job, const layout::Bod
   const Columns star = {timesOf(d, g.a) + d.a, timesOf(d, g.b) + d.b, timesOf(d, g.c) + d.c};
   const Columns of_star = cofactorsOf(star);
   const V e_star = dilationOf(star, of_star);
-  V energy = lawDensity(body, star, e_star);
-  energy = hn::MulAdd(set(0.5f), hn::Add(dot(k.x, s.x), hn::Add(dot(k.y, s.y), dot(k.z, s.z))), energy);
-  energy = hn::MulAdd(set(kLawAlternating), dot(q.hxyz, q.hxyz), energy);
-  V tension = none;
+  V tension = none, of_tension = none;
   if (job.tension[slot / 64] != nullptr) {
     const float* at = job.tension[slot / 64] + cellNumberAt(static_cast<uint32_t>(slot % 64), 0, kTensionNumbers);
     const LawTension t = loadTension(at);
-    energy = hn::Add(energy, tensionEnergy(t, star));
+    of_tension = tensionEnergy(t, star);
     tension = largestOf(t);
   }
-  const V stiffening =
-      hn::Max(stiffeningOf(body, d, c, e, tension), stiffeningOf(body, star, of_star, e_star, tension));
+  V energy = lawDensity(body, body.bulk, sizeOf(star), e_star);
+  const float* laminate = job.laminates[slot / 64];
+  V of_layers = none;
+  if (HWY_UNLIKELY(laminate != nullptr)) {
+    laminate += cellNumberAt(static_cast<uint32_t>(slot % 64), 0, kLaminateNumbers);
+    const LaminateMeasured layers = measureLaminate(body, laminate, star, of_star, e_star, tension);
+    energy = layers.density;
+    of_layers = layers.stiffening;
+  }
+  energy = hn::MulAdd(set(0.5f), hn::Add(dot(k.x, s.x), hn::Add(dot(k.y, s.y), dot(k.z, s.z))), energy);
+  energy = hn::MulAdd(set(kLawAlternating), dot(q.hxyz, q.hxyz), energy);
+  energy = hn::Add(energy, of_tension);
+  const V stiffening = hn::Max(stiffeningOf(body, body.bulk, d, c, e, tension),
+                               hn::Max(of_layers, stiffeningOf(body, body.bulk, star, of_star, e_star, tension)));
   return {hn::Mul(rigidity, energy), hn::IfThenElseZero(there, stiffening)};
 }
 

@@ -109,6 +109,7 @@ CpuStrengths::CpuStrengths(const Model& model, const CpuStore& store, const Feat
     for (const Body& body : model.bodies) has_parts |= !body.parts.empty();
     spreadMoments(store);
     spreadTensions(store);
+    spreadLaminates(store);
   }
   refreshAll(store);
 }
@@ -258,6 +259,33 @@ void CpuStrengths::spreadTensions(const CpuStore& store) {
     const float six[] = {s[0].x, s[0].y, s[0].z, s[1].x, s[1].y, s[1].z};
     for (uint32_t n = 0; n < simd::kTensionNumbers; ++n)
       planes[simd::cellNumberAt(local, n, simd::kTensionNumbers)] = six[n];
+  }
+}
+
+/// Makes brick_laminates: cells of one material have two equal layers, whose gradients do not differ.
+void CpuStrengths::spreadLaminates(const CpuStore& store) {
+  constexpr size_t kBrick = simd::kLaminateNumbers * layout::kBrickSlots;
+  std::vector<uint32_t> bricks;
+  brick_laminates.assign(store.brickCount(), nullptr);
+  for (uint32_t slot = 0; slot < store.slotCount(); ++slot) {
+    const uint32_t brick = slot / layout::kBrickSlots;
+    if (moments.laminateOf(slot) != nullptr && (bricks.empty() || bricks.back() != brick)) bricks.push_back(brick);
+  }
+  laminate_planes_.resize(bricks.size() * kBrick);
+  for (size_t i = 0; i < bricks.size(); ++i) {
+    float* planes = &laminate_planes_[i * kBrick];
+    brick_laminates[bricks[i]] = planes;
+    for (uint32_t local = 0; local < layout::kBrickSlots; ++local) {
+      const uint32_t slot = bricks[i] * layout::kBrickSlots + local;
+      const layout::vec4* l = moments.laminateOf(slot);
+      const float rigidity = table_.rigidity_j[slot];
+      const float bulk = 5.0f / 3 + (rigidity > 0 ? table_.bulk_j[slot] / rigidity : 0);
+      const float none[] = {1, 0, 0, 1, 1, 1, bulk, bulk};
+      for (uint32_t n = 0; n < simd::kLaminateNumbers; ++n) {
+        const float* of_vector = l == nullptr ? none : n < 4 ? &l[0].x : &l[1].x - 4;
+        planes[simd::cellNumberAt(local, n, simd::kLaminateNumbers)] = of_vector[n];
+      }
+    }
   }
 }
 

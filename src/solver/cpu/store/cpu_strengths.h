@@ -36,11 +36,13 @@ struct CpuStrengths {
   AlignedVector<float> rigidity;  ///< [slots] J of the cell above the node (law.glsl); 0 torn, absent, or of springs;
                                   ///< empty without a law
   JoinedMoments moments;          ///< empty without
-  std::vector<const float*> brick_moments;   ///< [bricks] [9 * 64] moments of its cells, number by number, the
-                                             ///< those of LawMoments (law-inl.h); null where all are full; empty
-                                             ///< without a law
-  std::vector<const float*> brick_tensions;  ///< [bricks] [kTensionNumbers * 64] stress at rest of its cells over mu,
-                                             ///< number by number; null where none has one; empty without a law
+  std::vector<const float*> brick_moments;    ///< [bricks] [9 * 64] moments of its cells, number by number, the
+                                              ///< those of LawMoments (law-inl.h); null where all are full; empty
+                                              ///< without a law
+  std::vector<const float*> brick_tensions;   ///< [bricks] [kTensionNumbers * 64] stress at rest of its cells over mu,
+                                              ///< number by number; null where none has one; empty without a law
+  std::vector<const float*> brick_laminates;  ///< [bricks] [kLaminateNumbers * 64] laminates of its cells, number by
+                                              ///< number; null where none is of two materials; empty without a law
   std::vector<float*> broken;          ///< [bricks] [kBrokenNumbers * 64] stiffness times 4 h of the springs within
                                        ///< cells of a law that have lost one, number by number (kernels.h) [N];
                                        ///< null where all are whole; empty without a law
@@ -59,6 +61,7 @@ struct CpuStrengths {
   bool isFull(const CpuStore& store, uint32_t slot) const;
   void spreadMoments(const CpuStore& store);
   void spreadTensions(const CpuStore& store);
+  void spreadLaminates(const CpuStore& store);
   float wholeRigidity(const CpuStore& store, uint32_t slot) const;
   void breakCells(const CpuStore& store, uint32_t slot);
   float* newBrokenPlanes();
@@ -69,6 +72,7 @@ struct CpuStrengths {
 
   AlignedVector<float> moment_planes_;              ///< what brick_moments points to
   AlignedVector<float> tension_planes_;             ///< what brick_tensions points to
+  AlignedVector<float> laminate_planes_;            ///< what brick_laminates points to
   std::vector<AlignedVector<float>> broken_slabs_;  ///< what broken points to: planes of kSlab bricks each
   size_t broken_bricks_ = 0;                        ///< how many there are
   Strengths table_;  ///< of models with parts, whose counts only say alive or cut; else empty

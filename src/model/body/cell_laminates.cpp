@@ -1,0 +1,57 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/model/body/cell_laminates.h"
+
+#include "model/body/mixed_cells.h"
+
+namespace viscera {
+
+namespace {
+
+/// Distance between the centroids of two layers below which their plane has no direction, in cells: layers that meet in
+/// a plane are half a cell apart, but for slivers.
+constexpr double kLeastDistance = 0.02;
+
+/// One material of a cell: how much of it there is, and where.
+struct Layer {
+  const Elasticity* material;
+  uint16_t label;
+  double share = 0;
+  Vector3d first = Vector3d::Zero();
+
+  double ratio() const { return material->bulk_j / material->rigidity_j; }
+};
+
+}  // namespace
+
+CellLaminates cellLaminates(const Body& body) {
+  CellLaminates out;
+  if (body.material.law != Law::kNeoHookean || body.lattice.shared.empty() || body.parts.empty()) return out;
+  const std::vector<Elasticity> by_label = elasticityByLabel(body);
+  forEachMixedCell(body.lattice, by_label, [&](size_t first, size_t last) {
+    std::vector<Layer> layers;
+    for (size_t i = first; i < last; ++i) {
+      const PartFill& part = body.lattice.shared[i];
+      const Elasticity& material = by_label[part.label];
+      size_t at = 0;
+      while (at < layers.size() && !isSame(*layers[at].material, material)) ++at;
+      if (at == layers.size()) layers.push_back({&material, part.label});
+      layers[at].share += part.fill.share;
+      layers[at].first += part.fill.first;
+    }
+    const Vector3d way = layers.size() == 2 ? layers[1].first / layers[1].share - layers[0].first / layers[0].share
+                                            : Vector3d(Vector3d::Zero());
+    if (!(way.norm() >= kLeastDistance)) {
+      ++out.others;
+      return;
+    }
+    const double share_a = layers[0].share / (layers[0].share + layers[1].share);
+    const double mu_a = layers[0].material->rigidity_j, mu_b = layers[1].material->rigidity_j;
+    out.cells.push_back({static_cast<uint32_t>(body.lattice.shared[first].cell), way.normalized(), share_a,
+                         mu_a / (share_a * mu_a + (1 - share_a) * mu_b), layers[0].ratio(), layers[1].ratio(),
+                         layers[0].label});
+  });
+  return out;
+}
+
+}  // namespace viscera
