@@ -3,11 +3,34 @@
 #include <iostream>
 
 #include "cli/commands.h"
+#include "cli/scene_lookup.h"
+#include "viscera/calibration/auto_spacing.h"
 #include "viscera/gpu/context.h"
+#include "viscera/model/body/wall_thickness.h"
 
 namespace viscera::cli {
 
-int check(int device) {
+namespace {
+
+/// Prints what a scene's bodies came to, and how thick their walls are in cells.
+void checkScene(const RunOptions& options) {
+  const Scene scene = withChosenSpacing(sceneOf(options).scene, nullptr, consoleProgress());
+  const Model model = buildModel(scene, consoleProgress());
+  for (const Body& body : model.bodies) {
+    std::cout << body.name << ": " << body.lattice.active_slots.size() << " nodes";
+    if (body.hasCells()) std::cout << ", spacing " << body.lattice.spacing_m * 1e3 << " mm";
+    const std::string walls = wallThicknessText(body);
+    std::cout << '\n' << (walls.empty() ? "" : "  " + walls + '\n');
+  }
+}
+
+}  // namespace
+
+int check(int device, const RunOptions& options) {
+  if (!options.scene.empty()) {
+    checkScene(options);
+    return 0;
+  }
   const gpu::Context context(device);
   for (const gpu::DeviceAttempt& attempt : context.attempts()) {
     std::cout << (attempt.taken ? "* " : "  ") << "device " << attempt.index << ": " << attempt.name << ": "

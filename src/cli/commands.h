@@ -12,9 +12,6 @@
 
 namespace viscera::cli {
 
-/// `viscera check`: EGL devices, which is taken, why others were not.
-int check(int device);
-
 struct RunOptions {
   std::string scene;
   std::string mesh;     ///< empty: what the scene says
@@ -32,6 +29,9 @@ struct RunOptions {
   std::optional<ExportOptions> exported;  ///< into `out`/export
   Overrides overrides;
 };
+/// `viscera check`: EGL devices, which is taken, why others were not; with a scene, its bodies and their walls.
+int check(int device, const RunOptions& options);
+
 /// `viscera run`: a session without ROS.
 int run(const RunOptions& options);
 

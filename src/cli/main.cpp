@@ -36,8 +36,12 @@ void addOverrides(CLI::App* command, Overrides& overrides) {
 }
 
 CLI::App* addCheck(CLI::App& app, Options& o) {
-  CLI::App* check = app.add_subcommand("check", "list the EGL devices and say which is taken, and why others are not");
-  check->add_option("--device", o.device, "take only this device");
+  CLI::App* check = app.add_subcommand(
+      "check", "list the EGL devices and say which is taken, and why others are not; or measure the walls of a scene");
+  CLI::Option* device = check->add_option("--device", o.device, "take only this device");
+  check->add_option("scene", o.run.scene, "print thickness of its walls in cells, and what error to expect of them")
+      ->excludes(device);
+  addOverrides(check, o.run.overrides);
   return check;
 }
 
@@ -298,7 +302,7 @@ struct Command {
   int (*run)(Options&);
 };
 constexpr Command kCommands[] = {
-    {addCheck, [](Options& o) { return cli::check(o.device); }},
+    {addCheck, [](Options& o) { return cli::check(o.device, o.run); }},
     {addRun, runScene},
     {addReplay,
      [](Options& o) { return memoryFor("replaying '" + o.replay.file + "'", [&] { return cli::replay(o.replay); }); }},

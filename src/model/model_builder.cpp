@@ -24,6 +24,7 @@
 #include "model/shape/organ/unit_question.h"
 #include "viscera/math/error.h"
 #include "viscera/model/body/elasticity.h"
+#include "viscera/model/body/wall_thickness.h"
 
 namespace viscera {
 namespace {
@@ -84,6 +85,9 @@ Body buildLatticeBody(const BodyConfig& config, const Scene& scene, const Tissue
   body.skin = bindSkin(surface, body.lattice, solid, config.mapping, progress);
   body.skin.can_be_cut = can_be_cut;
   body.notes.push_back(skinNote(body.skin));
+  const std::optional<WallThickness> thickness = wallThickness(body);
+  if (thickness && expectedWallError(thickness->tenth_m / solid.spacing_m).most > kNotedWallError)
+    body.notes.push_back(wallThicknessText(body));
   if (config.structure != Structure::kExplicit) {
     addCellPrestress(body);
     return body;

@@ -41,6 +41,18 @@ class Messages : public ::testing::Test {
   const std::string scene_ = folder_.write("scene.yaml", kBlockScene);
 };
 
+TEST_F(Messages, CheckSaysHowManyCellsTheWallsOfASceneHave) {
+  const Ending heart = viscera({"check", "heart", "--set", "bodies[0].spacing_m=0.006"});
+  EXPECT_EQ(heart.status, 0) << heart.err;
+  expectSays(heart.out, "spacing 6 mm");
+  expectSays(heart.out, "walls: least ");
+  expectSays(heart.out, " % (an open bowl) too stiff; with spacing_m 0.00");
+  const Ending block = viscera({"check", scene_});
+  EXPECT_EQ(block.status, 0) << block.err;
+  expectSays(block.out, "walls: least ");
+  expectSays(lineOf({"check", "nosuch"}), "'nosuch' is neither a file nor the name of a shipped scene");
+}
+
 TEST_F(Messages, CallTabsAndWrongIndentsSo) {
   const std::string tab = "indented by a tab; YAML accepts blanks alone";
   expectSays(lineOfScene("name: a\nbodies:\n\t- name: b\n"), "bad.yaml:3: the line is " + tab);

@@ -32,6 +32,8 @@ class TriangleTree {
   /// whose front faces along `direction`.
   /// @param direction  unit
   MeshPlace along(const Vector3f& point_m, const Vector3f& direction, float within_m) const;
+  /// Returns the first place ahead of the point whose front faces along `direction`, if there is one.
+  MeshPlace ahead(const Vector3f& point_m, const Vector3f& direction) const;
 
  private:
   struct Node {
@@ -44,6 +46,7 @@ class TriangleTree {
     uint32_t triangle;
   };
   void build(size_t first, size_t last);
+  MeshPlace onLine(const Vector3f& point_m, const Vector3f& direction, float within_m, bool both_ways) const;
 
   std::vector<Node> nodes_;
   std::vector<Corners> corners_;
