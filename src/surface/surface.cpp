@@ -83,7 +83,6 @@ std::vector<uint32_t> chartsOfPieces(const JoinedSkins& skins) {
 }
 
 constexpr float kBelowLayers_m = 0.02F;  // skin, fat and what else scenes have are thinner
-constexpr size_t kRoomForWounds = 2;  // times the vertices and triangles of the skins: beyond it a tick makes buffers
 
 /// What of a vertex is so. @param shares  [slots]
 float shareAt(const std::vector<float>& shares, const layout::SkinBinding& b) {
@@ -96,7 +95,7 @@ float shareAt(const std::vector<float>& shares, const layout::SkinBinding& b) {
 Surface::Surface(const Model& model) {
   JoinedSkins skins = joinSkins(model);
   vertices_ = whole_vertices_ = skins.bindings.size();
-  requireSkinFits(vertices_);
+  requireSkinFits(vertices_, Wounds::possible(model));
   const size_t triangles = skins.triangles.size() / 3;
   carried_nodes_ = gpu::Buffer<layout::SurfaceNode>(skins.carried_nodes, "surface nodes");
   summed_nodes_ = gpu::Buffer<layout::SurfaceNode>(skins.summed_nodes, "surface nodes");

@@ -13,6 +13,7 @@
 #include <map>
 #include <random>
 
+#include "model/mesh_samples.h"
 #include "model/shape/mesh/fewer_faces.h"
 #include "model/shape/mesh/plain_meshes.h"
 #include "model/shape/mesh/triangle_tree.h"
@@ -135,6 +136,19 @@ TEST_F(DetailBake, FewerFacesLeaveAClosedMesh) {
   EXPECT_EQ(open, 0u);
   constexpr double kVolume = 0.01;  // share: chords of 3000 faces cut off a half of it
   EXPECT_NEAR(signedVolume(skin) / (4.0 / 3 * M_PI * std::pow(kRadius_m, 3)), 1, kVolume);
+}
+
+TEST_F(DetailBake, SmallPartsKeepTheirFacesBesideLargeOnes) {
+  TriangleMesh mesh = bumpyBall(1e-3);  // a part of fewer faces than any is simplified to, as an atlas has
+  const TriangleMesh box = test::boxMesh({0.1F, 0, 0}, {0.11F, 0.01F, 0.01F});
+  const auto first = static_cast<uint32_t>(mesh.positions_m.size());
+  mesh.positions_m.insert(mesh.positions_m.end(), box.positions_m.begin(), box.positions_m.end());
+  for (const auto& t : box.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  mesh.parts.resize(mesh.triangles.size(), static_cast<uint16_t>(mesh.part_names.size()));
+  mesh.part_names.push_back("box");
+  const TriangleMesh skin = withFewerFaces(mesh, 3000);
+  EXPECT_EQ(std::count(skin.parts.begin(), skin.parts.end(), skin.part_names.size() - 1),
+            static_cast<std::ptrdiff_t>(box.triangles.size()));
 }
 
 TEST_F(DetailBake, IsFoundInTheCacheByItsContents) {

@@ -30,7 +30,8 @@ TriangleMesh withFewerFaces(const TriangleMesh& mesh, size_t faces) {
   for (size_t part = 0; part < of_part.size(); ++part) {
     const std::vector<unsigned>& indices = of_part[part];
     if (indices.empty()) continue;
-    const size_t wanted = std::max(static_cast<size_t>(share * static_cast<double>(indices.size()) / 3), kLeastFaces);
+    const size_t has = indices.size() / 3, least = std::min(kLeastFaces, has);  // meshopt_simplify aborts on more
+    const size_t wanted = std::max(static_cast<size_t>(share * static_cast<double>(has)), least);
     std::vector<unsigned> fewer(indices.size());
     // Borders stay where they are: other parts may share them.
     fewer.resize(meshopt_simplify(fewer.data(), indices.data(), indices.size(), mesh.positions_m[0].data(),
