@@ -142,6 +142,8 @@ TEST_F(ImportLimitsTest, OtherFormatsAreReadWhereTheSceneSaysSo) {
   expectRefused("mesh.off", off, {"'.off'", "import_limits.other_formats"});
   limits_.other_formats = true;
   EXPECT_EQ(triangles("mesh.off", off), 1u);
+  const std::string lost = "OFF\n3 1 3\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n";  // whose last vertex assimp takes for 2
+  expectRefused("lost.off", lost, {"a face refers to a vertex that does not exist"});
 }
 
 }  // namespace

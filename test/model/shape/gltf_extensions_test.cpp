@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "model/mesh_files.h"
 #include "model/mesh_samples.h"
 #include "support/temporary_folder.h"
@@ -22,6 +24,21 @@ class GltfExtensions : public ::testing::Test {
   }
   TemporaryFolder folder_;
 };
+
+/// A buffer within the JSON.
+std::string dataUri(const std::string& bytes) {
+  static const std::string kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    uint32_t three = 0;
+    for (size_t k = 0; k < 3; ++k)
+      three = three << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    for (int shift = 18; shift >= 0; shift -= 6) text += kDigits[three >> shift & 63];
+  }
+  for (size_t k = 0; k < (3 - bytes.size() % 3) % 3; ++k) text[text.size() - 1 - k] = '=';
+  return R"({"byteLength":)" + std::to_string(bytes.size()) + R"(,"uri":"data:application/octet-stream;base64,)" +
+         text + "\"}";
+}
 
 /// A box of 1 m whose corners and triangles are in a file.
 std::string boxGltf(const std::string& uri, const std::string& extensions = "") {
@@ -97,6 +114,39 @@ TEST_F(GltfExtensions, QuantisedPositionsAreRead) {
   EXPECT_NEAR(signedVolume(importMesh(folder_.write("box.glb", glb), 1)), 1e-3, 1e-9);
   folder_.write("q.bin", quantisedBytes(100).substr(0, 60));
   EXPECT_TRUE(says(refusal(quantisedBox(uri, true)), {"shape.gltf", "accessor 0 reaches beyond its buffer"}));
+}
+
+/// A box whose indices have so many bytes, and one of them out of range, beside one that is whole and has no indices.
+std::string boxWithIndex(size_t bytes, uint32_t index) {
+  const TriangleMesh box = boxMesh({0, 0, 0}, {1, 1, 1});
+  std::string corners, indices, plain;
+  for (const Vector3f& p : box.positions_m) corners += bytesOf(p);
+  for (const auto& t : box.triangles) {
+    for (const uint32_t v : t) {
+      indices += bytesOf(indices.size() == 17 * bytes ? index : v).substr(0, bytes);
+      plain += bytesOf(Vector3f(box.positions_m[v] + Vector3f(2, 0, 0)));
+    }
+  }
+  const std::string type = bytes == 1 ? "5121" : bytes == 2 ? "5123" : "5125";
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0},{"mesh":1}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":2}}]},
+{"name":"liver","primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"accessors":[
+{"bufferView":0,"componentType":5126,"type":"VEC3","count":8},{"bufferView":1,"componentType":)" +
+         type + R"(,"type":"SCALAR","count":36},{"bufferView":2,"componentType":5126,"type":"VEC3","count":36}],
+"bufferViews":[{"buffer":0,"byteLength":96},{"buffer":1,"byteLength":)" +
+         std::to_string(36 * bytes) + R"(},{"buffer":2,"byteLength":432}],"buffers":[)" + dataUri(corners) + "," +
+         dataUri(indices) + "," + dataUri(plain) + "]}";
+}
+
+TEST_F(GltfExtensions, IndicesBeyondTheVerticesAreNamed) {
+  for (const auto& [bytes, index] : std::map<size_t, uint32_t>{{1, 200}, {2, 9999}, {4, 999999}}) {
+    EXPECT_TRUE(
+        says(refusal(boxWithIndex(bytes, index)),
+             {"shape.gltf", "mesh 1 ('liver'), primitive 0: index 17 is " + std::to_string(index), "8 vertices"}));
+    const std::string good =
+        folder_.write("good.gltf", boxWithIndex(bytes, boxMesh({0, 0, 0}, {1, 1, 1}).triangles[5][2]));
+    EXPECT_NEAR(signedVolume(importMesh(good, 1)), 2, kGltfRounding) << bytes;
+  }
 }
 
 TEST_F(GltfExtensions, NamesOfFilesMayBeEscaped) {

@@ -179,6 +179,21 @@ bool isQuantised(const GltfTree& tree) {
   return false;
 }
 
+/// Triangles that are listed, strips and fans among them.
+double listedTriangles(const GltfTree& tree) {
+  double all = 0;
+  for (const auto& mesh : tree.meshes) {
+    for (const GltfTree::Primitive& primitive : mesh) {
+      double corners = 0;
+      for (const uint64_t accessor : primitive.indices.empty() ? primitive.accessors : primitive.indices)
+        corners = std::max(corners, countOf(tree, accessor));
+      if (primitive.mode == GltfTree::kTriangles) all += std::floor(corners / 3);
+      if (primitive.mode > GltfTree::kTriangles) all += std::max(corners - 2, 0.0);
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 bool looksLikeGltf(const std::string& path) {
@@ -209,6 +224,7 @@ GltfFacts requireGltfWithin(const std::string& path, const ImportLimits& limits)
   requireTriangles(tree, instances, limits);
   GltfFacts facts;
   facts.is_quantised = isQuantised(tree);
+  facts.triangles = listedTriangles(tree);
   facts.is_draco =
       std::find(tree.required.begin(), tree.required.end(), "KHR_draco_mesh_compression") != tree.required.end();
   return facts;

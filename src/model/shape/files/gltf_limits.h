@@ -12,6 +12,7 @@ namespace viscera {
 struct GltfFacts {
   bool is_draco = false;      ///< it requires KHR_draco_mesh_compression
   bool is_quantised = false;  ///< some attribute that is usually real has whole numbers
+  double triangles = 0;       ///< that its meshes list, each mesh once
 };
 
 /// Does a file begin as glTF's JSON or as GLB does, whatever its name?

@@ -93,6 +93,7 @@ void GltfTreeReader::keepOfMesh(uint64_t number, const std::string& where) {
   if (inside == "mode") primitive.mode = number;
   for (const char* real : {"attributes.POSITION", "attributes.NORMAL", "attributes.TANGENT", "attributes.TEXCOORD_"})
     if (inside.rfind(real, 0) == 0) primitive.reals.push_back(number);
+  if (inside == "indices") primitive.indices = {number};
   if (inside == "indices" || inside.rfind("attributes.", 0) == 0) primitive.accessors.push_back(number);
   if (inside.rfind("targets.*.", 0) == 0) primitive.of_targets.push_back(number);
 }

@@ -19,7 +19,8 @@ struct GltfTree {
   /// Accessors by number. Those of attributes and indices are as long as each other, those of targets come on top.
   struct Primitive {
     std::vector<uint64_t> accessors, of_targets;
-    std::vector<uint64_t> reals;  ///< accessors of what readers expect as real numbers
+    std::vector<uint64_t> reals;    ///< accessors of what readers expect as real numbers
+    std::vector<uint64_t> indices;  ///< one at most
     uint64_t mode = kTriangles;
   };
   static constexpr uint64_t kTriangles = 4;

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -21,8 +22,10 @@
 #include "math/one_line.h"
 #include "model/scene/file_bounds.h"
 #include "model/shape/files/float_gltf.h"
+#include "model/shape/files/gltf_indices.h"
 #include "model/shape/files/gltf_limits.h"
 #include "model/shape/files/import_limits.h"
+#include "model/shape/files/import_log.h"
 #include "model/shape/files/mesh_look.h"
 #include "model/shape/files/msh_reader.h"
 #include "model/shape/files/ply_reader.h"
@@ -246,6 +249,16 @@ class BoundedFiles : public Assimp::DefaultIOSystem {
   std::map<std::string, std::string> made_;
 };
 
+double trianglesIn(const aiScene& scene) {
+  double all = 0;
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene.mMeshes[m];
+    all += static_cast<double>(
+        std::count_if(mesh.mFaces, mesh.mFaces + mesh.mNumFaces, [](const aiFace& f) { return f.mNumIndices == 3; }));
+  }
+  return all;
+}
+
 /// The scene that assimp makes of a file, polygons as triangles; it belongs to the importer.
 const aiScene& readScene(Assimp::Importer& importer, const std::string& path, const ImportLimits& limits) {
   requireKnownFormat(path, limits);
@@ -254,7 +267,11 @@ const aiScene& readScene(Assimp::Importer& importer, const std::string& path, co
   std::map<std::string, std::string> made;
   if (gltf.is_quantised) made = withFloatAttributes(path, limits);
   importer.SetIOHandler(new BoundedFiles(limits, std::move(made)));  // the importer's from now on
-  const aiScene* scene = importer.ReadFile(path, 0);
+  const aiScene* scene = nullptr;
+  requireVerticesOfFaces(assimpErrorsOf([&] { scene = importer.ReadFile(path, 0); }));
+  const bool lost = scene != nullptr ? trianglesIn(*scene) < gltf.triangles
+                                     : std::strstr(importer.GetErrorString(), "has no faces") != nullptr;
+  if (lost && gltf.triangles > 0) requireGltfIndices(path, limits);
   if (scene != nullptr) {
     requireVerticesInFaces(*scene);
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
