@@ -17,6 +17,7 @@
 #include <rviz/properties/ros_topic_property.h>
 #include <rviz/render_panel.h>
 #include <rviz/view_manager.h>
+#include <QTimer>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <cmath>
@@ -25,6 +26,7 @@
 
 #include "rviz/surface_mesh.h"
 #include "rviz/view_fit.h"
+#include "rviz/window_sizes.h"
 
 namespace viscera::rviz_plugin {
 namespace {
@@ -97,15 +99,9 @@ void SurfaceDisplay::warnOfSamples() const {
            renderer.c_str(), window->getFSAA());
 }
 
-/// Makes Mesa ask for the size of rviz's window again before the first picture. On a software renderer rviz may make
-/// its context before the X server has the window; Mesa then keeps an accidental size, of height 0 too, up to the first
-/// swap, and writes beyond buffers of that size: rviz ended by SIGSEGV or SIGABRT, seldom, oftener on a busy machine.
-void SurfaceDisplay::renewWindowSize() const {
-  context_->getViewManager()->getRenderPanel()->getRenderWindow()->swapBuffers();
-}
-
 void SurfaceDisplay::onInitialize() {
-  renewWindowSize();
+  renewWindowSizes();
+  QTimer::singleShot(0, this, [] { renewWindowSizes(); });  // of displays behind this one in a layout
   warnOfSamples();
   mesh_ = std::make_unique<SurfaceMesh>(scene_manager_, scene_node_);
   view_ = std::make_unique<ViewFit>(context_);
@@ -154,6 +150,7 @@ void SurfaceDisplay::subscribe() {
 }
 
 void SurfaceDisplay::update(float, float) {
+  renewWindowSizes();
   if (feed_.vertices() && feed_.renew()) {
     forget();
     context_->queueRender();

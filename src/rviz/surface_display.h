@@ -41,7 +41,6 @@ class SurfaceDisplay : public rviz::Display {
   void onDisable() override;
 
  private:
-  void renewWindowSize() const;
   void warnOfSamples() const;
   void subscribe();
   bool place();

@@ -3,11 +3,14 @@
 //
 // For LD_PRELOAD: the X server does not have a window yet when it is asked for its size, as happens now and then where
 // one connection has made the window and another one asks. Buffers of no size that are written to end the program.
+// $VISCERA_LATE says which window: 1 is rviz's own, 2 that of the first Image display.
 #include <dlfcn.h>
 #include <sys/mman.h>
 
 #include <cstddef>
 #include <cstdio>
+#include <cstdlib>
+#include <set>
 
 namespace {
 constexpr size_t kPage = 4096;
@@ -19,10 +22,11 @@ extern "C" {
 int XGetGeometry(void* display, unsigned long drawable, unsigned long* root, int* x, int* y, unsigned* width,
                  unsigned* height, unsigned* border, unsigned* depth) {
   static const auto next = reinterpret_cast<decltype(&XGetGeometry)>(dlsym(RTLD_NEXT, "XGetGeometry"));
-  static bool late = true;
+  static const size_t late = std::strtoul(std::getenv("VISCERA_LATE"), nullptr, 10);
+  static std::set<unsigned long> windows;
   const int known = next(display, drawable, root, x, y, width, height, border, depth);
-  if (*width == 1 || !late) return known;  // rviz's window that is never seen
-  late = false;
+  if (*width == 1) return known;  // rviz's window that is never seen
+  if (!windows.insert(drawable).second || windows.size() != late) return known;
   std::fputs("a window came late\n", stderr);
   *width = 168;  // what was on Mesa's stack, as was seen
   *height = 0;

@@ -10,7 +10,7 @@ import unittest
 
 import rospy
 import rostest
-from rviz_screen import MOUSE_SIGN, VIEW, Screen, alone, drawn_hz, rviz
+from rviz_screen import IMAGE, MOUSE_SIGN, VIEW, Screen, alone, drawn_hz, rviz
 from sent_ball import Sender, packed
 from simulator_watch import wait_until
 
@@ -132,10 +132,18 @@ class RvizStrainTest(unittest.TestCase):
 
 class RvizWindowTest(unittest.TestCase):
     def test_a_window_that_the_x_server_gets_late(self):
-        screen, sender = Screen(320, 240), Sender()
-        os.environ["LD_PRELOAD"] = os.environ["VISCERA_LATE_WINDOW"]
-        program = alone(screen, 30, "--disable-anti-aliasing")
-        del os.environ["LD_PRELOAD"]
+        self.draws_although_late("1")
+
+    def test_the_window_of_an_image_that_the_x_server_gets_late(self):
+        self.draws_although_late("2", IMAGE)
+
+    def draws_although_late(self, which, others=""):
+        screen, sender = Screen(640, 480), Sender()
+        late = {"LD_PRELOAD": os.environ["VISCERA_LATE_WINDOW"], "VISCERA_LATE": which}
+        os.environ.update(late)
+        program = alone(screen, 30, "--disable-anti-aliasing", others=others)
+        for name in late:
+            del os.environ[name]
         try:
             def drawn():
                 self.assertIsNone(program.process.poll(), "rviz has ended: " + program.output)

@@ -24,21 +24,23 @@ SIGN_PIXELS = 40  # of the signs of 16 by 16 pixels, without their smooth edges
 ALONE = """Visualization Manager:
   Displays:
     - {Class: viscera/Surface, Name: Ball, Enabled: true, Surface topic: surface, Color by: %s, Value: true}
-  Global Options: {Background Color: 32; 36; 40, Fixed Frame: tissue, Frame Rate: %d}
+%s  Global Options: {Background Color: 32; 36; 40, Fixed Frame: tissue, Frame Rate: %d}
   Views:
     Current: {Class: rviz/Orbit, Distance: 0.14, Near Clip Distance: 0.01, Pitch: 0.3, Yaw: 4.9, Focal Point: {X: 0, Y: 0, Z: 0}}
 """
+IMAGE = "    - {Class: rviz/Image, Name: Image, Enabled: true, Image Topic: /none, Value: true}\n"
 # Of the environment of an rviz that tells how often it draws surfaces.
 DEBUG = {"ROSCONSOLE_CONFIG_FILE": os.path.join(os.path.dirname(os.path.abspath(__file__)), "rviz_debug.conf")}
 
 
-def alone(screen, rate_hz, *options, color_by="sent"):
-    """rviz, full screen, with the display alone: its Program, whose output tells once a second how often it has drawn."""
+def alone(screen, rate_hz, *options, color_by="sent", others=""):
+    """rviz, full screen, with the display alone, or in a window with others after it: its Program, whose output tells once
+    a second how often it has drawn."""
     config = os.path.join(screen.folder.name, "alone.rviz")
     with open(config, "w") as file:
-        file.write(ALONE % (color_by, rate_hz))
+        file.write(ALONE % (color_by, others, rate_hz))
     os.environ.update(DEBUG)
-    return Program(["rosrun", "rviz", "rviz", "-d", config, "-f", "tissue", "--fullscreen", *options])
+    return Program(["rosrun", "rviz", "rviz", "-d", config, "-f", "tissue", *([] if others else ["--fullscreen"]), *options])
 
 
 def drawn_hz(output):
