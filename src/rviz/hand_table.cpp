@@ -57,11 +57,14 @@ void HandTable::makeRows(const std::vector<ToldStylus>& styluses) {
       QComboBox* box = row.modes[which] = new ChoiceBox;
       box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
       box->setMinimumContentsLength(kModeLetters);
+      box->setMinimumWidth(box->fontMetrics().averageCharWidth() * kModeLetters);
+      box->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);  // a table that comes widens no panel
       for (const ToolKind& kind : kToolKinds) box->addItem(kind.name);
       connect(box, QOverload<int>::of(&QComboBox::activated), this, [this, box, name = stylus.name, which] {
         chosen_(name, kSwitches[which], box->currentText().toStdString());
       });
       grid->addWidget(box, line, static_cast<int>(which) + 1);
+      grid->setColumnStretch(static_cast<int>(which) + 1, 1);
     }
     grid->addWidget(row.felt, line + 1, 1, 1, static_cast<int>(kSwitches.size()));
     rows_.push_back(row);

@@ -150,6 +150,11 @@ void SessionPanel::makeButtons(QVBoxLayout* rows) {
   grid->addWidget(step_, 1, 0);
   grid->addWidget(ticks_, 1, 1);
   grid->addWidget(record_, 2, 0, 1, 2);
+  for (QWidget* widget : {static_cast<QWidget*>(reset_), static_cast<QWidget*>(pause_), static_cast<QWidget*>(step_),
+                          static_cast<QWidget*>(ticks_), static_cast<QWidget*>(record_)})
+    widget->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);  // halves of the panel, whatever their texts
+  grid->setColumnStretch(0, 1);
+  grid->setColumnStretch(1, 1);
   rows->addLayout(grid);
   connect(reset_, &QPushButton::clicked, this, [this] { call<std_srvs::Trigger>("reset"); });
   connect(pause_, &QPushButton::clicked, this, [this] { call<std_srvs::Trigger>(now_.paused ? "resume" : "pause"); });
