@@ -258,6 +258,18 @@ TEST_F(ImportCommand, ALabelWhoseVoxelsOthersHaveIsLeftOut) {
   EXPECT_TRUE(says(ending.out, {"left out: other labels have all its voxels"})) << ending.out;
 }
 
+TEST_F(ImportCommand, VolumeThatASmoothSurfaceLosesIsNoted) {
+  const std::string dust =
+      realScan("dust.nrrd", [](int i, int j, int k) { return i % 4 == 2 && j % 4 == 2 && k % 4 == 2 ? 1.0F : 0.0F; });
+  const auto imported = [&](const std::string& file, const std::string& out) {
+    return import({file, "--no-previews", "--spacing", "0.01", "--out", folder_.file(out)});
+  };
+  const Ending lost = imported(dust, "specks");
+  EXPECT_EQ(lost.status, 0) << lost.err;
+  EXPECT_TRUE(says(lost.out, {"note: label_1: its surface encloses 1.06 of the 1.73 cm3 of its voxels"})) << lost.out;
+  EXPECT_EQ(imported(scan(), "block").out.find("its surface encloses"), std::string::npos);
+}
+
 TEST_F(ImportCommand, TakesALabelOrAWindow) {
   const Ending seven = import({scan(), "--labels", "7", "--spacing", "0.0015", "--out", folder_.file("seven")});
   EXPECT_EQ(seven.status, 0) << seven.err;
