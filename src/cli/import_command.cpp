@@ -264,7 +264,7 @@ std::string sceneOf(const std::vector<Organ>& organs, const std::string& scan) {
     out << "  - {name: " << hand
         << ", idle: probe, button1: grab, button2: cut, probe: {radius_m: " << stylus.probe.radius_m
         << "}, grab: {radius_m: " << stylus.grab.radius_m << "}, cut: {blade_length_m: " << stylus.cut.blade_length_m
-        << "}}\n";
+        << "}, shaft_length_m: " << stylus.shaft_length_m << "}\n";
   }
   // From before, somewhat from the organ's left and from above.
   const double half = kFieldOfViewDeg / 2 * M_PI / 180;

@@ -28,7 +28,8 @@ ToolShadows toolShadows(const ToolMotions& motions, const std::vector<StylusConf
     const double ball_m = kind.tip == ToolTip::kBall ? kind.reach_m(styluses[stylus]) : 0;
     const size_t at = static_cast<size_t>(shadows.count++);
     shadows.tips[at] = withRadius(optical_from_stylus.position_m, ball_m);
-    shadows.ends[at] = withRadius(optical_from_stylus * Vector3d(0, 0, kShaftLength_m), kShaftRadius_m);
+    shadows.ends[at] = withRadius(optical_from_stylus * Vector3d(0, 0, styluses[stylus].shaft_length_m),
+                                  shaftRadius(styluses[stylus]));
   }
   return shadows;
 }

@@ -102,6 +102,13 @@ TEST_F(Fit, ToolsAreNoSmallerThanTheirKeysAccept) {
   EXPECT_NEAR(scene.styluses[0].cut_particles.eraser_radius_m, 0.002 / 40, kRounding);
 }
 
+TEST_F(Fit, ShaftsShrinkWithSmallOrgansAndDoNotGrowWithLargeOnes) {
+  EXPECT_NEAR(fitted(Vector3d::Constant(0.04)).scene.styluses[0].shaft_length_m, 0.4 * 0.12, kRounding);
+  EXPECT_NEAR(fitted(Vector3d::Constant(0.3)).scene.styluses[0].shaft_length_m, 0.12, kRounding);
+  EXPECT_NEAR(fitted(Vector3d::Constant(0.04), {"styluses[0].shaft_length_m=0.1"}).scene.styluses[0].shaft_length_m,
+              0.1, kRounding);
+}
+
 TEST_F(Fit, NorAreObstacles) {
   const std::string rod =
       folder_.write("rod.yaml", std::string(kScene) +

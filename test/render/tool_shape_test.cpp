@@ -97,6 +97,18 @@ TEST(ToolShape, ShaftEndsTwelveCentimetresBehindTheTip) {
   }
 }
 
+TEST(ToolShape, ShaftsAreAsLongAsTheirKeySaysAndTheirThicknessFollows) {
+  StylusConfig small;
+  small.shaft_length_m = 0.03;
+  EXPECT_NEAR(shaftRadius(StylusConfig()), 0.003, 1e-9);
+  EXPECT_NEAR(shaftRadius(small), 0.00075, 1e-9);
+  const ToolShape shape = toolShape(small, ToolMode::kNone), usual = toolShape(StylusConfig(), ToolMode::kNone);
+  ASSERT_EQ(shape.vertices.size(), usual.vertices.size());
+  for (size_t v = 0; v < shape.vertices.size(); ++v)
+    EXPECT_LT((position(shape.vertices[v]) - position(usual.vertices[v]) / 4).norm(), kTight_m);
+  EXPECT_NEAR(lowestZ(toolShape(small, ToolMode::kProbe)), -0.006, kTight_m);  // what acts stays in its true size
+}
+
 TEST(ToolShape, OnlyTheSphereOfWhatHoldsIsTranslucent) {
   for (ToolMode mode : kModes) {
     const ToolShape shape = toolShape(StylusConfig(), mode);

@@ -120,6 +120,8 @@ void visitFields(V& v, StylusConfig& c) {
   v.group("grasper", c.grasper, "grasper: two jaws hold the nodes around the tip, up to their friction");
   v.group("clip", c.clip, "clip: two jaws that have closed set a clip on what is between them");
   v.group("cautery", c.cautery, "cautery: a probe whose tip burns what it touches (docs/lessons/cautery.md)");
+  v.number("shaft_length_m", c.shaft_length_m, {0.001, 1}, "m",
+           "length of the drawn shaft from the tip back, with a thickness of a twentieth; tissue does not touch it");
   v.number("jaw_closing_s", c.jaw_closing_s, {0.02, 10}, "s",
            "time from open to closed of jaws that a button closes, but for scissors");
   v.number("max_force_n", c.max_force_n, {0, 1e3}, "N", "reaction force is saturated here");

@@ -9,7 +9,8 @@
 namespace viscera {
 
 StylusConfig scaledTools(StylusConfig stylus, double scale, double cells) {
-  for (const ToolSize& size : kToolSizes) size.of(stylus) *= size.meets_nodes ? std::max(scale, cells) : scale;
+  for (const ToolSize& size : kToolSizes)
+    size.of(stylus) *= size.meets_nodes ? std::max(scale, cells) : size.only_shrinks ? std::min(scale, 1.0) : scale;
   return withinRanges(stylus);
 }
 

@@ -12,10 +12,11 @@ namespace viscera {
 struct ToolSize {
   const char* key;
   double& (*of)(StylusConfig&);
-  bool meets_nodes = false;  ///< a reach within which it finds nodes, or meets those around
+  bool meets_nodes = false;   ///< a reach within which it finds nodes, or meets those around
+  bool only_shrinks = false;  ///< of what is drawn alone: small organs are not hidden, large ones need nothing larger
 };
 
-inline constexpr std::array<ToolSize, 11> kToolSizes = {{
+inline constexpr std::array<ToolSize, 12> kToolSizes = {{
     {"probe.radius_m", [](StylusConfig& c) -> double& { return c.probe.radius_m; }, true},
     {"grab.radius_m", [](StylusConfig& c) -> double& { return c.grab.radius_m; }, true},
     {"cut.blade_length_m", [](StylusConfig& c) -> double& { return c.cut.blade_length_m; }},
@@ -27,9 +28,11 @@ inline constexpr std::array<ToolSize, 11> kToolSizes = {{
     {"clip.jaw_length_m", [](StylusConfig& c) -> double& { return c.clip.jaw_length_m; }},
     {"clip.opening_m", [](StylusConfig& c) -> double& { return c.clip.opening_m; }},
     {"cautery.radius_m", [](StylusConfig& c) -> double& { return c.cautery.radius_m; }},
+    {"shaft_length_m", [](StylusConfig& c) -> double& { return c.shaft_length_m; }, false, true},
 }};
 
 /// Returns a stylus whose tools are `scale` times as large, but no smaller or larger than their keys accept.
+/// Shafts are never longer than they were.
 /// @param cells  how many times as large the cells are: reaches that meet nodes grow as much, if that is more
 StylusConfig scaledTools(StylusConfig stylus, double scale, double cells = 0);
 

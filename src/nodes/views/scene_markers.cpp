@@ -25,8 +25,8 @@ constexpr double kLetterWithoutCamera_m = 0.01;
 constexpr double kLetterWidth = 0.65;  ///< of its height, the gap to the next with it
 constexpr double kLineHeight = 1.6;    ///< of a letter: rviz looks down at some 30 degrees
 constexpr double kLeastArrow_m = 1e-4;
-constexpr double kLeastThread_m = 5e-4;                 ///< rviz loses lines that are thinner than a pixel
-constexpr double kArrowWidth_m = 2.5 * kShaftRadius_m;  ///< a tool is mostly pushed back along its shaft
+constexpr double kLeastThread_m = 5e-4;  ///< rviz loses lines that are thinner than a pixel
+constexpr double kArrowWidth = 2.5;      ///< in radii of the shaft: a tool is mostly pushed back along it
 constexpr double kHeldPoint_m = 1.5e-3;
 constexpr double kSceneMarkersHead = 2;  ///< width and length of an arrow's head, of its width
 
@@ -204,9 +204,10 @@ void SceneMarkers::addForce(size_t stylus, const SceneLook& look, const ros::Tim
   marker.action = Marker::ADD;
   const Vector3d& tip_m = look.tools[stylus].to.position_m;
   marker.points = {toPoint(tip_m), toPoint(tip_m + arrow_m)};
-  marker.scale.x = kArrowWidth_m;
-  marker.scale.y = kSceneMarkersHead * kArrowWidth_m;
-  marker.scale.z = std::min(kSceneMarkersHead * kArrowWidth_m, 0.5 * arrow_m.norm());
+  const double width_m = kArrowWidth * shaftRadius(styluses_[stylus]);
+  marker.scale.x = width_m;
+  marker.scale.y = kSceneMarkersHead * width_m;
+  marker.scale.z = std::min(kSceneMarkersHead * width_m, 0.5 * arrow_m.norm());
   paint(kYellow, marker);
 }
 
@@ -278,7 +279,7 @@ void SceneMarkers::addNames(const SceneLook& look, const ros::Time& stamp, Marke
   constexpr std::array<uint8_t, 4> kWhite = {255, 255, 255, 255};
   std::vector<Label> labels = cameras_;
   for (size_t s = 0; s < styluses_.size(); ++s) {
-    const Vector3d beyond_m(0, 0, kShaftLength_m + letter_m_);
+    const Vector3d beyond_m(0, 0, styluses_[s].shaft_length_m + letter_m_);
     if (look.tools[s].present) labels.push_back({styluses_[s].name, look.tools[s].to * beyond_m});
   }
   for (size_t i = 0; i < std::min(obstacles_.size(), look.obstacles.size()); ++i) {

@@ -16,33 +16,35 @@ using Color = std::array<uint8_t, 4>;
 
 constexpr uint8_t kOutlineAlpha = 150;
 
-constexpr float kShaftLength = kShaftLength_m, kShaftRadius = kShaftRadius_m, kTipRadius = 0.0006f;
-constexpr float kTaperEnd = 0.030f;
-constexpr float kCollarGap = 0.004f, kCollarLength = 0.008f, kCollarRadius = 0.0036f;
-constexpr float kShortestShaft = 0.03f;                            // of what is held, behind a blade however long
-constexpr float kFingerHalf = 0.0007f, kFingerHalfWide = 0.0014f;  // of a finger, along x and y
+// Shares of the shaft's length.
+constexpr float kShaftRadius = 0.025f, kTipRadius = 0.005f, kTaperEnd = 0.25f;
+constexpr float kCollarGap = 1.0f / 30, kCollarLength = 2.0f / 30, kCollarRadius = 0.03f, kCollarEdge = 1.0f / 120;
+constexpr float kShortestShaft = 0.25f;                                  // of what is held, behind a blade however long
+constexpr float kFingerHalf = 0.7f / 120, kFingerHalfWide = 1.4f / 120;  // of a finger, along x and y
 constexpr float kToolQuarterTurn = static_cast<float>(M_PI / 2);
 
 Color colorOf(const ToolKind& kind, uint8_t alpha = 255) {
   return {kind.color[0], kind.color[1], kind.color[2], alpha};
 }
 
-void addShaft(float from_z, const Color& collar, ToolShape& shape) {
-  constexpr float kBevel = 1e-4f;
-  const float taper_end = std::max(kTaperEnd, from_z + 2 * kBevel), collar_from = taper_end + kCollarGap;
-  const float from_radius = kTipRadius + (kShaftRadius - kTipRadius) * std::min(from_z / kTaperEnd, 1.0f);
+/// @param from  where it begins, in lengths of the shaft
+void addShaft(float length_m, float from, const Color& collar, ToolShape& shape) {
+  constexpr float kBevel = 1.0f / 1200;
+  const Eigen::Affine3f scale(Eigen::Scaling(length_m));
+  const float taper_end = std::max(kTaperEnd, from + 2 * kBevel), collar_from = taper_end + kCollarGap;
+  const float from_radius = kTipRadius + (kShaftRadius - kTipRadius) * std::min(from / kTaperEnd, 1.0f);
   const Profile shaft = Profile()
-                            .line(0, from_z, from_radius, from_z + kBevel)
-                            .line(from_radius, from_z + kBevel, kShaftRadius, taper_end)
-                            .line(kShaftRadius, taper_end, kShaftRadius, kShaftLength - kShaftRadius)
-                            .arc(kShaftRadius, kShaftLength - kShaftRadius, 0, kToolQuarterTurn);
-  addLathe(shaft, Eigen::Affine3f::Identity(), colorOf(kindOf(ToolMode::kNone)), shape);
-  const Profile ring =
-      Profile()
-          .line(kShaftRadius, collar_from - 0.001f, kCollarRadius, collar_from)
-          .line(kCollarRadius, collar_from, kCollarRadius, collar_from + kCollarLength)
-          .line(kCollarRadius, collar_from + kCollarLength, kShaftRadius, collar_from + kCollarLength + 0.001f);
-  addLathe(ring, Eigen::Affine3f::Identity(), collar, shape);
+                            .line(0, from, from_radius, from + kBevel)
+                            .line(from_radius, from + kBevel, kShaftRadius, taper_end)
+                            .line(kShaftRadius, taper_end, kShaftRadius, 1 - kShaftRadius)
+                            .arc(kShaftRadius, 1 - kShaftRadius, 0, kToolQuarterTurn);
+  addLathe(shaft, scale, colorOf(kindOf(ToolMode::kNone)), shape);
+  const float collar_to = collar_from + kCollarLength;
+  const Profile ring = Profile()
+                           .line(kShaftRadius, collar_from - kCollarEdge, kCollarRadius, collar_from)
+                           .line(kCollarRadius, collar_from, kCollarRadius, collar_to)
+                           .line(kCollarRadius, collar_to, kShaftRadius, collar_to + kCollarEdge);
+  addLathe(ring, scale, collar, shape);
 }
 
 /// A blade is a lathe pressed flat: wide along y, its point at the low end.
@@ -78,11 +80,11 @@ void addCup(float radius, const Color& color, ToolShape& shape) {
   addLathe(bell, Eigen::Affine3f::Identity(), color, shape);
 }
 
-/// Where the shaft begins: behind what acts.
+/// Where the shaft begins, in its lengths: behind what acts.
 float shaftStart(const StylusConfig& stylus, const ToolKind& kind) {
-  if (kind.jaws) return std::min(static_cast<float>(kind.jaws(stylus).length_m), kShaftLength - kShortestShaft);
-  if (kind.tip != ToolTip::kBlade) return 0;
-  return std::min(static_cast<float>(bladeSpan(stylus.cut).high_m), kShaftLength - kShortestShaft);
+  const bool is_blade = kind.tip == ToolTip::kBlade;
+  const double acts_m = kind.jaws ? kind.jaws(stylus).length_m : is_blade ? bladeSpan(stylus.cut).high_m : 0;
+  return std::min(static_cast<float>(acts_m / stylus.shaft_length_m), 1 - kShortestShaft);
 }
 
 /// What acts on tissue, in its true size.
@@ -110,10 +112,14 @@ void addTip(const StylusConfig& stylus, const ToolKind& kind, ToolShape& shape) 
 
 }  // namespace
 
+double shaftRadius(const StylusConfig& stylus) {
+  return static_cast<double>(kShaftRadius) * stylus.shaft_length_m;
+}
+
 ToolShape toolWithoutFingers(const StylusConfig& stylus, ToolMode mode) {
   const ToolKind& kind = kindOf(mode);
   ToolShape shape;
-  addShaft(shaftStart(stylus, kind), colorOf(kind), shape);
+  addShaft(static_cast<float>(stylus.shaft_length_m), shaftStart(stylus, kind), colorOf(kind), shape);
   addTip(stylus, kind, shape);
   shape.solid_indices = shape.indices.size();
   if (kind.does(kHolds)) {
@@ -129,7 +135,8 @@ ToolShape fingerShape(const StylusConfig& stylus, ToolMode mode) {
   if (!kind.jaws) return shape;
   const float half = static_cast<float>(kind.jaws(stylus).length_m) / 2;
   Eigen::Affine3f placement = Eigen::Affine3f::Identity();
-  placement.translate(Vector3f(kFingerHalf, 0, half)).scale(Vector3f(kFingerHalf, kFingerHalfWide, half));
+  const float shaft = static_cast<float>(stylus.shaft_length_m), thick = kFingerHalf * shaft;
+  placement.translate(Vector3f(thick, 0, half)).scale(Vector3f(thick, kFingerHalfWide * shaft, half));
   addLathe(sphereProfile(1), placement, colorOf(kind), shape);
   shape.solid_indices = shape.indices.size();
   return shape;

@@ -11,8 +11,8 @@
 
 namespace viscera {
 
-/// A stylus of the usual size.
-constexpr double kShaftLength_m = 0.12, kShaftRadius_m = 0.003;
+/// Radius of the shaft that is drawn of a stylus [m].
+double shaftRadius(const StylusConfig& stylus);
 
 /// Vertex of a drawn tool, as the GPU takes it.
 struct ToolVertex {

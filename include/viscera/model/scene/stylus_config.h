@@ -101,7 +101,8 @@ struct StylusConfig {
   GrasperConfig grasper;
   ClipConfig clip;
   CauteryConfig cautery;
-  double jaw_closing_s = 0.2;  ///< from open to closed, of jaws that a button closes
+  double shaft_length_m = 0.12;  ///< that is drawn, from the tip back; nothing collides with it
+  double jaw_closing_s = 0.2;    ///< from open to closed, of jaws that a button closes
   double max_force_n = 5;
   double max_force_rate_n_per_s = 100;
   double max_torque_nm = 0.2;
