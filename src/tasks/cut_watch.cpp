@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
+#include "math/union_find.h"
 #include "model/body/body_nodes.h"
 #include "tasks/task.h"
 #include "viscera/layout/links.h"
@@ -37,40 +37,27 @@ std::pair<size_t, uint32_t> nearestNode(const Model& model, const Vector3d& to_m
   return out;
 }
 
-/// What of a body hangs together by whole springs.
-class Pieces {
- public:
-  Pieces(const Model& model, size_t body, const CutState& cuts) {
-    const Body& it = model.bodies[body];
-    parents_.resize(it.network ? it.network->masses_kg.size() : it.lattice.nodes.size());
-    std::iota(parents_.begin(), parents_.end(), 0u);
-    if (it.network) {
-      size_t before = 0;
-      for (size_t b = 0; b < body; ++b) before += model.bodies[b].network ? model.bodies[b].network->springs.size() : 0;
-      const std::vector<NetworkSpring>& springs = it.network->springs;
-      for (size_t i = 0; i < springs.size(); ++i)
-        if (cuts.spring_cut.empty() || cuts.spring_cut[before + i] == 0) join(springs[i].a, springs[i].b);
-      return;
-    }
-    const uint32_t offset = model.slotOffset(body);
-    for (const uint32_t slot : it.lattice.active_slots) {
-      for (uint32_t s = 0; s < layout::kSpringsPerNode; s += 2) {
-        const int64_t other = it.lattice.neighborSlot(slot, s);
-        if (other >= 0 && springCount(cuts.nodes[offset + slot], s) > 0) join(slot, static_cast<uint32_t>(other));
-      }
+/// Returns the sets of a body's slots that hang together by whole springs.
+UnionFind piecesOf(const Model& model, size_t body, const CutState& cuts) {
+  const Body& it = model.bodies[body];
+  UnionFind pieces(it.network ? it.network->masses_kg.size() : it.lattice.nodes.size());
+  if (it.network) {
+    size_t before = 0;
+    for (size_t b = 0; b < body; ++b) before += model.bodies[b].network ? model.bodies[b].network->springs.size() : 0;
+    const std::vector<NetworkSpring>& springs = it.network->springs;
+    for (size_t i = 0; i < springs.size(); ++i)
+      if (cuts.spring_cut.empty() || cuts.spring_cut[before + i] == 0) pieces.unite(springs[i].a, springs[i].b);
+    return pieces;
+  }
+  const uint32_t offset = model.slotOffset(body);
+  for (const uint32_t slot : it.lattice.active_slots) {
+    for (uint32_t s = 0; s < layout::kSpringsPerNode; s += 2) {
+      const int64_t other = it.lattice.neighborSlot(slot, s);
+      if (other >= 0 && springCount(cuts.nodes[offset + slot], s) > 0) pieces.unite(slot, static_cast<uint32_t>(other));
     }
   }
-  /// A node of the piece, the same for all of its nodes.
-  uint32_t of(uint32_t slot) {
-    while (parents_[slot] != slot) slot = parents_[slot] = parents_[parents_[slot]];
-    return slot;
-  }
-
- private:
-  void join(uint32_t a, uint32_t b) { parents_[of(a)] = of(b); }
-
-  std::vector<uint32_t> parents_;
-};
+  return pieces;
+}
 
 }  // namespace
 
@@ -116,8 +103,8 @@ Joint::Joint(const Model& model, const Vector3d& one_m, const Vector3d& other_m)
 }
 
 bool Joint::isApart(const CutState& cuts) const {
-  Pieces pieces(model_, body_, cuts);
-  return pieces.of(one_) != pieces.of(other_);
+  UnionFind pieces = piecesOf(model_, body_, cuts);
+  return pieces.find(one_) != pieces.find(other_);
 }
 
 DiscPiece::DiscPiece(const Model& model, const Vector3d& center_m, const Vector3d& normal, double radius_m,
@@ -135,11 +122,11 @@ DiscPiece::DiscPiece(const Model& model, const Vector3d& center_m, const Vector3
 }
 
 bool DiscPiece::isApart(const CutState& cuts) const {
-  Pieces pieces(model_, body_, cuts);
-  const uint32_t piece = pieces.of(center_);
+  UnionFind pieces = piecesOf(model_, body_, cuts);
+  const uint32_t piece = pieces.find(center_);
   size_t disc_nodes = 0;
   for (uint32_t slot = 0; slot < zones_.size(); ++slot) {
-    if (zones_[slot] == Zone::kNone || pieces.of(slot) != piece) continue;
+    if (zones_[slot] == Zone::kNone || pieces.find(slot) != piece) continue;
     if (zones_[slot] == Zone::kOutside) return false;
     disc_nodes += zones_[slot] == Zone::kDisc;
   }

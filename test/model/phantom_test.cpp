@@ -3,9 +3,9 @@
 #include "model/shape/organ/phantom.h"
 
 #include <limits>
-#include <numeric>
 #include <set>
 
+#include "math/union_find.h"
 #include "mesh_samples.h"
 #include "model/body/spacing_search.h"
 #include "solid_probe.h"
@@ -164,19 +164,13 @@ TEST(HeartPhantom, ItsSkinIsClosedWithOneSurfaceOutsideAndThreeInside) {
   const TriangleMesh skin = extractSkin(heart.field, heart.part_names, heart.min_m, heart.max_m, 0.003);
   EXPECT_EQ(openEdges(skin), 0u);
   EXPECT_NEAR(signedVolume(skin), solidOf(heart, 0.002).volumeM3(), 0.03 * signedVolume(skin));
-  std::vector<uint32_t> root(skin.positions_m.size());
-  std::iota(root.begin(), root.end(), 0u);
-  const auto find = [&](uint32_t v) {
-    while (root[v] != v) v = root[v] = root[root[v]];
-    return v;
-  };
+  UnionFind joined(skin.positions_m.size());
   for (const auto& t : skin.triangles) {
-    root[find(t[0])] = find(t[1]);
-    root[find(t[1])] = find(t[2]);
+    joined.unite(t[0], t[1]);
+    joined.unite(t[1], t[2]);
   }
-  std::set<uint32_t> surfaces;
-  for (uint32_t v = 0; v < root.size(); ++v) surfaces.insert(find(v));
-  EXPECT_EQ(surfaces.size(), 4u);
+  const std::vector<uint32_t> surface_of = std::move(joined).all();
+  EXPECT_EQ(std::set<uint32_t>(surface_of.begin(), surface_of.end()).size(), 4u);
 }
 
 TEST(HeartPhantom, RefusesParametersOutOfRange) {

@@ -11,6 +11,7 @@
 #include <set>
 #include <vector>
 
+#include "math/union_find.h"
 #include "support/networks.h"
 #include "surface/surface_rig.h"
 
@@ -69,22 +70,18 @@ inline double areaOf(const std::vector<Corners>& triangles, const std::vector<Ve
 
 /// Pieces that hang together by shared vertices: of each vertex that is drawn, the lowest vertex of its piece.
 inline std::map<uint32_t, uint32_t> drawnPieces(const std::vector<Corners>& triangles) {
-  std::map<uint32_t, uint32_t> parent;
-  const auto root = [&](uint32_t v) {
-    while (parent[v] != v) v = parent[v];
-    return v;
-  };
+  uint32_t most = 0;
+  for (const Corners& t : triangles) most = std::max({most, t[0], t[1], t[2]});
+  UnionFind pieces(size_t{most} + 1);
   for (const Corners& t : triangles) {
-    for (uint32_t v : t) parent.emplace(v, v);
+    pieces.unite(t[0], t[1]);
+    pieces.unite(t[0], t[2]);
   }
+  std::map<uint32_t, uint32_t> lowest;
   for (const Corners& t : triangles) {
-    for (size_t i = 1; i < 3; ++i) {
-      const auto [low, high] = std::minmax({root(t[0]), root(t[i])});
-      parent[high] = low;
-    }
+    for (uint32_t v : t) lowest[v] = pieces.find(v);
   }
-  for (auto& [v, its] : parent) its = root(v);
-  return parent;
+  return lowest;
 }
 
 inline size_t countPieces(const std::vector<Corners>& triangles) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "math/union_find.h"
+
 namespace viscera {
 namespace {
 
@@ -104,28 +106,16 @@ class LineDistance {
 
 }  // namespace
 
-uint32_t Pieces::rootOf(uint32_t piece) {
-  while (parent_[piece] != piece) piece = parent_[piece] = parent_[parent_[piece]];
-  return piece;
-}
-
-uint32_t Pieces::joined(uint32_t a, uint32_t b) {
-  a = rootOf(a);
-  b = rootOf(b);
-  if (a > b) std::swap(a, b);
-  return parent_[b] = a;
-}
-
 Pieces::Pieces(const Mask& mask, uint8_t value) : value_(value) {
+  UnionFind joined;
   const auto piece_of = [&](const std::vector<uint32_t>& touched) {
     if (touched.empty()) {
-      parent_.push_back(static_cast<uint32_t>(parent_.size()));
       voxels_.push_back(0);
       at_border_.push_back(0);
-      return parent_.back();
+      return joined.add();
     }
     uint32_t piece = touched[0];
-    for (const uint32_t other : touched) piece = joined(piece, other);
+    for (const uint32_t other : touched) piece = joined.unite(piece, other);
     return piece;
   };
   walk(mask, value, piece_of, [&](const Run& run, int j, int k) {
@@ -134,12 +124,12 @@ Pieces::Pieces(const Mask& mask, uint8_t value) : value_(value) {
                         k == mask.size.z() - 1;
     if (border) at_border_[run.piece] = 1;
   });
-  for (uint32_t piece = 0; piece < parent_.size(); ++piece) {
-    const uint32_t root = rootOf(piece);
+  root_ = std::move(joined).all();
+  for (uint32_t piece = 0; piece < root_.size(); ++piece) {
+    const uint32_t root = root_[piece];
     if (root == piece) continue;
     voxels_[root] += std::exchange(voxels_[piece], 0);
     at_border_[root] |= at_border_[piece];
-    parent_[piece] = root;
   }
 }
 
@@ -150,10 +140,10 @@ size_t Pieces::count() const {
 void Pieces::assign(Mask& mask, const std::function<bool(uint32_t piece)>& which, uint8_t value) const {
   uint32_t next = 0;  // numbers are given as in the constructor
   const auto piece_of = [&](const std::vector<uint32_t>& touched) {
-    return touched.empty() ? parent_[next++] : touched[0];
+    return touched.empty() ? root_[next++] : touched[0];
   };
-  std::vector<uint8_t> chosen(parent_.size());
-  for (uint32_t piece = 0; piece < parent_.size(); ++piece) chosen[piece] = parent_[piece] == piece && which(piece);
+  std::vector<uint8_t> chosen(root_.size());
+  for (uint32_t piece = 0; piece < root_.size(); ++piece) chosen[piece] = root_[piece] == piece && which(piece);
   walk(mask, value_, piece_of, [&](const Run& run, int j, int k) {
     if (!chosen[run.piece]) return;
     const auto row = mask.voxels.begin() + static_cast<std::ptrdiff_t>(mask.at(0, j, k));

@@ -36,11 +36,8 @@ class Pieces {
   void assign(Mask& mask, const std::function<bool(uint32_t piece)>& which, uint8_t value) const;
 
  private:
-  uint32_t rootOf(uint32_t piece);
-  uint32_t joined(uint32_t a, uint32_t b);
-
   uint8_t value_;
-  std::vector<uint32_t> parent_;  ///< after the constructor: the root of each
+  std::vector<uint32_t> root_;  ///< [piece] the one that it became part of, or itself
   std::vector<uint64_t> voxels_;
   std::vector<uint8_t> at_border_;
 };

@@ -6,9 +6,9 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "math/number_text.h"
+#include "math/union_find.h"
 #include "model/body/body_nodes.h"
 #include "solver/contact/surroundings.h"
 #include "solver/cpu/cpu_backend.h"
@@ -43,30 +43,15 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Pieces of tissue that hang together by springs, as a union-find over slots.
-class Pieces {
- public:
-  explicit Pieces(const Model& model) : parent_(model.slots()) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-    for (const BurntSpring& spring : springsOf(model)) parent_[rootOf(spring.a)] = rootOf(spring.b);
-  }
-  uint32_t rootOf(uint32_t slot) {
-    while (parent_[slot] != slot) slot = parent_[slot] = parent_[parent_[slot]];
-    return slot;
-  }
-
- private:
-  std::vector<uint32_t> parent_;
-};
-
 /// @throws SceneError  a piece of tissue is held nowhere, so that it falls for ever; names its body and where it is
 void requireHeld(const Model& model) {
-  Pieces pieces(model);
+  UnionFind pieces(model.slots());  // of tissue that hangs together by springs
+  for (const BurntSpring& spring : springsOf(model)) pieces.unite(spring.a, spring.b);
   std::vector<uint8_t> is_held(model.slots(), 0);
   std::vector<uint32_t> sizes(model.slots(), 0);
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     for (const uint32_t local : model.bodies[b].lattice.active_slots) {
-      const uint32_t root = pieces.rootOf(model.slotOffset(b) + local);
+      const uint32_t root = pieces.find(model.slotOffset(b) + local);
       ++sizes[root];
       is_held[root] |= static_cast<uint8_t>(isFixed(model.bodies[b].lattice.nodes[local]));
     }
@@ -74,7 +59,7 @@ void requireHeld(const Model& model) {
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     for (const uint32_t local : body.lattice.active_slots) {
-      const uint32_t root = pieces.rootOf(model.slotOffset(b) + local);
+      const uint32_t root = pieces.find(model.slotOffset(b) + local);
       if (is_held[root] || sizes[root] == 1) continue;  // nodes without springs do not fall
       const Vector3d at_m = restPosition(body, local);
       throw SceneError("body '" + body.name + "': a piece of " + std::to_string(sizes[root]) + " nodes at " +

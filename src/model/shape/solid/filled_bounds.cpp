@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <numeric>
 
+#include "math/union_find.h"
 #include "model/shape/solid/joined_parts.h"
 #include "model/shape/solid/solid_crumbs.h"
 
@@ -11,18 +11,12 @@ namespace {
 
 /// Which connected piece each vertex of a shell is of, by its first one.
 std::vector<uint32_t> piecesOf(const Shell& shell) {
-  std::vector<uint32_t> piece(shell.positions_m.size());
-  std::iota(piece.begin(), piece.end(), 0U);
-  const auto first = [&](uint32_t v) {
-    while (piece[v] != v) v = piece[v] = piece[piece[v]];
-    return v;
-  };
+  UnionFind pieces(shell.positions_m.size());
   for (const auto& t : shell.triangles) {
-    const uint32_t a = first(t[0]), b = first(t[1]), c = first(t[2]), least = std::min({a, b, c});
-    piece[a] = piece[b] = piece[c] = least;
+    pieces.unite(t[0], t[1]);
+    pieces.unite(t[0], t[2]);
   }
-  for (uint32_t v = 0; v < piece.size(); ++v) piece[v] = first(v);
-  return piece;
+  return std::move(pieces).all();
 }
 
 struct Piece {

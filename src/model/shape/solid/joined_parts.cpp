@@ -3,9 +3,9 @@
 #include "model/shape/solid/joined_parts.h"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
+#include "math/union_find.h"
 #include "model/shape/solid/triangle_sides.h"
 
 namespace viscera {
@@ -47,10 +47,8 @@ void addOpenEdges(const TriangleMesh& mesh, const std::vector<uint32_t>& of_part
 /// Which parts have borders in common, and which vertices these borders have.
 class Joins {
  public:
-  explicit Joins(const TriangleMesh& mesh) : same(mesh.positions_m.size()), of_parts(trianglesByPart(mesh)) {
-    std::iota(same.begin(), same.end(), 0);
-    groups_.resize(of_parts.size());
-    std::iota(groups_.begin(), groups_.end(), 0);
+  explicit Joins(const TriangleMesh& mesh)
+      : of_parts(trianglesByPart(mesh)), groups(of_parts.size()), vertices(mesh.positions_m.size()) {
     if (of_parts.size() < 2) return;
     std::vector<OpenEdge> edges;
     for (size_t part = 0; part < of_parts.size(); ++part) {
@@ -64,33 +62,16 @@ class Joins {
     }
   }
 
-  /// The first part of those that it is joined with.
-  size_t groupOf(size_t part) { return rootOf(groups_, part); }
-  /// The first vertex of those that meet.
-  uint32_t vertex(uint32_t v) { return rootOf(same, v); }
-
-  std::vector<uint32_t> same;
   std::vector<std::vector<uint32_t>> of_parts;
+  UnionFind groups;    ///< of parts that are joined
+  UnionFind vertices;  ///< of vertices that meet
 
  private:
-  template <class Number>
-  static Number rootOf(std::vector<Number>& parents, Number of) {
-    while (parents[of] != of) of = parents[of] = parents[parents[of]];
-    return of;
-  }
-  template <class Number>
-  static void unite(std::vector<Number>& parents, Number a, Number b) {
-    a = rootOf(parents, a);
-    b = rootOf(parents, b);
-    parents[std::max(a, b)] = std::min(a, b);
-  }
   void join(const OpenEdge& a, const OpenEdge& b) {
-    unite<size_t>(groups_, a.part, b.part);
-    unite(same, a.low_vertex, b.low_vertex);
-    unite(same, a.high_vertex, b.high_vertex);
+    groups.unite(a.part, b.part);
+    vertices.unite(a.low_vertex, b.low_vertex);
+    vertices.unite(a.high_vertex, b.high_vertex);
   }
-
-  std::vector<size_t> groups_;
 };
 
 }  // namespace
@@ -109,11 +90,10 @@ std::vector<double> partAreas(const TriangleMesh& mesh) {
 std::vector<ClosedSurface> closeSurfaces(const TriangleMesh& mesh) {
   Joins joins(mesh);
   std::vector<std::vector<size_t>> groups(joins.of_parts.size());
-  for (size_t part = 0; part < groups.size(); ++part) {
-    if (!joins.of_parts[part].empty()) groups[joins.groupOf(part)].push_back(part);
+  for (uint32_t part = 0; part < groups.size(); ++part) {
+    if (!joins.of_parts[part].empty()) groups[joins.groups.find(part)].push_back(part);
   }
-  std::vector<uint32_t> vertices(joins.same.size());
-  for (uint32_t v = 0; v < vertices.size(); ++v) vertices[v] = joins.vertex(v);
+  const std::vector<uint32_t> vertices = std::move(joins.vertices).all();
   const std::vector<double> areas_m2 = partAreas(mesh);
   const auto smaller = [&](size_t a, size_t b) { return areas_m2[a] < areas_m2[b]; };
   std::vector<ClosedSurface> out;
