@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/shape/files/gltf_file.h"
 
-#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "model/scene/file_bounds.h"
+#include "model/shape/files/gltf_limits.h"
 #include "model/shape/files/import_limits.h"
 #include "model/shape/files/mesh_look.h"
 #include "viscera/math/error.h"
@@ -35,9 +35,9 @@ std::string wordOf(size_t value) {
   return {reinterpret_cast<const char*>(&word), sizeof word};
 }
 
-uint32_t headerWord(const std::string& bytes, size_t at) {
+uint32_t firstWord(const std::string& bytes) {
   uint32_t word = 0;
-  std::memcpy(&word, bytes.data() + at, sizeof word);
+  std::memcpy(&word, bytes.data(), sizeof word);
   return word;
 }
 
@@ -60,16 +60,11 @@ std::string fromBase64(const std::string& text) {
 }  // namespace
 
 GltfFile::GltfFile(std::string path, const ImportLimits& limits) : path_(std::move(path)), limits_(limits) {
-  std::string text = contentsOf(path_, limits_);
-  if (text.compare(0, 4, "glTF") == 0) {
-    const size_t json_bytes = headerWord(text, kGlbHeader), end = kGlbHeader + kChunkHeader + json_bytes;
-    rest_ = text.substr(end);
-    if (rest_.size() >= kChunkHeader) binary_ = rest_.substr(kChunkHeader, headerWord(rest_, 0));
-    text = text.substr(kGlbHeader + kChunkHeader, json_bytes);
-    is_glb_ = true;
-  }
-  text.resize(std::min(text.size(), text.find('\0')));
-  json_ = Json::parse(text);
+  GltfText text = splitGltf(contentsOf(path_, limits_));
+  is_glb_ = text.is_glb;
+  rest_ = std::move(text.chunks);
+  if (rest_.size() >= kChunkHeader) binary_ = rest_.substr(kChunkHeader, firstWord(rest_));
+  json_ = Json::parse(text.json);
 }
 
 GltfFile::Items GltfFile::items(size_t accessor_index, size_t item_bytes) {

@@ -26,8 +26,8 @@ uint32_t wordAt(const std::string& bytes, size_t at) {
   return word;
 }
 
-/// The JSON of a GLB file, all of whose chunks must be there.
-std::string jsonOfGlb(const std::string& bytes) {
+/// Splits a GLB file, all of whose chunks must be there.
+GltfText splitGlb(const std::string& bytes) {
   constexpr size_t kHeader = 12, kChunkHeader = 8;
   constexpr uint32_t kJson = 0x4e4f534a;  // "JSON"
   const uint32_t version = wordAt(bytes, 4);
@@ -43,16 +43,14 @@ std::string jsonOfGlb(const std::string& bytes) {
     at = end;
     if (bytes.size() - at < kChunkHeader) break;  // padding
   }
-  return bytes.substr(kHeader + kChunkHeader, json_bytes);
+  return {bytes.substr(kHeader + kChunkHeader, json_bytes), bytes.substr(kHeader + kChunkHeader + json_bytes), true};
 }
 
 std::string jsonOf(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   TextOut all;
   all << file.rdbuf();
-  std::string text = all.str();
-  if (text.compare(0, std::strlen(kGltfMagic), kGltfMagic) == 0) text = jsonOfGlb(text);
-  text.resize(std::min(text.size(), text.find('\0')));  // some writers pad with it, and readers stop there
+  std::string text = splitGltf(all.str()).json;
   // Names in other encodings than UTF-8 are nothing to stumble on here.
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c >= 0x80; }, '?');
@@ -195,6 +193,13 @@ double listedTriangles(const GltfTree& tree) {
 }
 
 }  // namespace
+
+GltfText splitGltf(std::string bytes) {
+  const bool is_glb = bytes.compare(0, std::strlen(kGltfMagic), kGltfMagic) == 0;
+  GltfText out = is_glb ? splitGlb(bytes) : GltfText{std::move(bytes), "", false};
+  out.json.resize(std::min(out.json.size(), out.json.find('\0')));  // some writers pad with it, and readers stop there
+  return out;
+}
 
 bool looksLikeGltf(const std::string& path) {
   std::ifstream file(path, std::ios::binary);

@@ -15,6 +15,16 @@ struct GltfFacts {
   double triangles = 0;       ///< that its meshes list, each mesh once
 };
 
+/// The text of a glTF or GLB file.
+struct GltfText {
+  std::string json;
+  std::string chunks;  ///< of GLB: what follows the chunk of its JSON, headers included
+  bool is_glb = false;
+};
+
+/// Splits the bytes of a glTF or GLB file. @throws MeshError  a chunk of a GLB file is not there
+GltfText splitGltf(std::string bytes);
+
 /// Does a file begin as glTF's JSON or as GLB does, whatever its name?
 bool looksLikeGltf(const std::string& path);
 
