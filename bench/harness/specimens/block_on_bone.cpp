@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/harness/specimens/block_on_bone.h"
 
+#include "bench/harness/specimens/clamp.h"
+
 namespace viscera::bench {
 
 BodyConfig blockOnBone(const Vector3d& size_m, double spacing_m, double young_modulus_pa) {
@@ -11,11 +13,7 @@ BodyConfig blockOnBone(const Vector3d& size_m, double spacing_m, double young_mo
   body.position_m = Vector3d(0, 0, size_m.z() / 2);
   body.spacing_m = spacing_m;
   body.material.young_modulus_pa = young_modulus_pa;
-  FixedConfig bone;
-  bone.shape = FixedShape::kPlane;
-  bone.point_m = Vector3d(0, 0, -size_m.z() / 2 + 0.1 * spacing_m);
-  bone.normal = Vector3d::UnitZ();
-  body.fixed.push_back(bone);
+  body.fixed.push_back(clampBehind(Vector3d(0, 0, -size_m.z() / 2 + 0.1 * spacing_m), Vector3d::UnitZ()));
   return body;
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/harness/specimens/specimen.h"
 
+#include "bench/harness/specimens/clamp.h"
+
 #include <cmath>
 
 namespace viscera::bench {
@@ -86,11 +88,7 @@ Scene pigHeartScene(int nodes, double dashpot_ratio) {
   scene.bodies.push_back(heartBody(nodes));
   scene.bodies[0].material.dashpot_ratio = dashpot_ratio;
   scene.bodies[0].material.law = Law::kSprings;  // as the paper's
-  FixedConfig top;
-  top.shape = FixedShape::kPlane;
-  top.point_m = Vector3d(0, 0, 0.03);
-  top.normal = -Vector3d::UnitZ();
-  scene.bodies[0].fixed.push_back(top);
+  scene.bodies[0].fixed.push_back(clampAbove(0.03));
   scene.styluses.resize(2);
   scene.styluses[0].name = "left";
   scene.styluses[1].name = "right";

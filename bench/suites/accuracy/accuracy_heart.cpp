@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bench/harness/specimens/beam.h"
+#include "bench/harness/specimens/clamp.h"
 #include "bench/harness/work_precision.h"
 #include "bench/suites/accuracy/accuracy_parts.h"
 #include "viscera/tools/hands.h"
@@ -32,11 +33,7 @@ Scene heartScene(bool short_form) {
   heart.skin = SkinSource::kVolume;
   heart.material.dashpot_ratio = 0;    // verlet_paper knows none
   heart.material.law = Law::kSprings;  // the one that all integrators step
-  FixedConfig top;
-  top.shape = FixedShape::kPlane;
-  top.point_m = Vector3d(0, 0, 0.03);
-  top.normal = -Vector3d::UnitZ();
-  heart.fixed.push_back(top);
+  heart.fixed.push_back(clampAbove(0.03));
   StylusConfig probe, grab;
   probe.probe.radius_m = kProbeRadius_m;
   grab.idle = ToolMode::kNone;

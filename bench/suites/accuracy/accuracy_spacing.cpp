@@ -8,6 +8,7 @@
 
 #include "bench/harness/experiment.h"
 #include "bench/harness/rate.h"
+#include "bench/harness/specimens/clamp.h"
 #include "bench/suites/accuracy/accuracy_parts.h"
 
 namespace viscera::bench {
@@ -49,11 +50,7 @@ Scene sceneOf(const Organ& organ, double spacing_m, Law law) {
   body.skin = SkinSource::kVolume;
   body.material.law = law;
   body.material.drag_per_s = body.material.dashpot_ratio = 0;
-  FixedConfig top;
-  top.shape = FixedShape::kPlane;
-  top.point_m = Vector3d(0, 0, organ.held_z_m);
-  top.normal = -Vector3d::UnitZ();
-  body.fixed.push_back(top);
+  body.fixed.push_back(clampAbove(organ.held_z_m));
   Scene scene;
   scene.bodies.push_back(body);
   return scene;

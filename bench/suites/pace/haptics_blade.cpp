@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/harness/specimens/clamp.h"
 #include "bench/suites/pace/held_trial.h"
 
 namespace viscera::bench {
@@ -56,11 +57,7 @@ Scene sceneOf(const BladeTrial& trial) {
   body.material.young_modulus_pa = trial.young_modulus_pa;
   body.material.cut.toughness_j_per_m2 = trial.toughness_j_per_m2;
   for (const Vector3d& out : {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, -1, 0)}) {
-    FixedConfig fixed;
-    fixed.shape = FixedShape::kPlane;
-    fixed.normal = -out;
-    fixed.point_m = out.cwiseProduct(0.5 * body.box_size_m) - 0.1 * kSpacing_m * out;
-    body.fixed.push_back(fixed);
+    body.fixed.push_back(clampBehind(out.cwiseProduct(0.5 * body.box_size_m) - 0.1 * kSpacing_m * out, -out));
   }
   scene.bodies.push_back(body);
   scene.styluses.resize(1);

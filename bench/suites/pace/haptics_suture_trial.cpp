@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "bench/harness/specimens/clamp.h"
 #include "bench/suites/pace/haptics_trial.h"
 #include "bench/suites/pace/held_trial.h"
 
@@ -95,11 +96,8 @@ BodyConfig slab(double young_modulus_pa) {
   body.spacing_m = kHapticsSutureTrialSpacing_m;
   body.material.young_modulus_pa = young_modulus_pa;
   for (const Vector3d& out : {Vector3d(1, 0, 0), Vector3d(-1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, -1, 0)}) {
-    FixedConfig fixed;
-    fixed.shape = FixedShape::kPlane;
-    fixed.normal = -out;
-    fixed.point_m = out.cwiseProduct(0.5 * body.box_size_m) - 0.1 * kHapticsSutureTrialSpacing_m * out;
-    body.fixed.push_back(fixed);
+    body.fixed.push_back(
+        clampBehind(out.cwiseProduct(0.5 * body.box_size_m) - 0.1 * kHapticsSutureTrialSpacing_m * out, -out));
   }
   return body;
 }

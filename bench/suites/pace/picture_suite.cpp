@@ -7,6 +7,7 @@
 
 #include "bench/harness/rate.h"
 #include "bench/harness/similarity.h"
+#include "bench/harness/specimens/clamp.h"
 #include "bench/harness/specimens/specimen.h"
 #include "bench/suites/pace/performance_suites.h"
 #include "gpu/stage_clock.h"
@@ -35,11 +36,7 @@ Scene heartScene() {
   heart.phantom_length_m = 0.1;
   heart.spacing_m = 0.005;
   heart.skin_spacing_m = 0.003;
-  FixedConfig top;
-  top.shape = FixedShape::kPlane;
-  top.point_m = Vector3d(0, 0, 0.03);
-  top.normal = -Vector3d::UnitZ();
-  heart.fixed.push_back(top);
+  heart.fixed.push_back(clampAbove(0.03));
   for (StylusConfig& stylus : scene.styluses) {
     stylus.button1 = ToolMode::kGrab;
     stylus.button2 = ToolMode::kCut;

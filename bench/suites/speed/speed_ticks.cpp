@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "bench/harness/machine/machine.h"
 #include "bench/harness/specimens/backends.h"
+#include "bench/harness/specimens/clamp.h"
 #include "bench/suites/speed/speed_parts.h"
 #include "calibration/timed_ticks.h"
 #include "cli/scene_lookup.h"
@@ -25,11 +26,7 @@ Scene hangingScene(TissueSource source, int nodes) {
   body.box_size_m = Vector3d::Constant(0.1);
   body.target_nodes = nodes;
   scene.solver.sleep_speed_m_per_s = 0;  // what comes to rest is measured like what moves
-  FixedConfig top;
-  top.shape = FixedShape::kPlane;
-  top.point_m = Vector3d(0, 0, 0.04);
-  top.normal = -Vector3d::UnitZ();
-  body.fixed.push_back(top);
+  body.fixed.push_back(clampAbove(0.04));
   scene.bodies.push_back(body);
   return scene;
 }

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <functional>
 
+#include "bench/harness/specimens/clamp.h"
 #include "bench/suites/stability/stability_suite.h"
 #include "bench/suites/stability/stability_trial.h"
 #include "solver/cpu/cpu_solver.h"
@@ -147,11 +148,7 @@ Scene boxScene(const std::string& file, double unit_m) {
   body.mesh_file = file;
   body.unit_scale_m = unit_m;
   body.spacing_m = kSpacing_m;
-  FixedConfig top;
-  top.shape = FixedShape::kPlane;
-  top.point_m = Vector3d(0, 0, 0.019);
-  top.normal = -Vector3d::UnitZ();
-  body.fixed.push_back(top);
+  body.fixed.push_back(clampAbove(0.019));
   scene.bodies.push_back(body);
   return scene;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "bench/harness/experiment.h"
+#include "bench/harness/specimens/clamp.h"
 #include "bench/suites/stability/stability_suite.h"
 #include "viscera/session/session.h"
 
@@ -37,11 +38,7 @@ Pressed press(Backend backend, gpu::Context* context, const Vector3d& place_m) {
   body.box_size_m = Vector3d(0.03, 0.03, 0.02);
   body.spacing_m = kStabilityPlacesSpacing_m;
   body.position_m = place_m;
-  FixedConfig floor;
-  floor.shape = FixedShape::kPlane;
-  floor.point_m = place_m - Vector3d(0, 0, 0.0099);
-  floor.normal = Vector3d::UnitZ();
-  body.fixed.push_back(floor);
+  body.fixed.push_back(clampBehind(place_m - Vector3d(0, 0, 0.0099), Vector3d::UnitZ()));
   scene.bodies.push_back(body);
   scene.environment.gravity_m_per_s2 = Vector3d::Zero();
   scene.solver.backend = backend;

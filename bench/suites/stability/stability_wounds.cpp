@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/harness/rate.h"
+#include "bench/harness/specimens/clamp.h"
 #include "bench/suites/stability/stability_suite.h"
 #include "viscera/session/session.h"
 
@@ -34,11 +35,8 @@ Scene sceneOf(const Block& block, Backend backend) {
   body.box_size_m = block.size_m();
   body.spacing_m = kStabilityWoundsSpacing_m;
   body.material.young_modulus_pa *= kSofter;
-  FixedConfig floor;
-  floor.shape = FixedShape::kPlane;
-  floor.point_m = Vector3d(0, 0, -block.size_m().z() / 2 + 0.1 * kStabilityWoundsSpacing_m);
-  floor.normal = Vector3d::UnitZ();
-  body.fixed.push_back(floor);
+  body.fixed.push_back(
+      clampBehind(Vector3d(0, 0, -block.size_m().z() / 2 + 0.1 * kStabilityWoundsSpacing_m), Vector3d::UnitZ()));
   scene.bodies.push_back(body);
   scene.environment.gravity_m_per_s2 = Vector3d::Zero();
   scene.solver.backend = backend;

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "bench/harness/specimens/clamp.h"
 #include "bench/suites/validate/measured_curves.h"
 #include "viscera/math/error.h"
 #include "viscera/session/session.h"
@@ -119,10 +120,7 @@ SpherePress pressedSphere(double poisson_ratio, int radius, const std::vector<do
   body.source = TissueSource::kBox;
   body.box_size_m = radius_m * Vector3d(10, 10, 5);
   const double top_m = body.box_size_m.z() / 2;
-  FixedConfig bottom;
-  bottom.shape = FixedShape::kPlane;
-  bottom.point_m.z() = -top_m;
-  body.fixed = {bottom};
+  body.fixed.push_back(clampBehind(Vector3d(0, 0, -top_m), Vector3d::UnitZ()));
   Scene scene = quietScene(body);
   StylusConfig stylus;
   stylus.probe.radius_m = radius_m;
