@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import time
+import unittest
 
 import roslib.packages
 import rostest
@@ -17,6 +18,8 @@ from force_session import END_LIMIT_S, FELT_S, FORCED_END_S, SCENE, ForceCase, S
 
 SILENT_MASTER_S = 6.0   # master_watch.cpp waits 5 s
 AGAIN_S = 1.0           # in which the loss of a master is noticed
+# Signals that one table of end_watch.cpp treats alike: the long form sends each of them.
+LONG = unittest.skipUnless("VISCERA_EVERY_SIGNAL" in os.environ, "a signal of the same kind is sent by another test")
 
 
 class ForceEndingsTest(ForceCase):
@@ -37,6 +40,7 @@ class ForceEndingsTest(ForceCase):
     def test_termination(self):
         self.signal_ends(signal.SIGTERM, 0)
 
+    @LONG
     def test_hang_up(self):
         self.signal_ends(signal.SIGHUP, 0)
 
@@ -60,6 +64,7 @@ class ForceEndingsTest(ForceCase):
     def test_crash(self):
         self.signal_ends(signal.SIGSEGV, -signal.SIGSEGV)
 
+    @LONG
     def test_abort(self):
         self.signal_ends(signal.SIGABRT, -signal.SIGABRT)
 

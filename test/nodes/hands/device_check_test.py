@@ -222,15 +222,20 @@ class DeviceCheckTest(unittest.TestCase):
     def test_4_wrong_arguments_and_a_device_that_is_silent(self):
         there = os.path.join(self.folder, "there.yaml")
         open(there, "w").close()
-        for arguments, words in ((["device_left:=nosuch"], "device_left"),
-                                 (["device_left:=crtk", "--write", there], "is there already, and is not overwritten"),
-                                 (["device_left:=crtk", "_wirte:=x", "__name:=slip"], "wirte"),
-                                 (["device_options:=a.b=1"], "_device_options"),
-                                 (["device_left:=crtk_arm:PSM1"], "nothing to check")):
-            done = subprocess.run(["rosrun", "viscera", "device_check"] + arguments, stdin=subprocess.DEVNULL, text=True,
-                                  timeout=LIMIT_S, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-            self.assertEqual(done.returncode, 1, done.stdout)
-            self.assertIn(words, done.stdout)
+        refused = []
+        for number, (arguments, words) in enumerate((
+                (["device_left:=nosuch"], "device_left"),
+                (["device_left:=crtk", "--write", there], "is there already, and is not overwritten"),
+                (["device_left:=crtk", "_wirte:=x"], "wirte"),
+                (["device_options:=a.b=1"], "_device_options"),
+                (["device_left:=crtk_arm:PSM1"], "nothing to check"))):
+            refused.append((words, subprocess.Popen(
+                ["rosrun", "viscera", "device_check", "__name:=refused%d" % number] + arguments, stdin=subprocess.DEVNULL,
+                text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)))
+        for words, program in refused:
+            said = program.communicate(timeout=LIMIT_S)[0]
+            self.assertEqual(program.returncode, 1, said)
+            self.assertIn(words, said)
         silent = Crtk("silent")
         try:
             seen = Operator(silent, "device_left:=crtk:unknown")

@@ -8,6 +8,7 @@ import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 
 READY_LIMIT_S = 60  # a software GPU on a busy machine
+MADE_S = 0.05       # at most, from the moment of which diagnostics tell to their stamp
 
 
 def wait_until(condition, limit_s, what):
@@ -53,14 +54,15 @@ class SimulatorWatch:
         self._node = node
         self._lock = threading.Lock()
         self._statuses = {}
-        self._arrays = 0
+        self._stamp_s = 0.0
         self._subscriber = rospy.Subscriber("/diagnostics", DiagnosticArray, self._receive, queue_size=10)
 
     def _receive(self, array):
         with self._lock:
             for status in array.status:
                 self._statuses[status.name] = status
-            self._arrays += 1
+                if status.name.startswith(self._node + ": "):
+                    self._stamp_s = array.header.stamp.to_sec()
 
     def status(self, part):
         with self._lock:
@@ -81,7 +83,6 @@ class SimulatorWatch:
         wait_until(lambda: self.value("simulation", "tick"), READY_LIMIT_S, "first tick")
 
     def wait_news(self):
-        """Waits for diagnostics that were made after this call."""
-        with self._lock:
-            before = self._arrays
-        wait_until(lambda: self._arrays >= before + 2, 10, "diagnostics")
+        """Waits for diagnostics that tell of a moment after this call. ROS time must go on."""
+        after_s = rospy.get_time() + MADE_S
+        wait_until(lambda: self._stamp_s > after_s, 10, "diagnostics")
