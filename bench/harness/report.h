@@ -9,7 +9,7 @@
 #include "bench/harness/plot.h"
 #include "bench/harness/table.h"
 #include "viscera/model/scene/overrides.h"
-#include "viscera/model/scene/solver_config.h"
+#include "viscera/model/scene/solver_kinds.h"
 
 namespace viscera::gpu {
 class Context;

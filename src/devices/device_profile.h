@@ -7,9 +7,10 @@
 #include "viscera/math/error.h"
 #include "viscera/math/types.h"
 #include "viscera/model/scene/overrides.h"
-#include "viscera/model/scene/stylus_config.h"
 
 namespace viscera {
+
+struct StylusConfig;
 
 /// How a device tells where it is.
 enum class PoseType {

@@ -16,6 +16,7 @@
 #include "render/seen_target.h"
 #include "surface/surface.h"
 #include "viscera/model/scene/environment_config.h"
+#include "viscera/model/scene/stylus_config.h"
 #include "viscera/render/camera.h"
 #include "viscera/solver/shown_thread.h"
 #include "viscera/tools/stylus.h"

@@ -10,6 +10,8 @@
 
 namespace viscera {
 
+struct StylusConfig;
+
 /// What of the tools casts a shadow on tissue, as tissue.frag takes it: by its shadow a person sees how far a tool is.
 struct ToolShadows {
   using Vector4 = std::array<float, 4>;

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "viscera/model/scene/solver_config.h"
+#include "viscera/model/scene/solver_kinds.h"
 #include "viscera/solver/solver.h"
 #include "viscera/solver/threads.h"
 

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/tools/force_limiter.h"
+#include "viscera/model/scene/stylus_config.h"
 
 namespace viscera {
 

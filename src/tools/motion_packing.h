@@ -9,6 +9,8 @@
 
 namespace viscera {
 
+struct StylusConfig;
+
 /// What a stylus does to tissue in a tick, of ToolEffect: scissors that do not close cut nothing.
 uint32_t effectsOf(const StylusMotion& motion);
 

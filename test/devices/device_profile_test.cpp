@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "devices/device_profile.h"
 #include "support/source_folder.h"
+#include "viscera/model/scene/stylus_config.h"
 
 #include <gtest/gtest.h>
 

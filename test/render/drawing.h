@@ -12,6 +12,7 @@
 #include "gpu/gl.h"
 #include "render/renderer.h"
 #include "viscera/gpu/context.h"
+#include "viscera/model/scene/stylus_config.h"
 
 namespace viscera {
 

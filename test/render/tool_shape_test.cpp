@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "render/shapes/tool_shape.h"
+#include "viscera/model/scene/stylus_config.h"
 
 #include <gtest/gtest.h>
 

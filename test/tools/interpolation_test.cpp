@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tools/motion_packing.h"
+#include "viscera/model/scene/stylus_config.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {

@@ -9,6 +9,7 @@
 #include "support/temporary_folder.h"
 #include "support/text.h"
 #include "viscera/math/error.h"
+#include "viscera/model/scene/stylus_config.h"
 
 namespace viscera {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "solver/ticks/ticks.h"
 #include "viscera/gpu/context.h"
-#include "viscera/model/scene/solver_config.h"
+#include "viscera/model/scene/solver_kinds.h"
 
 namespace viscera {
 struct Scene;

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "viscera/model/scene/body_config.h"
-#include "viscera/model/scene/solver_config.h"
+#include "viscera/model/scene/solver_kinds.h"
 
 namespace viscera::bench {
 

@@ -10,7 +10,7 @@
 #include "viscera/model/body/lattice.h"
 #include "viscera/model/body/skin.h"
 #include "viscera/model/body/spring_network.h"
-#include "viscera/model/shape/mesh_import.h"
+#include "viscera/model/scene/material_config.h"
 #include "viscera/model/shape/solid.h"
 
 namespace viscera {

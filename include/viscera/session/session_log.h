@@ -10,7 +10,6 @@
 #include "viscera/math/types.h"
 #include "viscera/model/scene/knot_kind.h"
 #include "viscera/model/scene/overlays.h"
-#include "viscera/model/scene/stylus_config.h"
 #include "viscera/tools/force_limiter.h"
 #include "viscera/tools/stylus.h"
 

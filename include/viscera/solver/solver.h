@@ -13,7 +13,7 @@
 #include "viscera/solver/governor.h"
 #include "viscera/solver/material.h"
 #include "viscera/solver/state.h"
-#include "viscera/tools/obstacles.h"
+#include "viscera/tools/obstacle_motions.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {

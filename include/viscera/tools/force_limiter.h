@@ -6,9 +6,10 @@
 #include <limits>
 
 #include "viscera/math/types.h"
-#include "viscera/model/scene/stylus_config.h"
 
 namespace viscera {
+
+struct StylusConfig;
 
 /// Reaction force and torque on a stylus, tissue frame, acting at the tip.
 struct Reaction {

@@ -9,16 +9,11 @@
 #include "viscera/layout/obstacle_motion.h"
 #include "viscera/math/types.h"
 #include "viscera/model/scene/environment_config.h"
+#include "viscera/tools/obstacle_motions.h"
 
 namespace viscera {
 
 class Archive;
-
-/// Where an obstacle is at the start and at the end of a tick, tissue frame.
-struct RigidMotion {
-  Pose from, to;
-};
-using ObstacleMotions = std::vector<RigidMotion>;  ///< [obstacles] of the scene
 
 /// Where the obstacles of a scene are, tick by tick: at rest, moving by their velocity keys, or carried by a tf frame.
 class Obstacles {

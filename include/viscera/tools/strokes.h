@@ -8,10 +8,11 @@
 
 #include "viscera/model/model.h"
 #include "viscera/model/scene/organ_fit.h"
-#include "viscera/model/scene/stylus_config.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {
+
+struct StylusConfig;
 
 /// A ray towards the tissue. Where it first meets the skin at rest lies the origin of the stroke's own frame: z back
 /// along the ray, x horizontal, y upwards. A stroke made so touches any organ, whatever its shape.

@@ -7,7 +7,7 @@
 #include "viscera/layout/limits.h"
 #include "viscera/layout/tool_motion.h"
 #include "viscera/math/types.h"
-#include "viscera/model/scene/stylus_config.h"
+#include "viscera/model/scene/tool_mode.h"
 
 namespace viscera {
 

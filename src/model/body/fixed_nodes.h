@@ -10,6 +10,8 @@
 
 namespace viscera {
 
+struct BodyConfig;
+
 /// The named parts of a body, as far as they hold nodes.
 struct PartNodes {
   std::vector<std::string> names;

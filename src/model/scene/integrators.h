@@ -5,7 +5,7 @@
 #include <array>
 
 #include "viscera/math/error.h"
-#include "viscera/model/scene/solver_config.h"
+#include "viscera/model/scene/solver_kinds.h"
 
 namespace viscera {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "viscera/model/scene/body_config.h"
-#include "viscera/model/scene/solver_config.h"
+#include "viscera/model/scene/solver_kinds.h"
 
 namespace viscera {
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "nodes/ros/scene_choice.h"
+#include "viscera/model/scene/stylus_config.h"
 
 namespace viscera::nodes {
 namespace {

@@ -16,6 +16,7 @@
 
 #include "devices/device_map.h"
 #include "nodes/ros/priority_mutex.h"
+#include "viscera/model/scene/stylus_config.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera::nodes {

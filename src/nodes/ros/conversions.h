@@ -15,6 +15,10 @@
 #include "viscera/tools/force_limiter.h"
 #include "viscera/tools/stylus.h"
 
+namespace viscera {
+struct StylusConfig;
+}  // namespace viscera
+
 namespace viscera::nodes {
 
 // Messages <-> core types: pure functions, no node needed. Everything is in metres, newtons and radians on both sides.

@@ -15,6 +15,7 @@
 #include "nodes/ros/master_watch.h"
 #include "nodes/ros/parameters.h"
 #include "nodes/simulator/simulation_clock.h"
+#include "viscera/model/scene/stylus_config.h"
 #include "viscera/tools/strokes.h"
 
 namespace viscera::nodes {

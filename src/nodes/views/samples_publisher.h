@@ -8,6 +8,7 @@
 
 #include "nodes/ros/scene_choice.h"
 #include "viscera/Samples.h"
+#include "viscera/model/scene/stylus_config.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {

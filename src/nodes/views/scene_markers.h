@@ -13,6 +13,7 @@
 #include "render/shapes/tool_shape.h"
 #include "render/thread_painter.h"
 #include "viscera/layout/limits.h"
+#include "viscera/model/scene/stylus_config.h"
 #include "viscera/session/frame.h"
 #include "viscera/tools/stylus.h"
 

@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "viscera/math/types.h"
-#include "viscera/model/scene/stylus_config.h"
+#include "viscera/model/scene/tool_mode.h"
 
 namespace viscera {
+
+struct StylusConfig;
 
 /// Radius of the shaft that is drawn of a stylus [m].
 double shaftRadius(const StylusConfig& stylus);

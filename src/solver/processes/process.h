@@ -14,7 +14,7 @@
 #include "viscera/solver/process_look.h"
 #include "viscera/solver/solver.h"
 #include "viscera/solver/state.h"
-#include "viscera/tools/obstacles.h"
+#include "viscera/tools/obstacle_motions.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {

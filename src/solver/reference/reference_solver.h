@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "model/scene/integrators.h"
-#include "solver/contact/tool_acts.h"
+#include "solver/contact/tool_target.h"
 #include "solver/processes/port.h"
 #include "solver/reference/reference_lattice.h"
 #include "solver/reference/reference_obstacle.h"
-#include "viscera/model/scene/solver_config.h"
+#include "viscera/model/scene/solver_kinds.h"
 #include "viscera/solver/solver.h"
 
 namespace viscera {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "solver/contact/surroundings.h"
+#include "solver/contact/tool_acts.h"
 #include "solver/reference/reference_solver.h"
 #include "solver/ticks/process_list.h"
 #include "viscera/tools/stylus.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "solver/contact/surroundings.h"
-#include "solver/contact/tool_acts.h"
+#include "solver/contact/tool_target.h"
 #include "solver/processes/port.h"
 #include "solver/tissue/substep.h"
 #include "viscera/solver/governor.h"

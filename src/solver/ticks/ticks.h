@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/contact/tool_acts.h"
 #include "solver/ticks/process_list.h"
 #include "solver/ticks/solver_backend.h"
 #include "solver/ticks/tick_plan.h"

@@ -4,6 +4,7 @@
 
 #include "model/scene/integrators.h"
 #include "viscera/model/model.h"
+#include "viscera/model/scene/solver_config.h"
 
 namespace viscera {
 

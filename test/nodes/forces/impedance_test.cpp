@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "nodes/forces/force_sink.h"
+#include "viscera/model/scene/stylus_config.h"
 
 namespace viscera::nodes {
 namespace {

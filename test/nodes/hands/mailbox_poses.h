@@ -5,6 +5,7 @@
 #include <string>
 
 #include "nodes/hands/stylus_mailbox.h"
+#include "viscera/model/scene/stylus_config.h"
 
 namespace viscera::nodes {
 

@@ -9,7 +9,7 @@
 
 #include "viscera/layout/nodes.h"
 #include "viscera/model/body/neighbors.h"
-#include "viscera/model/scene/body_config.h"
+#include "viscera/model/scene/body_kinds.h"
 #include "viscera/model/shape/solid.h"
 
 namespace viscera {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "viscera/model/model.h"
+#include "viscera/model/scene/body_config.h"
 
 namespace viscera {
 

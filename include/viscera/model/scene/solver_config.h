@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-namespace viscera {
+#include "viscera/model/scene/solver_kinds.h"
 
-enum class Integrator { kLeapfrog, kVerletPaper, kPd };
-/// What a simulation begins with: everything at rest, or hanging in its weight.
-enum class SolverStart { kRest, kEquilibrium };
-enum class Backend { kAuto, kGpu, kCpu };
+namespace viscera {
 
 struct SolverConfig {
   double tick_hz = 60;

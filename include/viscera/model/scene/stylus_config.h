@@ -5,22 +5,9 @@
 #include <string>
 
 #include "viscera/math/types.h"
+#include "viscera/model/scene/tool_mode.h"
 
 namespace viscera {
-
-enum class ToolMode {
-  kNone = 0,
-  kProbe = 1,
-  kGrab = 2,
-  kCut = 3,
-  kCutParticles = 4,
-  kSuction = 5,
-  kNeedle = 6,
-  kScissors = 7,
-  kGrasper = 8,
-  kClip = 9,
-  kCautery = 10
-};
 
 // What the kinds of tools are told, each in a group of its own.
 struct ProbeConfig {

@@ -10,7 +10,7 @@
 #include "solver/cpu/store/sleep.h"
 #include "solver/tissue/substep.h"
 #include "viscera/layout/tool_motion.h"
-#include "viscera/model/scene/solver_config.h"
+#include "viscera/model/scene/solver_kinds.h"
 #include "viscera/solver/solver.h"
 
 namespace viscera {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "solver/contact/tool_acts.h"
+#include "solver/contact/tool_target.h"
 #include "solver/cpu/store/cpu_lattice.h"
 #include "solver/cpu/text/near_blade.h"
 #include "viscera/layout/tick_stats.h"

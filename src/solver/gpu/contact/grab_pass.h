@@ -3,7 +3,7 @@
 #pragma once
 
 #include "gpu/program.h"
-#include "solver/contact/tool_acts.h"
+#include "solver/contact/tool_target.h"
 #include "solver/gpu/buffers/lattice_buffers.h"
 #include "solver/tissue/features.h"
 

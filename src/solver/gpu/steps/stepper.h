@@ -8,7 +8,7 @@
 #include "solver/gpu/buffers/lattice_buffers.h"
 #include "solver/tissue/features.h"
 #include "solver/tissue/substep.h"
-#include "viscera/model/scene/solver_config.h"
+#include "viscera/model/scene/solver_kinds.h"
 #include "viscera/solver/solver.h"
 
 namespace viscera {

@@ -13,6 +13,8 @@
 
 namespace viscera {
 
+struct StylusConfig;
+
 /// The edges and points of all styluses in all bodies that resist blades, with what they have parted
 /// (docs/cutting.md).
 class Blades : public TissueProcess {

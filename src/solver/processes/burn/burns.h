@@ -11,6 +11,7 @@
 #include "solver/processes/process.h"
 #include "solver/processes/tissue_points.h"
 #include "viscera/model/model.h"
+#include "viscera/model/scene/stylus_config.h"
 #include "viscera/solver/seen_burns.h"
 #include "viscera/tools/stylus.h"
 

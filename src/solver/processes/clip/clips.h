@@ -10,6 +10,7 @@
 #include "solver/processes/suture/thread_blades.h"
 #include "solver/processes/tissue_points.h"
 #include "viscera/model/model.h"
+#include "viscera/model/scene/stylus_config.h"
 #include "viscera/solver/seen_clip.h"
 #include "viscera/tools/stylus.h"
 

@@ -11,6 +11,7 @@
 #include "solver/processes/suture/thread_channels.h"
 #include "solver/processes/suture/thread_hands.h"
 #include "viscera/math/state_hash.h"
+#include "viscera/model/scene/stylus_config.h"
 
 namespace viscera {
 

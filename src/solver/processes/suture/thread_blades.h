@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "viscera/math/types.h"
+#include "viscera/model/scene/stylus_config.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {

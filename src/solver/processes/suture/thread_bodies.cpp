@@ -10,6 +10,7 @@
 #include "viscera/math/error.h"
 #include "viscera/math/state_hash.h"
 #include "viscera/model/scene/scene.h"
+#include "viscera/tools/obstacles.h"
 
 namespace viscera {
 

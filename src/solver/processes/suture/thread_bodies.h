@@ -16,6 +16,7 @@
 #include "solver/processes/suture/wound_lips.h"
 #include "solver/processes/tissue_points.h"
 #include "viscera/model/model.h"
+#include "viscera/model/scene/environment_config.h"
 #include "viscera/solver/seen_needle.h"
 
 namespace viscera {

@@ -7,6 +7,7 @@
 
 #include "solver/processes/stylus_pull.h"
 #include "solver/processes/suture/chain/chain.h"
+#include "viscera/model/scene/stylus_config.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {

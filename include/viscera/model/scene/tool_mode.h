@@ -1,0 +1,22 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace viscera {
+
+/// What a tool does; src/model/scene/tool_kinds.h has a row for each.
+enum class ToolMode {
+  kNone = 0,
+  kProbe = 1,
+  kGrab = 2,
+  kCut = 3,
+  kCutParticles = 4,
+  kSuction = 5,
+  kNeedle = 6,
+  kScissors = 7,
+  kGrasper = 8,
+  kClip = 9,
+  kCautery = 10
+};
+
+}  // namespace viscera
