@@ -2,39 +2,93 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <initializer_list>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
 namespace viscera::python {
 
 namespace py = pybind11;
 
+/// Memory that NumPy reads by the buffer protocol. NumPy is called as Python code only: the module knows nothing of its
+/// binary interface, and works with versions 1 and 2.
+struct Memory {
+  const void* first = nullptr;
+  py::ssize_t item_bytes = 0;
+  std::string format;  ///< of the buffer protocol
+  std::vector<py::ssize_t> shape, strides_bytes;
+  py::object owner;  ///< lives as long as the memory is looked at
+};
+
+/// Binds Memory. To be called before anything returns an array.
+void bindMemory(py::module_& module);
+
+/// Returns a numpy.ndarray that looks at the memory and cannot be written.
+py::object arrayOf(Memory memory);
+
+/// Returns a numpy.ndarray of float64 with these numbers, which can be written.
+py::object arrayOf(std::initializer_list<double> numbers);
+
+/// Returns numpy.asarray(given, dtype). @param dtype  "float64", or empty: as `given` has it
+/// @throws py::error_already_set as NumPy raises
+py::object asArray(const py::object& given, const char* dtype);
+
+/// An array of one type and in C's order, to be read.
+template <class T>
+class Given {
+ public:
+  Given() = default;
+  /// @throws py::error_already_set as NumPy raises where values do not convert
+  Given(const py::object& given, const char* dtype) : array_(asArray(given, dtype)), info_(array_.request()) {}
+
+  py::ssize_t ndim() const { return info_.ndim; }
+  py::ssize_t size() const { return info_.size; }
+  const std::vector<py::ssize_t>& shape() const { return info_.shape; }
+  py::ssize_t shape(py::ssize_t axis) const { return info_.shape[static_cast<size_t>(axis)]; }
+  const T* data() const { return static_cast<const T*>(info_.ptr); }
+  /// Returns the place of an element. @param at  index along each axis
+  template <class... Index>
+  const T* data(Index... at) const {
+    py::ssize_t place = 0;
+    size_t axis = 0;
+    ((place = place * info_.shape[axis++] + static_cast<py::ssize_t>(at)), ...);
+    return data() + place;
+  }
+  template <class... Index>
+  T at(Index... index) const {
+    return *data(index...);
+  }
+
+ private:
+  py::buffer array_ = py::reinterpret_borrow<py::buffer>(py::none());
+  py::buffer_info info_;
+};
+
 /// A view without a copy: `owner` lives as long as the array, and NumPy does not let it be written.
 /// @param strides  in bytes
 template <class T>
-py::array view(const T* data, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides, py::handle owner) {
-  py::array out(py::dtype::of<T>(), std::move(shape), std::move(strides), data, owner);
-  py::detail::array_proxy(out.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
-  return out;
+py::object view(const T* data, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides, py::handle owner) {
+  return arrayOf({data, sizeof(T), py::format_descriptor<T>::format(), std::move(shape), std::move(strides),
+                  py::reinterpret_borrow<py::object>(owner)});
 }
 
 /// Rows of `width` numbers, one behind the other.
 template <class T>
-py::array rows(const std::vector<T>& values, py::ssize_t width, py::handle owner) {
+py::object rows(const std::vector<T>& values, py::ssize_t width, py::handle owner) {
   const auto size = static_cast<py::ssize_t>(sizeof(T));
   return view(values.data(), {static_cast<py::ssize_t>(values.size()) / width, width}, {width * size, size}, owner);
 }
 
 /// The numbers of a vector that is given away: the array owns them.
 template <class T>
-py::array given(std::vector<T>&& values, py::ssize_t width) {
+py::object given(std::vector<T>&& values, py::ssize_t width) {
   auto* kept = new std::vector<T>(std::move(values));
   const py::capsule owner(kept, [](void* p) { delete static_cast<std::vector<T>*>(p); });
-  const py::array all = rows(*kept, width, owner);
-  return width > 1 ? all : py::array(all.attr("ravel")());
+  const py::object all = rows(*kept, width, owner);
+  return width > 1 ? all : all.attr("ravel")();
 }
 
 }  // namespace viscera::python

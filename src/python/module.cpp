@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // The compiled half of the Python package viscera; the other half is viscera/__init__.py beside this file.
+#include "python/arrays.h"
 #include "python/scene_binding.h"
 #include "python/session_binding.h"
 #include "python/stylus_binding.h"
@@ -16,6 +17,7 @@ PYBIND11_MODULE(_viscera, module) {
   py::register_exception<MeshError>(module, "MeshError", error);
   py::register_exception<LatticeError>(module, "LatticeError", error);
   py::register_exception<GpuError>(module, "GpuError", error);
+  python::bindMemory(module);
   python::bindStylus(module);
   python::bindScene(module);
   python::bindSession(module);

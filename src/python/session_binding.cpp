@@ -24,7 +24,7 @@ constexpr int kMostThreads = 1024;             // as `viscera sweep --jobs`
 using Skin = const SurfaceFrame;
 using Class = py::class_<Stepped, std::shared_ptr<Stepped>>;
 
-py::array vec4s(const std::vector<layout::vec4>& values, const std::shared_ptr<const HostState>& state) {
+py::object vec4s(const std::vector<layout::vec4>& values, const std::shared_ptr<const HostState>& state) {
   auto* kept = new std::shared_ptr<const HostState>(state);
   const py::capsule owner(kept, [](void* p) { delete static_cast<std::shared_ptr<const HostState>*>(p); });
   const auto* first = reinterpret_cast<const float*>(values.data());
@@ -63,8 +63,8 @@ std::vector<uint32_t> usedVertices(const ShownTopology& topology) {
   return out;
 }
 
-py::array_t<double> triple(const Vector3d& v) {
-  return py::array_t<double>(3, v.data());
+py::object triple(const Vector3d& v) {
+  return arrayOf({v.x(), v.y(), v.z()});
 }
 
 py::list contacts(const Frame& frame, size_t styluses) {
@@ -177,7 +177,7 @@ py::dict fields(const Stepped& stepped, const std::string& of) {
   return out;
 }
 
-py::array picture(const Stepped& stepped, size_t camera, const std::string& kind) {
+py::object picture(const Stepped& stepped, size_t camera, const std::string& kind) {
   constexpr const char* kNames[kPictureKinds] = {"color", "right", "depth", "labels"};
   for (size_t k = 0; k < kPictureKinds; ++k) {
     if (kind != kNames[k]) continue;
@@ -185,7 +185,7 @@ py::array picture(const Stepped& stepped, size_t camera, const std::string& kind
     const py::ssize_t h = image.height, w = image.width;
     if (k == 2) return given(std::move(image.depths_m), w);
     if (k == 3) return given(std::move(image.labels), w);
-    const py::array flat = given(std::move(image.rgb), 3 * w);
+    const py::object flat = given(std::move(image.rgb), 3 * w);
     return flat.attr("reshape")(h, w, 3);
   }
   throw py::value_error("picture: kind: wanted color, right, depth or labels; found '" + kind + "'");

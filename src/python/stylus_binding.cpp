@@ -6,14 +6,12 @@
 #include <optional>
 #include <string>
 
-#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include "math/number_text.h"
+#include "python/arrays.h"
 
 namespace viscera::python {
-
-namespace py = pybind11;
 
 namespace {
 
@@ -21,11 +19,17 @@ constexpr double kFarthest_m = 1000;      // of a tip from the origin: beyond, f
 constexpr double kUnitWithin = 1e-9;      // of a quaternion's length: as it is, so that poses of files keep their bits
 constexpr double kNearUnitWithin = 1e-2;  // rounded to few digits: made one; further off it is no orientation
 
-using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
-
-void requireShape(const Numbers& values, py::ssize_t count, const char* what) {
-  if (values.ndim() != 1 || values.shape(0) != count)
-    throw py::value_error(std::string(what) + ": wanted " + std::to_string(count) + " numbers in one row");
+/// @throws TypeError, ValueError
+Given<double> numbersOf(const py::object& given, py::ssize_t count, const char* what) {
+  const std::string wanted = std::string(what) + ": wanted " + std::to_string(count) + " numbers in one row";
+  Given<double> out;
+  try {
+    out = Given<double>(given, "float64");
+  } catch (const py::error_already_set&) {
+    throw py::type_error(wanted);
+  }
+  if (out.ndim() != 1 || out.shape(0) != count) throw py::value_error(wanted);
+  return out;
 }
 
 void requireWithin(const double* values, int count, const char* what, double most) {
@@ -36,11 +40,10 @@ void requireWithin(const double* values, int count, const char* what, double mos
   }
 }
 
-StylusSample makeSample(const Numbers& position_m, const Numbers& quaternion, bool button1, bool button2,
+StylusSample makeSample(const py::object& position_m, const py::object& quaternion, bool button1, bool button2,
                         const std::optional<double>& jaw_rad) {
-  requireShape(position_m, 3, "position_m");
-  requireShape(quaternion, 4, "quaternion");
-  StylusSample out = sampleOf(position_m.data(), quaternion.data());
+  const Given<double> at = numbersOf(position_m, 3, "position_m");
+  StylusSample out = sampleOf(at.data(), numbersOf(quaternion, 4, "quaternion").data());
   out.button1 = button1;
   out.button2 = button2;
   if (!jaw_rad) return out;
@@ -48,10 +51,6 @@ StylusSample makeSample(const Numbers& position_m, const Numbers& quaternion, bo
     throw py::value_error("jaw_rad: wanted 0 .. " + numberText(kWidestJaw_rad) + "; found " + numberText(*jaw_rad));
   out.jaw_rad = static_cast<float>(*jaw_rad);
   return out;
-}
-
-py::array_t<double> numbers(std::initializer_list<double> values) {
-  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.begin());
 }
 
 /// As Python would make it.
@@ -87,21 +86,21 @@ void bindStylus(py::module_& module) {
   auto stylus = py::class_<StylusSample>(module, "Stylus",
                                          "Where a stylus is: the pose of its tip in the tissue frame, and its "
                                          "buttons. The shaft points along -z.");
-  stylus.def(py::init(&makeSample), py::arg("position_m"), py::arg("quaternion") = numbers({0, 0, 0, 1}),
+  stylus.def(py::init(&makeSample), py::arg("position_m"), py::arg("quaternion") = py::make_tuple(0, 0, 0, 1),
              py::arg("button1") = false, py::arg("button2") = false, py::arg("jaw_rad") = py::none(),
              "position_m: (3,) [m], -1000 .. 1000. quaternion: (4,) x, y, z, w of length 1. jaw_rad: how far the "
              "tool's jaws are open [rad], 0 .. 3.1416; None: buttons close them.");
   stylus.def_property_readonly(
       "position_m",
       [](const StylusSample& s) {
-        return numbers({s.pose.position_m.x(), s.pose.position_m.y(), s.pose.position_m.z()});
+        return arrayOf({s.pose.position_m.x(), s.pose.position_m.y(), s.pose.position_m.z()});
       },
       "(3,) float64 [m], tissue frame; a copy.");
   stylus.def_property_readonly(
       "quaternion",
       [](const StylusSample& s) {
         const Quaterniond& q = s.pose.orientation;
-        return numbers({q.x(), q.y(), q.z(), q.w()});
+        return arrayOf({q.x(), q.y(), q.z(), q.w()});
       },
       "(4,) float64 x, y, z, w; a copy.");
   stylus.def_readonly("button1", &StylusSample::button1);

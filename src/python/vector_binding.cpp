@@ -20,24 +20,31 @@ constexpr py::ssize_t kPlaceNumbers = 3, kPoseNumbers = 7, kVectorButtons = 2;
 
 using VectorClass = py::class_<SteppedVector>;
 using Group = SteppedVector::Group;
-template <class T>
-using Given = py::array_t<T, py::array::c_style | py::array::forcecast>;
 
-std::string shapeOf(const py::array& array) {
-  return py::str(array.attr("shape"));
+/// As Python has it.
+std::string shapeOf(const std::vector<py::ssize_t>& shape) {
+  return py::str(py::tuple(py::cast(shape)));
 }
 
 /// An array of exactly this shape, of True and False or of numbers. @throws ValueError, TypeError
 template <class T>
 Given<T> shaped(const py::object& given, const std::vector<py::ssize_t>& shape, const char* what) {
-  const py::array any = py::array::ensure(given);
-  if (!any || !(any.dtype().kind() == 'b' || (std::is_same_v<T, int64_t> && any.dtype().kind() == 'i')))
-    throw py::type_error(std::string(what) + ": wanted an array of " +
-                         (std::is_same_v<T, bool> ? "True and False" : "whole numbers"));
-  if (std::vector<py::ssize_t>(any.shape(), any.shape() + any.ndim()) != shape)
-    throw py::value_error(std::string(what) + ": wanted shape " + std::string(py::str(py::tuple(py::cast(shape)))) +
-                          "; found " + shapeOf(any));
-  return Given<T>(any);
+  constexpr bool kFlags = std::is_same_v<T, bool>;
+  const auto refused = [&] {
+    return py::type_error(std::string(what) + ": wanted an array of " + (kFlags ? "True and False" : "whole numbers"));
+  };
+  Given<T> out;
+  try {
+    const py::object any = asArray(given, "");
+    const auto kind = any.attr("dtype").attr("kind").cast<std::string>();
+    if (kind != "b" && (kFlags || kind != "i")) throw refused();
+    out = Given<T>(any, kFlags ? "bool" : "int64");
+  } catch (const py::error_already_set&) {
+    throw refused();
+  }
+  if (out.shape() != shape)
+    throw py::value_error(std::string(what) + ": wanted shape " + shapeOf(shape) + "; found " + shapeOf(out.shape()));
+  return out;
 }
 
 std::vector<StylusSamples> handsOf(const Group& group, const py::object& poses, const py::object& buttons,
@@ -48,15 +55,16 @@ std::vector<StylusSamples> handsOf(const Group& group, const py::object& poses, 
     return out;
   }
   const auto count = static_cast<py::ssize_t>(out.size()), styluses = static_cast<py::ssize_t>(group.styluses);
-  const auto numbers = Given<double>::ensure(poses);
-  if (!numbers) {
-    PyErr_Clear();
+  Given<double> numbers;
+  try {
+    numbers = Given<double>(poses, "float64");
+  } catch (const py::error_already_set&) {
     throw py::type_error("poses: wanted an array of numbers");
   }
   const py::ssize_t width = numbers.ndim() == 3 ? numbers.shape(2) : 0;
   if ((width != kPlaceNumbers && width != kPoseNumbers) || numbers.shape(0) != count || numbers.shape(1) != styluses)
     throw py::value_error("poses: wanted shape (" + std::to_string(count) + ", " + std::to_string(styluses) +
-                          ", 3 or 7); found " + shapeOf(numbers));
+                          ", 3 or 7); found " + shapeOf(numbers.shape()));
   Given<bool> pressed, there;
   if (!buttons.is_none()) pressed = shaped<bool>(buttons, {count, styluses, kVectorButtons}, "buttons");
   if (!present.is_none()) there = shaped<bool>(present, {count, styluses}, "present");
@@ -101,7 +109,7 @@ std::vector<size_t> chosen(const Group& group, const py::object& which) {
 
 /// Of all sessions what `of` gives for one, as many values for each, with the sessions as leading axis.
 template <class Of>
-py::array stacked(const SteppedVector& vector, std::vector<py::ssize_t> shape, const Of& of) {
+py::object stacked(const SteppedVector& vector, std::vector<py::ssize_t> shape, const Of& of) {
   using T = typename std::invoke_result_t<Of, Stepped::Core&>::value_type;
   const auto group = vector.group();
   std::vector<std::vector<T>> parts(group->cores.size());
@@ -114,7 +122,7 @@ py::array stacked(const SteppedVector& vector, std::vector<py::ssize_t> shape, c
 }
 
 template <class Of>
-py::array one(const SteppedVector& vector, const Of& of) {
+py::object one(const SteppedVector& vector, const Of& of) {
   return stacked(vector, {}, [&](Stepped::Core& core) { return std::vector{of(core)}; });
 }
 

@@ -13,6 +13,7 @@ import sys
 import threading
 import time
 import unittest
+import weakref
 
 import numpy as np
 
@@ -220,7 +221,7 @@ class ArrayTest(unittest.TestCase):
         session = small()
         skin = session.skin()
         for array in (skin.positions_m, skin.triangles, skin.packed_normals):
-            self.assertIs(array.base, skin)
+            self.assertIsInstance(array.base, memoryview)
             self.assertFalse(array.flags.writeable)
             with self.assertRaises(ValueError):
                 array.flags.writeable = True
@@ -229,6 +230,17 @@ class ArrayTest(unittest.TestCase):
         self.assertEqual(len(skin.wounds), len(skin.triangles))
         self.assertEqual(len(skin.bodies_of_triangles), len(skin.triangles))
         np.testing.assert_allclose(np.linalg.norm(skin.normals, axis=1), 1, atol=1 / 256)
+
+    def test_array_keeps_its_skin_alive(self):
+        skin = small().skin()
+        alive, array = weakref.ref(skin), skin.positions_m
+        del skin
+        gc.collect()
+        self.assertIsNotNone(alive())
+        self.assertTrue(np.isfinite(array[:3]).all())
+        del array
+        gc.collect()
+        self.assertIsNone(alive())
 
     def test_used_vertices_of_a_sheet(self):
         with viscera.Session(viscera.Scene("cloth_on_points")) as session:

@@ -4,13 +4,17 @@
 import json
 import os
 
+from . import _libraries
+
+_libraries.load_missing()
+
 from ._viscera import (Error, GpuError, LatticeError, MeshError, SceneBase, SceneError, Session, Skin, Stylus,
-                       VectorSession, __version__)
+                       VectorSession, __version__)  # noqa: E402  once its libraries are there
 
 
 def _shipped(name):
-    """The file of a shipped scene: below share/ of an installed prefix, or of the source tree that a build is of."""
-    up = os.path.dirname(os.path.abspath(__file__))
+    """The file of a shipped scene: below share/ of this package or an installed prefix, or of a build's sources."""
+    up = os.path.abspath(__file__)
     while os.path.dirname(up) != up:
         up = os.path.dirname(up)
         config = os.path.join(up, "share", "viscera", "config")
