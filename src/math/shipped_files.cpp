@@ -32,8 +32,11 @@ std::vector<fs::path> configFolders(const std::string& last) {
   std::error_code error;
   addFolders(fs::read_symlink("/proc/self/exe", error), out);
   Dl_info here{};
-  if (dladdr(reinterpret_cast<const void*>(&configFolders), &here) != 0 && here.dli_fname)
+  if (dladdr(reinterpret_cast<const void*>(&configFolders), &here) != 0 && here.dli_fname) {
     addFolders(fs::absolute(here.dli_fname, error), out);
+    // The loader may have found it in /lib, which is a link to /usr/lib.
+    addFolders(fs::canonical(here.dli_fname, error), out);
+  }
   if (!last.empty()) out.emplace_back(last);
   return out;
 }
