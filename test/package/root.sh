@@ -19,14 +19,12 @@ in_root() {
 as_root() { in_root "" env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive sh -ec "$1"; }
 as_user() { in_root --net su - trainee -c "$1"; }  # as a login from a terminal has it, without a network
 
-# Makes the packages in $work/packages, and the root. Exit 77 where that cannot be.
+# Makes the root. Exit 77 where that cannot be.
 fresh_root() {
   [ "$(id -u)" = 0 ] || { echo "not root, which debootstrap needs: skipped"; exit 77; }
   "$root/scripts/install_packages" root || { echo "debootstrap cannot be installed: skipped"; exit 77; }
-  mkdir -p "$work/archives" "$work/packages"
+  mkdir -p "$work/archives"
   work=$(cd "$work" && pwd) top=$work/root
-  step "packages"
-  VISCERA_BUILD=$build "$root/scripts/package" deb --out "$work/packages"
   step "a fresh Debian 12"
   rm -rf "$top"
   mkdir -p "$top"
