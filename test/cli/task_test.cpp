@@ -64,7 +64,7 @@ TEST_P(ShippedTask, IsFailedByAClumsyOne) {
   const nlohmann::json result = judged(GetParam(), "clumsy");
   EXPECT_EQ(result["state"], "failed") << result["why"];
   EXPECT_NE(result["why"], "");
-  if (dividesVessel()) {  // without a clip
+  if (dividesVessel()) {  // where no clip closes one end
     EXPECT_GT(result["measures"]["blood_ml"]["value"], 1);
     EXPECT_GT(result["measures"]["blood_ml"]["cost_s"], 10);
   }
