@@ -19,8 +19,9 @@ void checkScene(const RunOptions& options) {
   for (const Body& body : model.bodies) {
     std::cout << body.name << ": " << body.lattice.active_slots.size() << " nodes";
     if (body.hasCells()) std::cout << ", spacing " << body.lattice.spacing_m * 1e3 << " mm";
-    const std::string walls = wallThicknessText(body);
-    std::cout << '\n' << (walls.empty() ? "" : "  " + walls + '\n');
+    std::cout << '\n';
+    const std::optional<WallThickness> walls = wallThickness(body);
+    if (walls) std::cout << "  " << wallThicknessText(*walls, body.lattice.spacing_m) << '\n';
   }
 }
 

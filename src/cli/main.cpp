@@ -30,8 +30,9 @@ struct Options {
   std::vector<double> window;  // of import; empty: none was given
 };
 
-void addOverrides(CLI::App* command, Overrides& overrides) {
-  command->add_option("--set", overrides, "key=value: replaces one value of the scene, as in bodies[0].spacing_m=0.003")
+CLI::Option* addOverrides(CLI::App* command, Overrides& overrides) {
+  return command
+      ->add_option("--set", overrides, "key=value: replaces one value of the scene, as in bodies[0].spacing_m=0.003")
       ->allow_extra_args(false);
 }
 
@@ -39,9 +40,10 @@ CLI::App* addCheck(CLI::App& app, Options& o) {
   CLI::App* check = app.add_subcommand(
       "check", "list the EGL devices and say which is taken, and why others are not; or measure the walls of a scene");
   CLI::Option* device = check->add_option("--device", o.device, "take only this device");
-  check->add_option("scene", o.run.scene, "print thickness of its walls in cells, and what error to expect of them")
-      ->excludes(device);
-  addOverrides(check, o.run.overrides);
+  CLI::Option* scene = check->add_option("scene", o.run.scene,
+                                         "print thickness of its walls in cells, and what error to expect of them");
+  scene->excludes(device);
+  addOverrides(check, o.run.overrides)->needs(scene);
   return check;
 }
 

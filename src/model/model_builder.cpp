@@ -87,7 +87,7 @@ Body buildLatticeBody(const BodyConfig& config, const Scene& scene, const Tissue
   body.notes.push_back(skinNote(body.skin));
   const std::optional<WallThickness> thickness = wallThickness(body);
   if (thickness && expectedWallError(thickness->tenth_m / solid.spacing_m).most > kNotedWallError)
-    body.notes.push_back(wallThicknessText(body));
+    body.notes.push_back(wallThicknessText(*thickness, solid.spacing_m));
   if (config.structure != Structure::kExplicit) {
     addCellPrestress(body);
     return body;

@@ -50,6 +50,7 @@ TEST_F(Messages, CheckSaysHowManyCellsTheWallsOfASceneHave) {
   const Ending block = viscera({"check", scene_});
   EXPECT_EQ(block.status, 0) << block.err;
   expectSays(block.out, "walls: least ");
+  expectSays(lineOf({"check", "--set", "bodies[0].spacing_m=0.006"}), "--set requires scene");
   expectSays(lineOf({"check", "nosuch"}), "'nosuch' is neither a file nor the name of a shipped scene");
 }
 

@@ -103,19 +103,19 @@ size_t Plate::crumbs() const {
   const Lattice& lattice = model.bodies[0].lattice;
   const HostState state = solver.readState();
   std::vector<uint8_t> seen(state.nodes.size());
-  std::vector<uint32_t> todo;
+  std::vector<uint32_t> waiting;
   size_t out = 0;
   for (const uint32_t first : lattice.active_slots) {
     if (seen[first]) continue;
     size_t nodes = 0;
     seen[first] = 1;
-    for (todo.assign(1, first); !todo.empty(); ++nodes) {
-      const uint32_t slot = todo.back();
-      todo.pop_back();
+    for (waiting.assign(1, first); !waiting.empty(); ++nodes) {
+      const uint32_t slot = waiting.back();
+      waiting.pop_back();
       for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
         if (springCount(state.nodes[slot], spring) == 0) continue;
         const auto other = static_cast<uint32_t>(lattice.neighborSlot(slot, spring));
-        if (!seen[other]) todo.push_back(other);
+        if (!seen[other]) waiting.push_back(other);
         seen[other] = 1;
       }
     }

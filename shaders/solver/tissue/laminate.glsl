@@ -20,13 +20,13 @@ float lawKappaAlong(LawLayer y, float bulk, float by_e, float by_f) {
 }
 float lawShearAlong(LawLayer y, float by_e) { return -2.0f / 3.0f * y.shear * y.slope * by_e; }
 
-/// The most of a step of Newton's method that a layer can take: it loses no more than 0.7 of its volume. @param gains  of volume, by the whole
+/// Returns the share of a step of Newton's method in which a layer loses no more than 0.7 of its volume. @param gains  of volume, by the whole step
 float lawLaminateStep(LawLayer y, float gains) {
   float most = max(0.7f * (1.0f + y.e), 0.1f);
   return gains < -most ? -most / gains : 1.0f;
 }
 
-/// @param d, c, e  mean gradient less 1, its cofactors less 1 and its dilation
+/// Returns the layers at the jump at which their tractions are one. @param d, c, e  mean gradient less 1, its cofactors less 1 and its dilation
 LawLaminate lawLaminate(CellMoments t, LawColumns d, LawColumns c, float e, float stiffening) {
   vec3 n = t.plane.xyz, m = n + n.x * c.a + n.y * c.b + n.z * c.c;
   vec3 off = n.x * (d.a - c.a) + n.y * (d.b - c.b) + n.z * (d.c - c.c);
@@ -64,7 +64,7 @@ LawLaminate lawLaminate(CellMoments t, LawColumns d, LawColumns c, float e, floa
   return out_;
 }
 
-/// Adds to `to` what a N^T adds to F, or cof(F + a N^T) - cof F.
+/// What a N^T adds to F, and to its cofactors. @param d  F - 1
 LawColumns lawJumpColumns(vec3 a, vec3 n) { return lawColumns(n.x * a, n.y * a, n.z * a); }
 LawColumns lawJumpCofactors(LawColumns d, vec3 a, vec3 n) {
   vec3 fa = vec3(1.0f, 0.0f, 0.0f) + d.a, fb = vec3(0.0f, 1.0f, 0.0f) + d.b, fc = vec3(0.0f, 0.0f, 1.0f) + d.c;

@@ -318,11 +318,13 @@ float lawStiffening(CellMotion q, CellMoments moments, float ratio, float stiffe
   const float tension = 0.0f;
 #endif
   float found = lawStiffeningAt(d, c, ratio, stiffening, tension);
-  if (dot(t.center, t.center) == 0.0f) return found;
-  LawColumns g = lawAtCentroid(t, lawFrame(q, c, lawDilation(d, c)));
-  LawColumns star = lawColumns(d.a + lawTimes(d, g.a), d.b + lawTimes(d, g.b), d.c + lawTimes(d, g.c));
-  LawColumns of_star = lawCofactors(star);
-  found = max(found, lawStiffeningAt(star, of_star, ratio, stiffening, tension));
+  LawColumns star = d, of_star = c;
+  if (dot(t.center, t.center) != 0.0f) {
+    LawColumns g = lawAtCentroid(t, lawFrame(q, c, lawDilation(d, c)));
+    star = lawColumns(d.a + lawTimes(d, g.a), d.b + lawTimes(d, g.b), d.c + lawTimes(d, g.c));
+    of_star = lawCofactors(star);
+    found = max(found, lawStiffeningAt(star, of_star, ratio, stiffening, tension));
+  }
 #ifdef LAMINATES
   if (moments.plane.w < 1.0f) found = max(found, lawLaminateStiffening(moments, star, of_star, ratio, stiffening, tension));
 #endif

@@ -19,7 +19,7 @@ struct Layer {
   double share = 0;
   Vector3d first = Vector3d::Zero();
 
-  double ratio() const { return material->bulk_j / material->rigidity_j; }
+  double bulkOverMu() const { return 5.0 / 3 + material->bulk_j / material->rigidity_j; }  // K = lambda + 2/3 mu
 };
 
 }  // namespace
@@ -48,7 +48,7 @@ CellLaminates cellLaminates(const Body& body) {
     const double share_a = layers[0].share / (layers[0].share + layers[1].share);
     const double mu_a = layers[0].material->rigidity_j, mu_b = layers[1].material->rigidity_j;
     out.cells.push_back({static_cast<uint32_t>(body.lattice.shared[first].cell), way.normalized(), share_a,
-                         mu_a / (share_a * mu_a + (1 - share_a) * mu_b), layers[0].ratio(), layers[1].ratio(),
+                         mu_a / (share_a * mu_a + (1 - share_a) * mu_b), layers[0].bulkOverMu(), layers[1].bulkOverMu(),
                          layers[0].label});
   });
   return out;

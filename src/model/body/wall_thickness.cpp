@@ -104,25 +104,22 @@ double cellsForWallError(double error) {
   return high;
 }
 
-std::string wallThicknessText(const Body& body) {
-  const std::optional<WallThickness> walls = wallThickness(body);
-  if (!walls) return "";
-  const double h_m = body.lattice.spacing_m;
+std::string wallThicknessText(const WallThickness& walls, double spacing_m) {
   TextOut out;
   out.precision(3);
   const auto add = [&](const char* which, double thickness_m) {
-    out << which << thickness_m * 1e3 << " mm (" << thickness_m / h_m << " cells)";
+    out << which << thickness_m * 1e3 << " mm (" << thickness_m / spacing_m << " cells)";
   };
-  add("walls: least ", walls->least_m);
-  add(", 10 % below ", walls->tenth_m);
-  add(", median ", walls->median_m);
-  const WallErrorRange error = expectedWallError(walls->tenth_m / h_m);
+  add("walls: least ", walls.least_m);
+  add(", 10 % below ", walls.tenth_m);
+  add(", median ", walls.median_m);
+  const WallErrorRange error = expectedWallError(walls.tenth_m / spacing_m);
   out.precision(2);
-  out << "; bending of walls of " << walls->tenth_m / h_m << " cells is " << 100 * error.least << " % (a tube) to "
+  out << "; bending of walls of " << walls.tenth_m / spacing_m << " cells is " << 100 * error.least << " % (a tube) to "
       << 100 * error.most << " % (an open bowl) too stiff";
   if (error.most > kNotedWallError) {
     out.precision(3);
-    out << "; with spacing_m " << walls->tenth_m / cellsForWallError(kNotedWallError) << " at most "
+    out << "; with spacing_m " << walls.tenth_m / cellsForWallError(kNotedWallError) << " at most "
         << 100 * kNotedWallError << " %";
   }
   return out.str();

@@ -126,13 +126,12 @@ void addStresses(const Model& model, JoinedMoments& out) {
 }
 
 void addLaminate(const CellLaminate& cell, uint32_t slot, JoinedMoments& out) {
-  constexpr double kFromRatio = 5.0 / 3;  // K/mu = lambda/mu + 2/3
   const auto packed = [&](double x, double y, double z, double w) {
     out.vectors.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), static_cast<float>(w)});
   };
   out.vectors[kVectorsPerFill * out.of_cell[slot]].w = static_cast<float>(out.vectors.size());
   packed(cell.normal.x(), cell.normal.y(), cell.normal.z(), cell.share_a);
-  packed(cell.rigidity_a, cell.rigidity_b(), cell.ratio_a + kFromRatio, cell.ratio_b + kFromRatio);
+  packed(cell.rigidity_a, cell.rigidity_b(), cell.bulk_a, cell.bulk_b);
 }
 
 }  // namespace

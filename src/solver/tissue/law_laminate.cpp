@@ -42,10 +42,8 @@ JumpEnergy jumpEnergy(const LawLaminate& laminate, const Eigen::Matrix3d& f, dou
 }  // namespace
 
 LawLaminate lawLaminateOf(const CellLaminate& cell) {
-  constexpr double kFromRatio = 5.0 / 3;  // K/mu = lambda/mu + 2/3
   const double of_a = cell.share_a * cell.rigidity_a;
-  return {cell.normal,
-          {{of_a, 1 - cell.share_a, cell.ratio_a + kFromRatio}, {1 - of_a, -cell.share_a, cell.ratio_b + kFromRatio}}};
+  return {cell.normal, {{of_a, 1 - cell.share_a, cell.bulk_a}, {1 - of_a, -cell.share_a, cell.bulk_b}}};
 }
 
 Vector3d laminateJump(const LawLaminate& laminate, const Eigen::Matrix3d& f, double stiffening) {

@@ -172,9 +172,9 @@ TEST_F(Dicom, AFileThatEndsInItsHeaderIsNamed) {
   const std::string whole = slice(TestVolume(), 0, 0);
   for (size_t bytes = 132; bytes < whole.size(); bytes += 9) {
     const std::string folder = series(TestVolume(), {0, 1});
-    test::written("series/stub.dcm", whole.substr(0, bytes));
+    test::written("series/cut_short.dcm", whole.substr(0, bytes));
     const std::string text = test::errorOf(folder);
-    EXPECT_TRUE(text.empty() || text.find("stub.dcm") != std::string::npos) << bytes << ": " << text;
+    EXPECT_TRUE(text.empty() || text.find("cut_short.dcm") != std::string::npos) << bytes << ": " << text;
   }
 }
 

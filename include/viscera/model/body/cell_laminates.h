@@ -13,12 +13,12 @@ namespace viscera {
 /// Cell that two materials share, as a laminate of two layers that meet in a plane (physics.md 1, Two materials in a
 /// cell).
 struct CellLaminate {
-  uint32_t cell;            ///< slot of its lowest corner
-  Eigen::Vector3d normal;   ///< unit normal of the plane in the lattice's axes, from layer a to layer b
-  double share_a;           ///< volume of layer a over that of both, 0..1
-  double rigidity_a;        ///< shear modulus of layer a over the mean by volume of both
-  double ratio_a, ratio_b;  ///< lambda / mu - 1 of each layer
-  uint16_t label_a;         ///< of layer a, as Lattice::cell_labels
+  uint32_t cell;           ///< slot of its lowest corner
+  Eigen::Vector3d normal;  ///< unit normal of the plane in the lattice's axes, from layer a to layer b
+  double share_a;          ///< volume of layer a over that of both, 0..1
+  double rigidity_a;       ///< shear modulus of layer a over the mean by volume of both
+  double bulk_a, bulk_b;   ///< K / mu of each layer
+  uint16_t label_a;        ///< of layer a, as Lattice::cell_labels
 
   double rigidity_b() const { return (1 - share_a * rigidity_a) / (1 - share_a); }
 };

@@ -29,11 +29,10 @@ WallErrorRange expectedWallError(double cells);
 /// Returns the thickness in cells that an open bowl needs for an error.
 double cellsForWallError(double error);
 
-/// Returns the thickness of a body's walls in mm and in cells, the error to expect, and the spacing that mends it, for
-/// a person. @return empty where the body has no cells
-std::string wallThicknessText(const Body& body);
+/// Returns walls in mm and in cells, the error to expect, and the spacing that mends it, for a person.
+std::string wallThicknessText(const WallThickness& walls, double spacing_m);
 
-/// Error of a thin wall above which a body's notes say so.
+/// Largest error of a thin wall that a body's notes do not mention.
 constexpr double kNotedWallError = 0.05;
 
 }  // namespace viscera

@@ -78,7 +78,7 @@ HWY_INLINE V shearAlong(const LawLayer& y, V by_e) {
   return hn::Mul(hn::Mul(set(-2.0f / 3), y.shear), hn::Mul(y.volume_slope, by_e));
 }
 
-/// The most of a step that a layer can take: it loses no more than 0.7 of its volume.
+/// Returns the share of a step in which a layer loses no more than 0.7 of its volume.
 HWY_INLINE V partOfStep(const LawLayer& y, V gains) {
   const V one = set(1), most = hn::Max(hn::Mul(set(0.7f), hn::Add(one, y.e)), set(0.1f));
   const V loses = hn::Neg(hn::Mul(y.s, gains));
