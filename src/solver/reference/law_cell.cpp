@@ -11,10 +11,32 @@ namespace viscera {
 
 namespace {
 
-template <class T>
-T energyOf(const LawCell& cell, const Eigen::Matrix<T, 21, 1>& motion) {
-  return cell.rigidity_j *
-         lawEnergy<T>(cell.bulk_j / cell.rigidity_j, cell.stiffening, cell.fill, cell.laminate, cell.prestress, motion);
+template <class T, int N>
+T energyOf(const LawCell& cell, const Eigen::Matrix<T, N, 1>& motion) {
+  return cell.rigidity_j * lawEnergy<T, N>(cell.bulk_j / cell.rigidity_j, cell, motion);
+}
+
+template <int N>
+Eigen::Matrix<double, N, 1> gradientOf(const LawCell& cell, const Eigen::Matrix<double, N, 1>& motion) {
+  using Motion = Eigen::Matrix<double, N, 1>;
+  if (cell.rigidity_j == 0) return Motion::Zero();
+  using Dual = Eigen::AutoDiffScalar<Motion>;
+  Eigen::Matrix<Dual, N, 1> dual;
+  for (int i = 0; i < N; ++i) dual[i] = Dual(motion[i], N, i);
+  return energyOf<Dual, N>(cell, dual).derivatives();
+}
+
+template <int N>
+Eigen::Matrix<double, N, N> curvatureOf(const LawCell& cell, const Eigen::Matrix<double, N, 1>& motion) {
+  constexpr double kStep = 1e-6;  // of the spacing: halves the digits of the gradient
+  Eigen::Matrix<double, N, N> out;
+  for (int i = 0; i < N; ++i) {
+    Eigen::Matrix<double, N, 1> up = motion, down = motion;
+    up[i] += kStep;
+    down[i] -= kStep;
+    out.col(i) = (gradientOf<N>(cell, up) - gradientOf<N>(cell, down)) / (2 * kStep);
+  }
+  return 0.5 * (out + out.transpose());
 }
 
 }  // namespace
@@ -36,27 +58,24 @@ CellMotion cellMotion(const std::array<Vector3d, 8>& u_m, double spacing_m) {
 }
 
 double lawCellEnergy(const LawCell& cell, const CellMotion& motion) {
-  return cell.rigidity_j == 0 ? 0 : energyOf<double>(cell, motion);
+  return cell.rigidity_j == 0 ? 0 : energyOf<double, 21>(cell, motion);
+}
+double lawCellEnergy(const LawCell& cell, const WallMotion& motion) {
+  return cell.rigidity_j == 0 ? 0 : energyOf<double, 48>(cell, motion);
 }
 
 CellMotion lawCellGradient(const LawCell& cell, const CellMotion& motion) {
-  if (cell.rigidity_j == 0) return CellMotion::Zero();
-  using Dual = Eigen::AutoDiffScalar<CellMotion>;
-  Eigen::Matrix<Dual, 21, 1> dual;
-  for (int i = 0; i < 21; ++i) dual[i] = Dual(motion[i], 21, i);
-  return energyOf<Dual>(cell, dual).derivatives();
+  return gradientOf<21>(cell, motion);
+}
+WallMotion lawCellGradient(const LawCell& cell, const WallMotion& motion) {
+  return gradientOf<48>(cell, motion);
 }
 
 Eigen::Matrix<double, 21, 21> lawCellCurvature(const LawCell& cell, const CellMotion& motion) {
-  constexpr double kStep = 1e-6;  // of the spacing: halves the digits of the gradient
-  Eigen::Matrix<double, 21, 21> out;
-  for (int i = 0; i < 21; ++i) {
-    CellMotion up = motion, down = motion;
-    up[i] += kStep;
-    down[i] -= kStep;
-    out.col(i) = (lawCellGradient(cell, up) - lawCellGradient(cell, down)) / (2 * kStep);
-  }
-  return 0.5 * (out + out.transpose());
+  return curvatureOf<21>(cell, motion);
+}
+Eigen::Matrix<double, 48, 48> lawCellCurvature(const LawCell& cell, const WallMotion& motion) {
+  return curvatureOf<48>(cell, motion);
 }
 
 }  // namespace viscera

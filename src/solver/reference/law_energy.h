@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "layout/law.h"
+#include "solver/reference/law_cell.h"
 #include "solver/tissue/law_density.h"
 #include "solver/tissue/law_laminate.h"
-#include "viscera/model/shape/solid.h"
 
 namespace viscera {
 
@@ -38,18 +38,22 @@ T laminateDensity(const LawLaminate& laminate, const Eigen::Matrix<T, 3, 3>& f, 
   return energy;
 }
 
-/// Returns the energy of a cell of the neo-Hookean law over rigidity (physics.md 1, Law).
-/// @param ratio  lambda / mu - 1   @param stiffening  b of lawShear()   @param fill  moments of the cell's tissue over
-/// its share   @param laminate  the cell's two materials, if it has two
-/// @param prestress  S over mu: its stress at rest has the energy S : (F^T F - 1) / 2
-/// @param motion  mean edges less their rest value, hourglass motions, alternating motion, over h (law_cell.h)
-template <class T>
-T lawEnergy(double ratio, double stiffening, const CellFill& fill, const LawLaminate& laminate,
-            const Eigen::Matrix3d& prestress, const Eigen::Matrix<T, 21, 1>& motion) {
+/// Stress across a wall that the gradient of strain within a cell leaves, as a share: it is free to thin.
+constexpr double kRowStressAcross = 0.1;
+
+/// Returns the energy of a cell of the neo-Hookean law over rigidity (physics.md 1, Law and Thin walls).
+/// @tparam N  21, or 48 for cells in thin walls
+/// @param ratio  lambda / mu - 1   @param cell  all but its moduli
+/// @param motion  mean edges less their rest value, hourglass motions, alternating motion, over h; in thin walls second
+/// derivatives by rows, and their variation (law_cell.h)
+template <class T, int N>
+T lawEnergy(double ratio, const LawCell& cell, const Eigen::Matrix<T, N, 1>& motion) {
   using Tensor = Eigen::Matrix<T, 3, 3>;
+  constexpr bool kWall = N > 21;
   const double lambda = 1 + ratio, poisson = lambda / (lambda + 2);
-  const Vector3d& c = fill.first;
-  const Eigen::Matrix3d about = fill.second - c * c.transpose();
+  const Vector3d& c = cell.fill.first;
+  const Eigen::Matrix3d& moments = cell.fill.second;
+  const Eigen::Matrix3d about = moments - c * c.transpose();
   Tensor f, h, cofactors;
   for (int a = 0; a < 3; ++a) {
     f.col(a) = motion.template segment<3>(3 * a);
@@ -61,30 +65,49 @@ T lawEnergy(double ratio, double stiffening, const CellFill& fill, const LawLami
   const T least = j < static_cast<double>(layout::kLeastVolume) ? T(static_cast<double>(layout::kLeastVolume)) : j;
   const Tensor s = cofactors.transpose() * h / least;  // s(a, l): of H_l along the frame's axis a
   // Second derivatives by pairs of axes that the corners do not show: a plate that bends thins, and does not shear.
-  Tensor gradients[3], g;
+  Tensor gradients[3], g, plain;
+  plain.setZero();
   for (int n = 0; n < 3; ++n) {
     const int a = (n + 1) % 3, b = (n + 2) % 3;
+    Eigen::Matrix<T, 3, 1> own;  // second derivative along n, of its own axis twice
+    own(n) = -poisson * (s(a, b) + s(b, a));
+    own(a) = -s(n, b);
+    own(b) = -s(n, a);
+    if constexpr (kWall) {
+      const Eigen::Matrix<T, 3, 1> by_rows = cofactors.transpose() * motion.template segment<3>(21 + 3 * n) / least;
+      own += cell.wall.rows[n] * (by_rows - own);
+      for (const int l : {a, b}) {
+        const Eigen::Matrix<T, 3, 1> varies = motion.template segment<3>(30 + 3 * (2 * n + (l == a ? 0 : 1)));
+        plain.col(l) += cell.wall.variation * 0.5 * (moments(n, n) - 0.25) * varies;
+        plain.col(n) += cell.wall.variation * moments(n, l) * varies;
+      }
+    }
     Tensor& of_n = gradients[n];
-    of_n.setZero();
     of_n(a, a) = s(a, b);
     of_n(b, b) = s(b, a);
-    of_n(n, n) = -poisson * (of_n(a, a) + of_n(b, b));
+    of_n(n, n) = own(n);
     of_n(a, b) = of_n(b, a) = 0.5 * (s(a, a) + s(b, b));
-    g.col(n) = c[a] * s.col(b) + c[b] * s.col(a);
-    g(n, n) -= poisson * c[n] * (s(a, b) + s(b, a));
-    g(a, n) -= c[n] * s(n, b);
-    g(b, n) -= c[n] * s(n, a);
+    of_n(a, n) = of_n(n, a) = 0.5 * (own(a) + s(n, b));
+    of_n(b, n) = of_n(n, b) = 0.5 * (own(b) + s(n, a));
+    g.col(n) = c[a] * s.col(b) + c[b] * s.col(a) + c[n] * own;
   }
-  const Tensor at_centroid = f + f * g;
-  T energy = laminate.exists() ? laminateDensity<T>(laminate, at_centroid, stiffening)
-                               : lawDensity<T>(at_centroid, lambda + 2.0 / 3, stiffening);
+  const Tensor at_centroid = f + f * g + plain;
+  T energy = cell.laminate.exists() ? laminateDensity<T>(cell.laminate, at_centroid, cell.stiffening)
+                                    : lawDensity<T>(at_centroid, lambda + 2.0 / 3, cell.stiffening);
   const Tensor right = at_centroid.transpose() * at_centroid - Eigen::Matrix3d::Identity();
   for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k) energy += 0.5 * prestress(i, k) * right(i, k);
+    for (int k = 0; k < 3; ++k) energy += 0.5 * cell.prestress(i, k) * right(i, k);
+  const double relieved = kWall ? cell.wall.across * (1 - kRowStressAcross) / (lambda + 2) : 0;
+  const auto across = [&](const Tensor& gradient) -> T {
+    const Eigen::Matrix<T, 3, 1> along = gradient * cell.wall.normal;
+    return lambda * gradient.trace() + 2.0 * along.dot(cell.wall.normal.template cast<T>());
+  };
   for (int n = 0; n < 3; ++n) {
     for (int k = 0; k < 3; ++k) {
       const T traces = gradients[n].trace() * gradients[k].trace();
-      energy += about(n, k) * (0.5 * lambda * traces + gradients[n].cwiseProduct(gradients[k]).sum());
+      T product = 0.5 * lambda * traces + gradients[n].cwiseProduct(gradients[k]).sum();
+      if (relieved > 0) product -= 0.5 * relieved * across(gradients[n]) * across(gradients[k]);
+      energy += about(n, k) * product;
     }
   }
   const Eigen::Matrix<T, 3, 1> alternating = motion.template segment<3>(18);

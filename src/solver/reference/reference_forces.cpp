@@ -145,13 +145,13 @@ double ReferenceLattice::brokenEnergy(const Field& u_m, const Cell& cell) const 
   return sum;
 }
 
-/// What a cell does to its corners [N].
+/// What a cell does to its corners [N]; nothing of whole cells in thin walls, which do more (addWallForces()).
 ReferenceLattice::CornerForces ReferenceLattice::cellForces(const Field& u_m, size_t index) const {
   const Cell& cell = cells_[index];
   if (isBroken(cell)) return brokenForces(u_m, cell);
   CornerForces out;
   out.fill(Vector3d::Zero());
-  if (!isWholeCell(cell)) return out;
+  if (!isWholeCell(cell) || cell.isInWall()) return out;
   const CellMotion gradient = lawCellGradient(cell.law, motionOf(u_m, cell));
   for (size_t c = 0; c < 8; ++c) {
     const Eigen::Matrix<double, 7, 1> of_corner = motionOfCorner(c, cell.spacing_m);
@@ -175,7 +175,8 @@ double ReferenceLattice::cellEnergy(const Field& u_m) const {
   double sum = 0;
   for (const Cell& cell : cells_) {
     if (isBroken(cell)) sum += brokenEnergy(u_m, cell);
-    if (isWholeCell(cell)) sum += lawCellEnergy(cell.law, motionOf(u_m, cell));
+    if (!isWholeCell(cell)) continue;
+    sum += cell.isInWall() ? wallEnergy(u_m, cell) : lawCellEnergy(cell.law, motionOf(u_m, cell));
   }
   return sum;
 }
@@ -185,7 +186,8 @@ double ReferenceLattice::elasticEnergy(const Field& u_m) const {
 }
 
 Vector3d ReferenceLattice::elasticForce(const Field& u_m, uint32_t slot) const {
-  return springForce(u_m, slot) + cellForce([&](size_t cell) { return cellForces(u_m, cell); }, slot);
+  return springForce(u_m, slot) + cellForce([&](size_t cell) { return cellForces(u_m, cell); }, slot) +
+         wallForce(u_m, slot);
 }
 
 Field ReferenceLattice::elasticForces(const Field& u_m) const {
@@ -195,6 +197,7 @@ Field ReferenceLattice::elasticForces(const Field& u_m) const {
   for (uint32_t slot : active) {
     forces[slot] = springForce(u_m, slot) + cellForce([&](size_t cell) { return of_cells[cell]; }, slot);
   }
+  addWallForces(u_m, forces);
   return forces;
 }
 

@@ -32,6 +32,7 @@ ReferenceLattice::ReferenceLattice(const Model& model)
   const double dt_safe_s = safeTimeStep(model);
   for (size_t b = 0; b < model.bodies.size(); ++b) addBody(model, b, dt_safe_s);
   for (size_t i = 0; i < active.size(); ++i) place_[active[i]] = static_cast<int>(i);
+  linkWalls();
 }
 
 void ReferenceLattice::addBody(const Model& model, size_t b, double dt_safe_s) {
@@ -45,6 +46,8 @@ void ReferenceLattice::addBody(const Model& model, size_t b, double dt_safe_s) {
   moments_ = cellMoments(body);
   laminates_.clear();
   for (const CellLaminate& cell : cellLaminates(body).cells) laminates_[cell.cell] = lawLaminateOf(cell);
+  walls_.clear();
+  for (const WallCell& cell : wallCells(body)) walls_[cell.cell] = cell;
   if (body.network) strengths_[b].mass_kg.assign(body.network->masses_kg.begin(), body.network->masses_kg.end());
   const bool of_law = body.material.law == Law::kNeoHookean;
   for (layout::NodeBits bits : lattice.nodes) {
@@ -146,6 +149,8 @@ void ReferenceLattice::addCell(const Body& body, size_t b, uint32_t local) {
     }
     const auto laminate = laminates_.find(local);
     if (laminate != laminates_.end()) cell.law.laminate = laminate->second;
+    const auto wall = walls_.find(local);
+    if (wall != walls_.end()) addWall(wall->second, cell);
   }
   cells_.push_back(cell);
 }

@@ -10,6 +10,7 @@
 
 #include "solver/reference/law_cell.h"
 #include "solver/tissue/fields.h"
+#include "viscera/model/body/wall_cells.h"
 #include "viscera/model/model.h"
 #include "viscera/solver/material.h"
 
@@ -124,7 +125,16 @@ class ReferenceLattice {
     std::array<uint32_t, 8> corners;  ///< slots; bit per axis, x lowest
     double spacing_m;
     LawCell law;  ///< while it is whole; without rigidity in bodies of springs
+
+    bool isInWall() const { return law.wall.across > 0; }
   };
+  /// What a node's displacement does to each of the sixteen vectors of a WallMotion [1/m].
+  using WallShare = Eigen::Matrix<double, 16, 1>;
+  struct WallNode {
+    uint32_t slot;
+    WallShare share;
+  };
+  using WallStencil = std::vector<WallNode>;  ///< of a cell: its corners, and nodes beside them along the axes
   using CornerForces = std::array<Vector3d, 8>;
   void addBody(const Model& model, size_t b, double dt_safe_s);
   void addLatticeSprings(const Lattice& lattice, uint32_t first);
@@ -138,6 +148,19 @@ class ReferenceLattice {
   void loseSpring(uint32_t slot, uint32_t lattice_spring);
   void killCells(uint32_t slot, uint32_t other);
   CellMotion motionOf(const Field& u_m, const Cell& cell) const;
+  void addWall(const WallCell& wall, Cell& cell);
+  void linkWalls();
+  bool isWithinRow(uint32_t slot, int axis) const;
+  WallStencil stencilOf(const Cell& cell) const;
+  LawCell wallLaw(const Cell& cell) const;
+  static WallMotion motionOf(const Field& u_m, const WallStencil& stencil);
+  template <class Visit>
+  void wallForces(const Field& u_m, const Cell& cell, Visit visit) const;
+  Vector3d wallForce(const Field& u_m, uint32_t slot) const;
+  void addWallForces(const Field& u_m, Field& forces) const;
+  double wallEnergy(const Field& u_m, const Cell& cell) const;
+  void addWallStiffness(const Field& u_m, const Cell& cell, Curvature curvature,
+                        std::vector<Eigen::Triplet<double>>& out) const;
   bool isWholeCell(const Cell& cell) const;
   bool isBroken(const Cell& cell) const;
   template <class Visit>
@@ -158,6 +181,13 @@ class ReferenceLattice {
   std::vector<Strengths> strengths_;  ///< [bodies] empty where a body has one material; masses of networks
   CellMoments moments_;               ///< of the body that is being added
   std::unordered_map<uint32_t, LawLaminate> laminates_;  ///< likewise, by cell
+  std::unordered_map<uint32_t, WallCell> walls_;         ///< likewise
+  std::unordered_map<uint32_t, std::vector<size_t>> walls_near_;  ///< cells in thin walls whose stencil has a node
+  struct AxialOfWall {
+    uint32_t slot, spring;
+    size_t cell;
+  };
+  std::vector<AxialOfWall> axial_of_walls_;  ///< while bodies are added
   std::vector<uint32_t> first_;                          ///< [bodies] slot offsets
   std::vector<bool> has_valences_;      ///< [bodies] NodeBits hold valences, not the counts of a lattice
   std::vector<uint32_t> starts_ = {0};  ///< [slots + 1] into neighbors_

@@ -71,9 +71,27 @@ void ReferenceLattice::addBroken(const Field& u_m, Curvature curvature, Triplets
   }
 }
 
+void ReferenceLattice::addWallStiffness(const Field& u_m, const Cell& cell, Curvature curvature, Triplets& out) const {
+  const WallStencil stencil = stencilOf(cell);
+  Eigen::MatrixXd m = lawCellCurvature(wallLaw(cell), motionOf(u_m, stencil));
+  if (curvature == Curvature::kPositive) m = positivePart(m);
+  for (const WallNode& a : stencil) {
+    for (const WallNode& b : stencil) {
+      Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+      for (int i = 0; i < 16; ++i)
+        for (int j = 0; j < 16; ++j) block += a.share[i] * b.share[j] * m.block<3, 3>(3 * i, 3 * j);
+      addBlock(dof(a.slot, 0), dof(b.slot, 0), block, out);
+    }
+  }
+}
+
 void ReferenceLattice::addCells(const Field& u_m, Curvature curvature, Triplets& out) const {
   for (const Cell& cell : cells_) {
     if (!isWholeCell(cell)) continue;
+    if (cell.isInWall()) {
+      addWallStiffness(u_m, cell, curvature, out);
+      continue;
+    }
     Eigen::Matrix<double, 21, 21> m = lawCellCurvature(cell.law, motionOf(u_m, cell));
     if (curvature == Curvature::kPositive) m = positivePart(m);
     for (size_t a = 0; a < 8; ++a) {

@@ -26,6 +26,7 @@ std::vector<std::string> FeatureSet::defines() const {
   if (law) out.push_back("LAW");
   if (prestress) out.push_back("PRESTRESS");
   if (laminates) out.push_back("LAMINATES");
+  if (walls) out.push_back("WALLS");
   if (!springs) out.push_back("NO_SPRINGS");
   if (parts) out.push_back("PARTS");
   if (compensated) out.push_back("COMPENSATED");
@@ -43,6 +44,7 @@ FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint3
   features.law = hasLaw(model);
   features.prestress = hasCellPrestress(model);
   features.laminates = hasLaminates(model);
+  features.walls = hasWalls(model);
   features.springs = std::any_of(model.bodies.begin(), model.bodies.end(),
                                  [](const Body& body) { return body.material.law != Law::kNeoHookean; });
   features.parts = isHeterogeneous(model);

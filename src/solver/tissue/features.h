@@ -24,6 +24,7 @@ struct FeatureSet {
   bool law = false;          ///< the cells of some body obey a hyperelastic law
   bool prestress = false;    ///< some of these cells are stressed at rest
   bool laminates = false;    ///< some of these cells are of two materials
+  bool walls = false;        ///< some of these cells lie in thin walls: second derivatives by rows of nodes
   bool springs = true;       ///< something is made of springs: not all bodies obey one
   bool parts = false;        ///< strengths differ within a body
   bool compensated = false;  ///< u and v are summed with Kahan's compensation

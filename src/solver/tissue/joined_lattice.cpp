@@ -7,6 +7,7 @@
 
 #include "layout/surface_ways.h"
 #include "viscera/model/body/cell_laminates.h"
+#include "viscera/model/body/wall_cells.h"
 
 namespace viscera {
 
@@ -134,6 +135,13 @@ void addLaminate(const CellLaminate& cell, uint32_t slot, JoinedMoments& out) {
   packed(cell.rigidity_a, cell.rigidity_b(), cell.bulk_a, cell.bulk_b);
 }
 
+void addWall(const WallCell& cell, uint32_t slot, JoinedMoments& out) {
+  out.vectors[kVectorsPerFill * out.of_cell[slot] + 1].w = static_cast<float>(out.vectors.size());
+  const Eigen::Vector3f normal = cell.normal.cast<float>();
+  out.vectors.push_back({normal.x(), normal.y(), normal.z(), static_cast<float>(cell.rows)});
+  out.vectors.push_back({static_cast<float>(cell.variation), 0, 0, 0});
+}
+
 }  // namespace
 
 std::vector<float> surfaceDepths(const Model& model) {
@@ -165,6 +173,10 @@ bool hasCellPrestress(const Model& model) {
                      [](const Body& body) { return !body.prestress.empty(); });
 }
 
+bool hasWalls(const Model& model) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return !wallCells(body).empty(); });
+}
+
 bool hasLaminates(const Model& model) {
   return std::any_of(model.bodies.begin(), model.bodies.end(),
                      [](const Body& body) { return !cellLaminates(body).cells.empty(); });
@@ -172,6 +184,7 @@ bool hasLaminates(const Model& model) {
 
 JoinedMoments allMoments(const Model& model) {
   JoinedMoments out;
+  std::vector<std::vector<WallCell>> walls;
   out.add(CellFill{});
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Lattice& lattice = model.bodies[b].lattice;
@@ -180,11 +193,19 @@ JoinedMoments allMoments(const Model& model) {
     for (const uint32_t fill : moments.of_cell) out.of_cell.push_back(fill == 0 ? 0 : before + fill);
     out.of_cell.resize(model.slotOffset(b) + lattice.nodes.size());
     for (const CellFill& fill : moments.fills) out.add(fill);
+    walls.push_back(wallCells(model.bodies[b]));
+    for (const WallCell& cell : walls.back()) {  // full cells have moments of their own there
+      uint32_t& which = out.of_cell[model.slotOffset(b) + cell.cell];
+      if (which != 0) continue;
+      which = static_cast<uint32_t>(out.vectors.size() / kVectorsPerFill);
+      out.add(CellFill{});
+    }
   }
   if (hasCellPrestress(model)) addStresses(model, out);
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     for (const CellLaminate& cell : cellLaminates(model.bodies[b]).cells)
       addLaminate(cell, model.slotOffset(b) + cell.cell, out);
+    for (const WallCell& cell : walls[b]) addWall(cell, model.slotOffset(b) + cell.cell, out);
   }
   return out;
 }

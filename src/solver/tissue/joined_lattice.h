@@ -31,14 +31,20 @@ struct JoinedMoments {
   std::vector<uint32_t> of_cell;         ///< [slots] which moments the cell above a node has; 0: those of a full one
   std::vector<layout::vec4> vectors;     ///< [kVectorsPerFill * fills] xyz: of p; of its squares; of yz, zx, xy; then
                                          ///< stresses of cells, over mu: xx, yy, zz; yz, zx, xy; then laminates:
-                                         ///< normal and share_a; rigidity_a, rigidity_b, K/mu of a and of b. w of p:
-                                         ///< where the cell's laminate is, 0 none
+                                         ///< normal and share_a; rigidity_a, rigidity_b, K/mu of a and of b; then
+                                         ///< cells in thin walls: normal and rows; variation. w of p: where the cell's
+                                         ///< laminate is, 0 none; w of its squares: where its wall is, 0 none
   std::vector<uint32_t> stress_of_cell;  ///< [slots] where in vectors a cell's prestress is, 0 none; empty without
 
   void add(const CellFill& fill);
   /// Where a cell's prestress is; null: it has none.
   const layout::vec4* stressOf(uint32_t slot) const {
     const uint32_t at = stress_of_cell.empty() ? 0 : stress_of_cell[slot];
+    return at == 0 ? nullptr : &vectors[at];
+  }
+  /// Where the wall of a cell in a thin one is; null: it is in none.
+  const layout::vec4* wallOf(uint32_t slot) const {
+    const auto at = static_cast<size_t>(vectors[kVectorsPerFill * of_cell[slot] + 1].w);
     return at == 0 ? nullptr : &vectors[at];
   }
   /// Where the laminate of a cell of two materials is; null: it has one material.
@@ -48,6 +54,8 @@ struct JoinedMoments {
   }
 };
 JoinedMoments allMoments(const Model& model);
+/// Are there cells in thin walls (wallCells())?
+bool hasWalls(const Model& model);
 /// Has a body of a law a prestress?
 bool hasCellPrestress(const Model& model);
 /// Are there cells of a law that two materials share (cellLaminates())?

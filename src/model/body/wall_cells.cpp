@@ -1,0 +1,138 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "viscera/model/body/wall_cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/decompositions.h"
+
+namespace viscera {
+namespace {
+
+// Walls along the lattice bend right by the cell's own second derivatives alone, and rows would add their errors in
+// shear: bending across two axes at one cell is -6 % so, and -13 % by rows.
+constexpr double kAlongLattice_deg = 3, kAskew_deg = 10;
+/// Thickness in cells from which rows fade, and where they end: the cell's own second derivatives bend such walls to
+/// 5 % already. The variation within the cell, which makes thicker solids stiff, ends earlier.
+constexpr double kThin = 2, kThick = 3, kVaries = 1.5, kVariesNoMore = 2.5;
+/// Step along the normal in which a wall's thickness is measured, in cells.
+constexpr double kStep = 0.25;
+/// Share of tissue below which a place is outside of the wall.
+constexpr double kOutside = 0.02;
+
+double fading(double value, double from, double to) {
+  return std::clamp((to - value) / (to - from), 0.0, 1.0);
+}
+
+/// The cells of a lattice on a dense grid.
+class CellGrid {
+ public:
+  explicit CellGrid(const Lattice& lattice)
+      : lattice_(lattice), size_(lattice.nodes_per_axis), slots_(static_cast<size_t>(size_.prod()), kNone) {
+    for (const uint32_t slot : lattice.active_slots) {
+      if (lattice.cell_labels[slot] == 0) continue;
+      slots_[index(lattice.nodeAt(slot))] = slot;
+    }
+  }
+
+  /// Returns the slot of the lowest corner of a cell; kNone: there is none.
+  uint32_t at(const Vector3i& cell) const {
+    const bool inside = (cell.array() >= 0).all() && (cell.array() < size_.array()).all();
+    return inside ? slots_[index(cell)] : kNone;
+  }
+  double share(const Vector3i& cell) const {
+    const uint32_t slot = at(cell);
+    return slot == kNone ? 0 : std::min(fillOf(lattice_, slot).share, 1.0);
+  }
+  /// Returns the share of tissue around a place in cells, by linear interpolation between the cells' middles.
+  double shareAt(const Vector3d& place) const {
+    const Vector3d from_middle = place.array() - 0.5;
+    const Vector3i low = from_middle.array().floor().cast<int>();
+    const Vector3d part = from_middle - low.cast<double>();
+    double sum = 0;
+    for (int c = 0; c < 8; ++c) {
+      const Vector3i corner(c & 1, c >> 1 & 1, c >> 2 & 1);
+      double weight = 1;
+      for (int a = 0; a < 3; ++a) weight *= corner[a] ? part[a] : 1 - part[a];
+      if (weight > 0) sum += weight * share(low + corner);
+    }
+    return sum;
+  }
+
+  static constexpr uint32_t kNone = ~0u;
+
+ private:
+  size_t index(const Vector3i& cell) const {
+    return static_cast<size_t>(cell.x()) +
+           static_cast<size_t>(size_.x()) *
+               (static_cast<size_t>(cell.y()) + static_cast<size_t>(size_.y()) * static_cast<size_t>(cell.z()));
+  }
+
+  const Lattice& lattice_;
+  Vector3i size_;
+  std::vector<uint32_t> slots_;
+};
+
+/// Returns the covariance of the tissue around a cell in cells squared: of its 27 neighbours, each of which weighs half
+/// as much per axis along which it is beside the cell.
+Matrix3d tissueAround(const Lattice& lattice, const CellGrid& grid, const Vector3i& cell) {
+  double sum = 0;
+  Vector3d first = Vector3d::Zero();
+  Matrix3d second = Matrix3d::Zero();
+  for (int n = 0; n < 27; ++n) {
+    const Vector3i off(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+    const uint32_t slot = grid.at(cell + off);
+    if (slot == CellGrid::kNone) continue;
+    const CellFill fill = fillOf(lattice, slot);
+    const double weight = std::pow(0.5, off.cwiseAbs().sum());
+    const Vector3d at = off.cast<double>();
+    sum += weight * fill.share;
+    first += weight * (fill.first + fill.share * at);
+    second += weight * (fill.second + fill.first * at.transpose() + at * fill.first.transpose() +
+                        fill.share * at * at.transpose());
+  }
+  first /= sum;
+  return second / sum - first * first.transpose();
+}
+
+/// Returns how much tissue lies along a line through a place within the wall, in cells, kThick at most.
+double thicknessAt(const CellGrid& grid, const Vector3d& place, const Vector3d& normal) {
+  double sum = kStep * grid.shareAt(place);
+  for (const double way : {1.0, -1.0}) {
+    for (int n = 1; sum < kThick; ++n) {
+      const double share = grid.shareAt(place + way * n * kStep * normal);
+      if (share < kOutside) break;
+      sum += kStep * share;
+    }
+  }
+  return std::min(sum, kThick);
+}
+
+}  // namespace
+
+std::vector<WallCell> wallCells(const Body& body) {
+  std::vector<WallCell> out;
+  const Lattice& lattice = body.lattice;
+  if (body.material.law != Law::kNeoHookean || !body.hasCells() || body.network || lattice.fills.empty() ||
+      !body.prestress.empty())
+    return out;
+  const CellGrid grid(lattice);
+  for (const uint32_t slot : lattice.active_slots) {
+    if (lattice.cell_labels[slot] == 0) continue;
+    const Vector3i cell = lattice.nodeAt(slot);
+    const Vector3d normal = principalAxes(tissueAround(lattice, grid, cell)).axes.col(0);
+    const double cosine = std::min(1.0, normal.cwiseAbs().maxCoeff());
+    const double askew_deg = std::acos(cosine) * 180 / M_PI;
+    const double askew = 1 - fading(askew_deg, kAlongLattice_deg, kAskew_deg);
+    if (askew == 0) continue;
+    const CellFill fill = fillOf(lattice, slot);
+    const Vector3d middle = cell.cast<double>().array() + 0.5;
+    const double thickness = thicknessAt(grid, middle + fill.first / fill.share, normal);
+    const double rows = askew * fading(thickness, kThin, kThick);
+    if (rows > 0) out.push_back({slot, normal, rows, askew * kRowVariation * fading(thickness, kVaries, kVariesNoMore)});
+  }
+  return out;
+}
+
+}  // namespace viscera
