@@ -22,6 +22,8 @@ const float kMostStiffening = 1e4f;
 const int kLaminateSteps = 3;
 // What resists the alternating motion: 5/36 mu h^3 |H_xyz|^2, the hexahedron's.
 const float kLawAlternating = 5.0f / 18.0f;
+// Stress across a thin wall that the gradient of strain within its cells leaves, as a share: the wall is free to thin.
+const float kRowStressAcross = 0.1f;
 
 #ifdef __cplusplus
 }  // namespace viscera::layout

@@ -130,7 +130,8 @@ std::vector<WallCell> wallCells(const Body& body) {
     const Vector3d middle = cell.cast<double>().array() + 0.5;
     const double thickness = thicknessAt(grid, middle + fill.first / fill.share, normal);
     const double rows = askew * fading(thickness, kThin, kThick);
-    if (rows > 0) out.push_back({slot, normal, rows, askew * kRowVariation * fading(thickness, kVaries, kVariesNoMore)});
+    if (rows > 0)
+      out.push_back({slot, normal, rows, askew * kRowVariation * fading(thickness, kVaries, kVariesNoMore)});
   }
   return out;
 }

@@ -214,11 +214,22 @@ void CpuBackend::surround(const Substep& step, const Surroundings& surroundings)
   surroundings_->run(lattice_, step, surroundings);
 }
 
+/// Second differences of displacements as they are, for the energy of cells in thin walls.
+void CpuBackend::measureRows() {
+  const std::vector<uint32_t>& places = lattice_.rows.all();
+  for (const simd::RowStage stage : {simd::RowStage::kDifferences, simd::RowStage::kSpread}) {
+    const simd::RowJob job{arraysOf(lattice_), lattice_.rows.arrays(), false, stage};
+    pool_.ranges(places.size(), kMeasuredBricks,
+                 [&](size_t first, size_t end) { kernels_.rows(job, &places[first], end - first); });
+  }
+}
+
 void CpuBackend::measure() {
   simd::MeasureJob job{arraysOf(lattice_), cellsOf(lattice_), lattice_.store.nodes.data(),
                        lattice_.strengths.mass.data(), work_->stats.data()};
   std::vector<uint32_t>& changed = work_->changed;
   sleep_.takeChanged(lattice_, changed);
+  if (!changed.empty()) measureRows();
   pool_.ranges(changed.size(), kMeasuredBricks,
                [&](size_t first, size_t end) { kernels_.measure(job, &changed[first], end - first); });
   layout::TickStats out{};

@@ -94,6 +94,7 @@ class CpuBackend : public SolverBackend {
   void changeAll();
   void noteHeld();
   void slow(const Substep& step);
+  void measureRows();
   void tear();
   float largestRate() const;
 

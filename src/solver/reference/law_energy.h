@@ -38,9 +38,6 @@ T laminateDensity(const LawLaminate& laminate, const Eigen::Matrix<T, 3, 3>& f, 
   return energy;
 }
 
-/// Stress across a wall that the gradient of strain within a cell leaves, as a share: it is free to thin.
-constexpr double kRowStressAcross = 0.1;
-
 /// Returns the energy of a cell of the neo-Hookean law over rigidity (physics.md 1, Law and Thin walls).
 /// @tparam N  21, or 48 for cells in thin walls
 /// @param ratio  lambda / mu - 1   @param cell  all but its moduli
@@ -97,7 +94,8 @@ T lawEnergy(double ratio, const LawCell& cell, const Eigen::Matrix<T, N, 1>& mot
   const Tensor right = at_centroid.transpose() * at_centroid - Eigen::Matrix3d::Identity();
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) energy += 0.5 * cell.prestress(i, k) * right(i, k);
-  const double relieved = kWall ? cell.wall.across * (1 - kRowStressAcross) / (lambda + 2) : 0;
+  const double relieved =
+      kWall ? cell.wall.across * (1 - static_cast<double>(layout::kRowStressAcross)) / (lambda + 2) : 0;
   const auto across = [&](const Tensor& gradient) -> T {
     const Eigen::Matrix<T, 3, 1> along = gradient * cell.wall.normal;
     return lambda * gradient.trace() + 2.0 * along.dot(cell.wall.normal.template cast<T>());

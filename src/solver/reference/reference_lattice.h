@@ -180,20 +180,20 @@ class ReferenceLattice {
   std::vector<layout::BodyParams> params_;
   std::vector<Strengths> strengths_;  ///< [bodies] empty where a body has one material; masses of networks
   CellMoments moments_;               ///< of the body that is being added
-  std::unordered_map<uint32_t, LawLaminate> laminates_;  ///< likewise, by cell
-  std::unordered_map<uint32_t, WallCell> walls_;         ///< likewise
+  std::unordered_map<uint32_t, LawLaminate> laminates_;           ///< likewise, by cell
+  std::unordered_map<uint32_t, WallCell> walls_;                  ///< likewise
   std::unordered_map<uint32_t, std::vector<size_t>> walls_near_;  ///< cells in thin walls whose stencil has a node
   struct AxialOfWall {
     uint32_t slot, spring;
     size_t cell;
   };
   std::vector<AxialOfWall> axial_of_walls_;  ///< while bodies are added
-  std::vector<uint32_t> first_;                          ///< [bodies] slot offsets
-  std::vector<bool> has_valences_;      ///< [bodies] NodeBits hold valences, not the counts of a lattice
-  std::vector<uint32_t> starts_ = {0};  ///< [slots + 1] into neighbors_
-  std::vector<Neighbor> neighbors_;     ///< node by node
-  Field rest_m_;                        ///< [slots]
-  std::vector<float> surface_depth_m_;  ///< [slots] or none
+  std::vector<uint32_t> first_;              ///< [bodies] slot offsets
+  std::vector<bool> has_valences_;           ///< [bodies] NodeBits hold valences, not the counts of a lattice
+  std::vector<uint32_t> starts_ = {0};       ///< [slots + 1] into neighbors_
+  std::vector<Neighbor> neighbors_;          ///< node by node
+  Field rest_m_;                             ///< [slots]
+  std::vector<float> surface_depth_m_;       ///< [slots] or none
   struct Way {
     Vector3d way_m;  ///< at rest
     double spacing_m;

@@ -174,7 +174,8 @@ bool hasCellPrestress(const Model& model) {
 }
 
 bool hasWalls(const Model& model) {
-  return std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return !wallCells(body).empty(); });
+  return std::any_of(model.bodies.begin(), model.bodies.end(),
+                     [](const Body& body) { return !wallCells(body).empty(); });
 }
 
 bool hasLaminates(const Model& model) {

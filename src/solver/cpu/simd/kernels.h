@@ -46,8 +46,37 @@ struct Reach {
   float radius_m;
 };
 
+/// Rows of nodes in thin walls (physics.md 1, Thin walls; CpuRows). Only bricks in and beside such walls have arrays:
+/// these are numbered by place, and place 0 is a brick of zeros.
+struct RowArrays {
+  const uint32_t* place;        ///< [bricks] 0 where a brick has no part in rows; null where there are none at all
+  const uint32_t* brick_of;     ///< [places]
+  const layout::Brick* bricks;  ///< [places] neighbours by place
+  float* values[3];             ///< [192 * places] by axis of the row: of nodes within rows
+  float* ends[3];               ///< [192 * places] likewise, those at rows' ends included
+  float* sums[3];               ///< [kCellSums * places] what cells give to nodes, in place of forces
+  const float* const* walls;    ///< [bricks] [kWallNumbers * 64] of its cells; null where none is in a thin wall
+  const uint16_t* wall_rows;    ///< [bricks] bit r: some of the four cells from 4 r on is in a thin wall
+};
+/// What is done to rows of nodes, in this order.
+enum class RowStage {
+  kDifferences,  ///< values: second differences of displacements, over 4 h
+  kSpread,       ///< ends: the same, at a row's end those of the node beside it
+  kGather,       ///< values: what cells gave to nodes within rows; ends: to those at their ends
+  kReturn,       ///< values: with what the ends beside them got
+};
+struct RowJob {
+  Arrays arrays;
+  RowArrays rows;
+  bool dashpot;  ///< displacements are those ahead by dashpot_s
+  RowStage stage;
+};
+/// One stage of some places.
+using BrickRows = void (*)(const RowJob& job, const uint32_t* places, size_t count);
+
 struct LeapfrogJob {
   Arrays arrays;
+  RowArrays rows;
   Substep step;
   float* predicted;  ///< [3 * slots] u + dashpot_s v (physics.md 2) [m]; null without dashpots on springs
   size_t reaches;    ///< probes
@@ -70,6 +99,8 @@ constexpr uint32_t kMomentNumbers = 9;   ///< first, square, mixed (cell_motion.
 constexpr uint32_t kTensionNumbers = 6;  ///< of a stress at rest: xx, yy, zz, yz, zx, xy
 /// Of a laminate: its normal, share of a, shear moduli of a and b over their mean, K/mu of a and of b.
 constexpr uint32_t kLaminateNumbers = 8;
+/// Of a cell in a thin wall: its normal, rows along x, y and z, share of the stress across that is free, variation.
+constexpr uint32_t kWallNumbers = 8;
 constexpr uint32_t kBrokenSprings = 24;  ///< within a cell: 12 edges, along x, y and z, then 12 face diagonals
 /// Of a broken cell: stiffness of its springs, then how much shorter those along nine directions are at rest.
 constexpr uint32_t kBrokenNumbers = kBrokenSprings + 9;
@@ -104,6 +135,7 @@ struct CellJob {
       laminates;               ///< [bricks] [kLaminateNumbers * 64] of its cells; null where none is of two materials
   const float* const* broken;  ///< [bricks] [kBrokenNumbers * 64] N of cells of a law that have lost a spring
                                ///< (CpuStrengths); null where all are whole
+  RowArrays rows;              ///< of thin walls
   bool parts;                  ///< bulk over rigidity differs within a body
   bool dashpot;                ///< some body has one
   float* sums;                 ///< [kCellSums * bricks] N
@@ -172,6 +204,7 @@ struct Kernels {
   BrickPredict predict;
   BrickMeasure measure;
   BrickCells cells;
+  BrickRows rows;
   NetworkGroups spread_network;  ///< of all groups, before their leapfrog
   NetworkGroups leapfrog_network;
   BrickSweep sweep;

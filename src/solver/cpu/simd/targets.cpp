@@ -19,6 +19,7 @@ std::optional<Kernels> kernelsFor(const std::string& target) {
                      predictFor(each),
                      measureFor(each),
                      cellsFor(each),
+                     rowsFor(each),
                      spreadNetworkFor(each),
                      leapfrogNetworkFor(each),
                      findPlacesFor(each),

@@ -31,6 +31,7 @@ BrickLeapfrog leapfrogFor(int64_t target);
 BrickPredict predictFor(int64_t target);
 BrickMeasure measureFor(int64_t target);
 BrickCells cellsFor(int64_t target);
+BrickRows rowsFor(int64_t target);
 NetworkGroups spreadNetworkFor(int64_t target);
 NetworkGroups leapfrogNetworkFor(int64_t target);
 BrickSweep findPlacesFor(int64_t target);

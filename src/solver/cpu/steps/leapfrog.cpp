@@ -40,6 +40,7 @@ CpuLeapfrog::CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts)
       step_bricks_(parts.kernels.leapfrog),
       predict_bricks_(parts.kernels.predict),
       sum_cells_(parts.kernels.cells),
+      run_rows_(parts.kernels.rows),
       deepest_m_(deepestOf(lattice.strengths.surface_depth)),
       near_(lattice.brickCount()),
       strained_(lattice.brickCount()),
@@ -131,26 +132,47 @@ void CpuLeapfrog::predict(const Substep& step) {
                    [&](size_t first, size_t end) { predict_bricks_(job_, &bricks[first], end - first); });
 }
 
-/// Forces of all cells that have a corner in a brick that is awake: of its own and of the seven below it.
+/// Lists the cells whose forces act on bricks that are awake: their own and those of the seven bricks below them; where
+/// there are thin walls, of all around them.
+void CpuLeapfrog::listCells(CpuLattice& lattice) {
+  if (cell_bricks_awake_ == sleep_.awake()) return;
+  cell_bricks_awake_ = sleep_.awake();
+  std::fill(wanted_.begin(), wanted_.end(), uint8_t{0});
+  for (const uint32_t brick : cell_bricks_awake_) {
+    for (const int direction : {0, 1, 3, 4, 9, 10, 12, 13})
+      wanted_[lattice.store.bricks[brick].neighbors[direction]] = 1;
+  }
+  row_places_ = lattice.rows.around(lattice.store, cell_bricks_awake_);
+  for (const uint32_t place : row_places_) wanted_[lattice.rows.brickOf(place)] = 1;
+  cell_bricks_.clear();
+  for (uint32_t b = 0; b < wanted_.size(); ++b) {
+    const bool of_law = lattice.store.bodies[lattice.store.bricks[b].body].law != layout::kLawSprings;
+    if (wanted_[b] && of_law) cell_bricks_.push_back(b);
+  }
+}
+
+void CpuLeapfrog::runRows(CpuLattice& lattice, simd::RowStage stage) {
+  const simd::RowJob job{arraysOf(lattice), lattice.rows.arrays(), dashpot_, stage};
+  parallel_.ranges(row_places_.size(), portions_,
+                   [&](size_t first, size_t end) { run_rows_(job, &row_places_[first], end - first); });
+}
+
+/// Sums the forces of cells on nodes, and what those in thin walls do to rows.
 void CpuLeapfrog::sumCells(CpuLattice& lattice) {
-  if (cell_bricks_awake_ != sleep_.awake()) {
-    cell_bricks_awake_ = sleep_.awake();
-    std::fill(wanted_.begin(), wanted_.end(), uint8_t{0});
-    for (const uint32_t brick : cell_bricks_awake_) {
-      for (const int direction : {0, 1, 3, 4, 9, 10, 12, 13})
-        wanted_[lattice.store.bricks[brick].neighbors[direction]] = 1;
-    }
-    cell_bricks_.clear();
-    for (uint32_t b = 0; b < wanted_.size(); ++b) {
-      const bool of_law = lattice.store.bodies[lattice.store.bricks[b].body].law != layout::kLawSprings;
-      if (wanted_[b] && of_law) cell_bricks_.push_back(b);
-    }
+  listCells(lattice);
+  if (!row_places_.empty()) {
+    runRows(lattice, simd::RowStage::kDifferences);
+    runRows(lattice, simd::RowStage::kSpread);
   }
   simd::CellJob job = cellsOf(lattice);
   job.dashpot = dashpot_;
   job.sums = cell_sums_.data();
   parallel_.ranges(cell_bricks_.size(), portions_,
                    [&](size_t first, size_t end) { sum_cells_(job, &cell_bricks_[first], end - first); });
+  job_.rows = job.rows;
+  if (row_places_.empty()) return;
+  runRows(lattice, simd::RowStage::kGather);
+  runRows(lattice, simd::RowStage::kReturn);
 }
 
 void CpuLeapfrog::stepBricks(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, size_t first,

@@ -24,6 +24,8 @@ class CpuLeapfrog : public CpuStepper {
   void predict(const Substep& step);
   void sumCells(CpuLattice& lattice);
   void forgetSums();
+  void listCells(CpuLattice& lattice);
+  void runRows(CpuLattice& lattice, simd::RowStage stage);
   void stepBricks(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, size_t first,
                   size_t end);
   void stepNetwork(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
@@ -36,11 +38,13 @@ class CpuLeapfrog : public CpuStepper {
   simd::BrickLeapfrog step_bricks_;
   simd::BrickPredict predict_bricks_;
   simd::BrickCells sum_cells_;
+  simd::BrickRows run_rows_;
   AlignedVector<float> predicted_;           ///< [3 * slots], see kernels.h; empty where it is not needed
   std::vector<uint32_t> all_bricks_;         ///< where it is
   std::vector<uint32_t> predicted_awake_;    ///< those awake when it was written as a whole
   AlignedVector<float> cell_sums_;           ///< [simd::kCellSums * bricks] N; empty without a law
   std::vector<uint32_t> cell_bricks_;        ///< whose cells the nodes of those awake are corners of
+  std::vector<uint32_t> row_places_;         ///< CpuRows::around() those awake
   std::vector<uint32_t> cell_bricks_awake_;  ///< those awake when they were listed
   std::vector<uint8_t> wanted_;              ///< [bricks] while they are listed
   AlignedVector<float> compensation_;        ///< [6 * slots], see kernels.h; empty without compensation

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "solver/cpu/store/cpu_rows.h"
 #include "solver/cpu/store/cpu_strengths.h"
 #include "solver/tissue/cut_record.h"
 #include "solver/tissue/joined_network.h"
@@ -94,6 +95,7 @@ struct CpuLattice {
   CpuStore store;
   CpuLinks links;
   CpuStrengths strengths;
+  CpuRows rows;
   CpuState state;
   CpuHands hands;
   CutRecord record;

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "solver/cpu/simd/kernels.h"
+#include "solver/cpu/store/slot_beside.h"
 #include "solver/tissue/joined_lattice.h"
 #include "viscera/solver/material.h"
 
@@ -52,33 +53,6 @@ float strainOfStress(const layout::vec4* s, const std::array<int, 3>& way) {
   return 0.5f * (along / (x * x + y * y + z * z) - (s[0].x + s[0].y + s[0].z) / 5);
 }
 
-constexpr uint32_t kNoSlot = ~0u;
-
-/// Slot of the neighbour at an offset, whose brick must be there (shaders/solver/tissue/lattice.glsl).
-uint32_t neighborSlot(const std::vector<layout::Brick>& bricks, uint32_t slot, const std::array<int, 3>& offset) {
-  int direction = 0, inside = 0;
-  constexpr int kDirection[3] = {1, 3, 9}, kShift[3] = {0, 2, 4};
-  for (int axis = 0; axis < 3; ++axis) {
-    const int at = static_cast<int>(slot >> kShift[axis] & 3) + offset[static_cast<size_t>(axis)];  // -1 .. 4
-    direction += kDirection[axis] * ((at + 4) >> 2);
-    inside |= (at & 3) << kShift[axis];
-  }
-  const layout::Brick& brick = bricks[slot / layout::kBrickSlots];
-  return brick.neighbors[direction] * layout::kBrickSlots + static_cast<uint32_t>(inside);
-}
-
-/// The same, kNoSlot where no brick is.
-uint32_t slotBeside(const std::vector<layout::Brick>& bricks, uint32_t slot, const std::array<int, 3>& offset) {
-  constexpr int kShift[3] = {0, 2, 4};
-  bool inside = true;
-  for (int axis = 0; axis < 3; ++axis) {
-    const int at = static_cast<int>(slot >> kShift[axis] & 3) + offset[static_cast<size_t>(axis)];
-    inside = inside && at >= 0 && at < 4;
-  }
-  const uint32_t out = neighborSlot(bricks, slot, offset);
-  return !inside && out / layout::kBrickSlots == slot / layout::kBrickSlots ? kNoSlot : out;
-}
-
 }  // namespace
 
 CpuStrengths::CpuStrengths(const Model& model, const CpuStore& store, const FeatureSet& features,
@@ -110,6 +84,7 @@ CpuStrengths::CpuStrengths(const Model& model, const CpuStore& store, const Feat
     spreadMoments(store);
     spreadTensions(store);
     spreadLaminates(store);
+    if (features.walls) spreadWalls(store);
   }
   refreshAll(store);
 }
@@ -214,6 +189,7 @@ void CpuStrengths::refresh(const CpuStore& store, uint32_t slot) {
   bulk[slot] = cellBulk(store, slot);
   rigidity[slot] = cellRigidity(store, slot);
   breakCells(store, slot);
+  if (!brick_walls.empty()) refreshWalls(store, slot);
 }
 
 /// Makes brick_moments and partial_rows.
@@ -345,6 +321,7 @@ bool CpuStrengths::isIdleRow(const CpuStore& store, uint32_t first) const {
   bool nothing = true, still = true;
   for (uint32_t slot = first; slot < first + 4; ++slot) {
     nothing = nothing && !(store.nodes[slot].lo & layout::kLawCellBit);
+    still = still && (brick_walls.empty() || moments.wallOf(slot) == nullptr);  // rows reach farther
     for (int c = 0; c < 8; ++c) {
       still = still && mobility[neighborSlot(store.bricks, slot, {c & 1, c >> 1 & 1, c >> 2 & 1})] == 0;
     }

@@ -43,6 +43,9 @@ struct CpuStrengths {
                                               ///< number by number; null where none has one; empty without a law
   std::vector<const float*> brick_laminates;  ///< [bricks] [kLaminateNumbers * 64] laminates of its cells, number by
                                               ///< number; null where none is of two materials; empty without a law
+  std::vector<float*> brick_walls;     ///< [bricks] [kWallNumbers * 64] of cells in thin walls, number by number; null
+                                       ///< where none is; empty without any
+  std::vector<uint16_t> wall_rows;     ///< [bricks] bit r: some of the four cells from 4 r on is in a thin wall
   std::vector<float*> broken;          ///< [bricks] [kBrokenNumbers * 64] stiffness times 4 h of the springs within
                                        ///< cells of a law that have lost one, number by number (kernels.h) [N];
                                        ///< null where all are whole; empty without a law
@@ -62,6 +65,8 @@ struct CpuStrengths {
   void spreadMoments(const CpuStore& store);
   void spreadTensions(const CpuStore& store);
   void spreadLaminates(const CpuStore& store);
+  void spreadWalls(const CpuStore& store);
+  void refreshWalls(const CpuStore& store, uint32_t slot);
   float wholeRigidity(const CpuStore& store, uint32_t slot) const;
   void breakCells(const CpuStore& store, uint32_t slot);
   float* newBrokenPlanes();
@@ -73,6 +78,7 @@ struct CpuStrengths {
   AlignedVector<float> moment_planes_;              ///< what brick_moments points to
   AlignedVector<float> tension_planes_;             ///< what brick_tensions points to
   AlignedVector<float> laminate_planes_;            ///< what brick_laminates points to
+  AlignedVector<float> wall_planes_;                ///< what brick_walls points to
   std::vector<AlignedVector<float>> broken_slabs_;  ///< what broken points to: planes of kSlab bricks each
   size_t broken_bricks_ = 0;                        ///< how many there are
   Strengths table_;  ///< of models with parts, whose counts only say alive or cut; else empty
