@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "math/decompositions.h"
 
@@ -15,7 +16,7 @@ namespace {
 constexpr double kAlongLattice_deg = 3, kAskew_deg = 10;
 /// Thickness in cells from which rows fade, and where they end: the cell's own second derivatives bend such walls to
 /// 5 % already. The variation within the cell, which makes thicker solids stiff, ends earlier.
-constexpr double kThin = 2, kThick = 3, kVaries = 1.5, kVariesNoMore = 2.5;
+const double kThin = getenv("TA") ? atof(getenv("TA")) : 2, kThick = getenv("TB") ? atof(getenv("TB")) : 3; constexpr double kVaries = 1.5, kVariesNoMore = 2.5;
 /// Step along the normal in which a wall's thickness is measured, in cells.
 constexpr double kStep = 0.25;
 /// Share of tissue below which a place is outside of the wall.
@@ -114,6 +115,7 @@ double thicknessAt(const CellGrid& grid, const Vector3d& place, const Vector3d& 
 std::vector<WallCell> wallCells(const Body& body) {
   std::vector<WallCell> out;
   const Lattice& lattice = body.lattice;
+  if (getenv("NOWALLS")) return out;
   if (body.material.law != Law::kNeoHookean || !body.hasCells() || body.network || lattice.fills.empty() ||
       !body.prestress.empty())
     return out;

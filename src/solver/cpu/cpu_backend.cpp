@@ -214,13 +214,19 @@ void CpuBackend::surround(const Substep& step, const Surroundings& surroundings)
   surroundings_->run(lattice_, step, surroundings);
 }
 
-/// Second differences of displacements as they are, for the energy of cells in thin walls.
-void CpuBackend::measureRows() {
-  const std::vector<uint32_t>& places = lattice_.rows.all();
-  for (const simd::RowStage stage : {simd::RowStage::kDifferences, simd::RowStage::kSpread}) {
-    const simd::RowJob job{arraysOf(lattice_), lattice_.rows.arrays(), false, stage};
-    pool_.ranges(places.size(), kMeasuredBricks,
-                 [&](size_t first, size_t end) { kernels_.rows(job, &places[first], end - first); });
+/// Adds cells in thin walls to what was measured of bricks.
+void CpuBackend::measureWalls(const std::vector<uint32_t>& bricks) {
+  CpuWalls& walls = lattice_.strengths.walls;
+  const std::vector<uint32_t> groups = walls.acting(bricks);
+  const simd::WallJob job{lattice_.store.bodies.data(), walls.groups(),
+                          lattice_.state.displacement[lattice_.state.current].data()};
+  pool_.ranges(groups.size(), kMeasuredBricks,
+               [&](size_t first, size_t end) { kernels_.measure_walls(job, &groups[first], end - first); });
+  for (const uint32_t brick : bricks) {
+    const auto [elastic_j, stiffening] = walls.measured(brick);
+    simd::BrickStats& stats = work_->stats[brick];
+    if (std::isfinite(elastic_j)) stats.elastic_j += static_cast<double>(elastic_j);
+    stats.max_stiffening = std::max(stats.max_stiffening, std::min(stiffening, layout::kMostStiffening));
   }
 }
 
@@ -229,9 +235,9 @@ void CpuBackend::measure() {
                        lattice_.strengths.mass.data(), work_->stats.data()};
   std::vector<uint32_t>& changed = work_->changed;
   sleep_.takeChanged(lattice_, changed);
-  if (!changed.empty()) measureRows();
   pool_.ranges(changed.size(), kMeasuredBricks,
                [&](size_t first, size_t end) { kernels_.measure(job, &changed[first], end - first); });
+  if (!lattice_.strengths.walls.empty()) measureWalls(changed);
   layout::TickStats out{};
   out.springs_cut = springs_cut_;
   std::copy(std::begin(stats_.grabbed), std::end(stats_.grabbed), std::begin(out.grabbed));

@@ -94,7 +94,7 @@ class CpuBackend : public SolverBackend {
   void changeAll();
   void noteHeld();
   void slow(const Substep& step);
-  void measureRows();
+  void measureWalls(const std::vector<uint32_t>& bricks);
   void tear();
   float largestRate() const;
 

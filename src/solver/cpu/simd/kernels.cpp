@@ -200,26 +200,12 @@ HWY_INLINE void stepBySprings(const LeapfrogJob& job, const layout::BodyParams& 
     stepBrick(job, body, b, ForceOfSprings<false, kDashpot>{job, material, views, b});
 }
 
-/// The same, and of rows of nodes in thin walls.
+/// The same, and of cells in thin walls.
 struct ForceOfWalls {
   CellSources sources;
-  const Around (&rows)[3];
-  HWY_INLINE Vec3 operator()(int i) const {
-    Vec3 force = forceOfCells(sources, i);
-    const Surroundings x = surroundings(rows[0], i), y = surroundings(rows[1], i), z = surroundings(rows[2], i);
-    const Vec3 beside = (seen<1, 0, 0>(x) + seen<-1, 0, 0>(x)) + (seen<0, 1, 0>(y) + seen<0, -1, 0>(y)) +
-                        (seen<0, 0, 1>(z) + seen<0, 0, -1>(z));
-    return mulAdd(set(-2), seen<0, 0, 0>(x) + seen<0, 0, 0>(y) + seen<0, 0, 0>(z), force + beside);
-  }
+  const float* walls;
+  HWY_INLINE Vec3 operator()(int i) const { return forceOfCells(sources, i) + loadPlanes(walls + i); }
 };
-
-HWY_NOINLINE void stepByWalls(const LeapfrogJob& job, const layout::BodyParams& body, uint32_t b) {
-  Arrays by_place{};
-  by_place.bricks = job.rows.bricks;
-  Around rows[3];
-  for (int axis = 0; axis < 3; ++axis) lookAround(by_place, job.rows.values[axis], job.rows.place[b], rows[axis]);
-  stepBrick(job, body, b, ForceOfWalls{sourcesOf(job.arrays, b), rows});
-}
 
 void predictOf(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
   const Arrays& a = job.arrays;
@@ -247,8 +233,9 @@ void leapfrogOf(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
     const layout::BodyParams& body = job.arrays.bodies[job.arrays.bricks[b].body];
     if (body.law != layout::kLawSprings) {
       prefetchBrick(job.arrays, bricks[n + 1 < count ? n + 1 : n]);
-      if (HWY_UNLIKELY(job.rows.place != nullptr) && job.rows.place[b] != 0)
-        stepByWalls(job, body, b);
+      const float* walls = job.arrays.wall_forces;
+      if (HWY_UNLIKELY(walls != nullptr) && job.arrays.in_wall[b])
+        stepBrick(job, body, b, ForceOfWalls{sourcesOf(job.arrays, b), walls + size_t{b} * 192});
       else
         stepBrick(job, body, b, ForceOfCells{sourcesOf(job.arrays, b)});
     } else if (job.predicted) {

@@ -34,6 +34,8 @@ struct Arrays {
   const float* spring_stiffness;  ///< [18 * slots] N/m (springAt)
   const float* mobility;          ///< [slots] 1/kg
   const layout::NodeBits* nodes;  ///< [slots] says who is held; null where none can be
+  const float* wall_forces;       ///< [3 * slots] N on nodes of cells in thin walls; null without any
+  const uint8_t* in_wall;         ///< [bricks] it has such nodes
   const float* cell_sums;         ///< [kCellSums * bricks] N, of CellJob, in bodies of a law; null without
   const uint8_t* uniform;         ///< [bricks] all springs of all nodes are whole and of full strength
   const uint16_t* idle_rows;      ///< [bricks] bit r: none of the four nodes from 4 r on will ever move
@@ -46,37 +48,8 @@ struct Reach {
   float radius_m;
 };
 
-/// Rows of nodes in thin walls (physics.md 1, Thin walls; CpuRows). Only bricks in and beside such walls have arrays:
-/// these are numbered by place, and place 0 is a brick of zeros.
-struct RowArrays {
-  const uint32_t* place;        ///< [bricks] 0 where a brick has no part in rows; null where there are none at all
-  const uint32_t* brick_of;     ///< [places]
-  const layout::Brick* bricks;  ///< [places] neighbours by place
-  float* values[3];             ///< [192 * places] by axis of the row: of nodes within rows
-  float* ends[3];               ///< [192 * places] likewise, those at rows' ends included
-  float* sums[3];               ///< [kCellSums * places] what cells give to nodes, in place of forces
-  const float* const* walls;    ///< [bricks] [kWallNumbers * 64] of its cells; null where none is in a thin wall
-  const uint16_t* wall_rows;    ///< [bricks] bit r: some of the four cells from 4 r on is in a thin wall
-};
-/// What is done to rows of nodes, in this order.
-enum class RowStage {
-  kDifferences,  ///< values: second differences of displacements, over 4 h
-  kSpread,       ///< ends: the same, at a row's end those of the node beside it
-  kGather,       ///< values: what cells gave to nodes within rows; ends: to those at their ends
-  kReturn,       ///< values: with what the ends beside them got
-};
-struct RowJob {
-  Arrays arrays;
-  RowArrays rows;
-  bool dashpot;  ///< displacements are those ahead by dashpot_s
-  RowStage stage;
-};
-/// One stage of some places.
-using BrickRows = void (*)(const RowJob& job, const uint32_t* places, size_t count);
-
 struct LeapfrogJob {
   Arrays arrays;
-  RowArrays rows;
   Substep step;
   float* predicted;  ///< [3 * slots] u + dashpot_s v (physics.md 2) [m]; null without dashpots on springs
   size_t reaches;    ///< probes
@@ -99,8 +72,6 @@ constexpr uint32_t kMomentNumbers = 9;   ///< first, square, mixed (cell_motion.
 constexpr uint32_t kTensionNumbers = 6;  ///< of a stress at rest: xx, yy, zz, yz, zx, xy
 /// Of a laminate: its normal, share of a, shear moduli of a and b over their mean, K/mu of a and of b.
 constexpr uint32_t kLaminateNumbers = 8;
-/// Of a cell in a thin wall: its normal, rows along x, y and z, share of the stress across that is free, variation.
-constexpr uint32_t kWallNumbers = 8;
 constexpr uint32_t kBrokenSprings = 24;  ///< within a cell: 12 edges, along x, y and z, then 12 face diagonals
 /// Of a broken cell: stiffness of its springs, then how much shorter those along nine directions are at rest.
 constexpr uint32_t kBrokenNumbers = kBrokenSprings + 9;
@@ -122,6 +93,34 @@ constexpr size_t cornerSumsAt(int plane) {
 }
 constexpr size_t kCellSums = 400;
 
+// Cells in thin walls (physics.md 1, Thin walls), in groups of kWallLanes: of few cells of a brick each, so that they
+// are gathered. Numbers lie number by number within a group.
+constexpr uint32_t kWallLanes = 16;
+/// Of a cell: its corners, then beyond each corner, outwards, the nodes along x, y and z.
+constexpr uint32_t kWallNodes = 32;
+/// By axis and edge: how the second differences at its lower and upper end count (CpuWalls).
+constexpr uint32_t kWallEnds = 24;
+/// Of a wall: its normal, rows along x, y and z, share of the stress across that is free, variation.
+constexpr uint32_t kWallNumbers = 8;
+struct WallGroups {
+  const uint32_t* bodies;         ///< [groups]
+  const int32_t* nodes;           ///< [groups][kWallNodes][kWallLanes] places in arrays of vectors (vectorAt())
+  const float* ends;              ///< [groups][kWallEnds][kWallLanes]
+  const float* moments;           ///< [groups][kMomentNumbers][kWallLanes]
+  const float* numbers;           ///< [groups][kWallNumbers][kWallLanes]
+  const float* strengths;         ///< [groups][2][kWallLanes] rigidity [J], 0 where there is no cell; bulk over it
+  const float* const* laminates;  ///< [groups] [kLaminateNumbers][kWallLanes]; null where none is of two materials
+  float* forces;                  ///< [groups][3 * kWallNodes][kWallLanes] on its nodes, x, y, z of each [N]
+  float* measured;                ///< [groups][2][kWallLanes] energy [J], and how much stiffer than at rest
+};
+struct WallJob {
+  const layout::BodyParams* bodies;
+  WallGroups walls;
+  const float* places;  ///< [3 * slots] displacements [m]
+};
+/// Writes forces of some groups; or what is measured of them.
+using WallForces = void (*)(const WallJob& job, const uint32_t* groups, size_t count);
+
 /// Forces of cells that obey a law (shaders/solver/tissue/law.glsl).
 struct CellJob {
   Arrays arrays;
@@ -135,7 +134,6 @@ struct CellJob {
       laminates;               ///< [bricks] [kLaminateNumbers * 64] of its cells; null where none is of two materials
   const float* const* broken;  ///< [bricks] [kBrokenNumbers * 64] N of cells of a law that have lost a spring
                                ///< (CpuStrengths); null where all are whole
-  RowArrays rows;              ///< of thin walls
   bool parts;                  ///< bulk over rigidity differs within a body
   bool dashpot;                ///< some body has one
   float* sums;                 ///< [kCellSums * bricks] N
@@ -204,7 +202,8 @@ struct Kernels {
   BrickPredict predict;
   BrickMeasure measure;
   BrickCells cells;
-  BrickRows rows;
+  WallForces walls;
+  WallForces measure_walls;
   NetworkGroups spread_network;  ///< of all groups, before their leapfrog
   NetworkGroups leapfrog_network;
   BrickSweep sweep;

@@ -14,7 +14,6 @@
 #include "hwy/highway.h"
 #include "solver/cpu/simd/cells-inl.h"
 #include "solver/cpu/simd/law-inl.h"
-#include "solver/cpu/simd/law_walls-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
@@ -37,14 +36,6 @@ struct LawBrick {
   const UpTile& tile;
   uint32_t b;
 };
-
-/// Constants of a vector of cells where they differ within a body. @param cell  index of the first in the brick
-HWY_INLINE LawBody bodyOfCells(const LawBrick& of, int cell, V rigidity) {
-  const V bulk = load(of.job.bulk + size_t{of.b} * 64 + static_cast<size_t>(cell));
-  const M there = hn::Gt(rigidity, hn::Zero(Tag()));
-  const V ratio = hn::IfThenElseZero(there, hn::Div(bulk, hn::Max(rigidity, set(1e-30f))));
-  return lawBodyOf(of.params, ratio, of.job.dashpot);
-}
 
 // clang-format off
 /// Calls APPLY(number, near, far, x, y, z) for the springs within a cell (kBrokenSprings): from corner to corner, bit
@@ -128,44 +119,11 @@ HWY_NOINLINE void lawCells(const LawBrick& of, int cell, V rigidity, const Face&
     lawForces<kFull>(of.body, moments, tension, laminate, mu, q, out);
     return;
   }
-  lawForces<kFull>(bodyOfCells(of, cell, rigidity), moments, tension, laminate, mu, q, out);
-}
-
-/// A brick with cells in thin walls.
-struct WallBrick {
-  const LawBrick& law;
-  const UpTile (&rows)[3];  ///< second differences over 4 h, by axis of the row
-  RowMotion pulls[4];       ///< of the four vectors of cells of a column
-};
-
-/// Second differences over 4 h of a brick's nodes and of those above it, by axis of the row.
-HWY_INLINE void fillRows(const RowArrays& rows, uint32_t b, UpTile (&tiles)[3]) {
-  Arrays by_place{};
-  by_place.bricks = rows.bricks;
-  for (int axis = 0; axis < 3; ++axis) {
-    const float* values = rows.ends[axis];
-    fillUp(by_place, rows.place[b], 31, tiles[axis], [values](size_t at) HWY_ATTR { return load(values + at); });
-  }
-}
-
-HWY_INLINE RowMotion rowMotion(const UpTile (&rows)[3], int at) {
-  RowMotion out;
-  for (int axis = 0; axis < 3; ++axis)
-    addRowMotion(faceAt(rows[axis], at), faceAt(rows[axis], at + kUpPlane), axis, out);
-  return out;
-}
-
-/// What a vector of cells does to its corners and to rows, where some are in thin walls. @param at  place in the tile
-inline HWY_NOINLINE void wallCells(const WallBrick& of, int cell, int at, V rigidity, const Face& below,
-                                   const Face& above, CellMotion& out, RowMotion& pull) {
-  const LawBrick& law = of.law;
-  const auto first = static_cast<uint32_t>(cell);
-  const LawWall wall = loadWall(law.job.rows.walls[law.b] + cellNumberAt(first, 0, kWallNumbers));
-  const float* laminate = law.job.laminates[law.b];
-  if (HWY_UNLIKELY(laminate != nullptr)) laminate += cellNumberAt(first, 0, kLaminateNumbers);
-  wallForces(law.job.parts ? bodyOfCells(law, cell, rigidity) : law.body, loadLawMoments(law.job.moments[law.b], cell),
-             wall, laminate, hn::Mul(rigidity, law.body.per_4h), motionOf4(below, above), rowMotion(of.rows, at), out,
-             pull);
+  const V bulk = load(of.job.bulk + size_t{of.b} * 64 + static_cast<size_t>(cell));
+  const M there = hn::Gt(rigidity, hn::Zero(Tag()));
+  const V ratio = hn::IfThenElseZero(there, hn::Div(bulk, hn::Max(rigidity, set(1e-30f))));
+  LawBody body = lawBodyOf(of.params, ratio, of.job.dashpot);
+  lawForces<kFull>(body, moments, tension, laminate, mu, q, out);
 }
 
 /// What the four vectors of cells of a column do. @param i  place of the column's vectors in their planes
@@ -173,9 +131,7 @@ struct LawColumn {
   CellMotion cells[4];
   const CellMotion* at[6];  ///< below and above a plane of nodes
 };
-/// @param wall  null: none of the brick's cells is in a thin wall
-HWY_INLINE void stepLawColumn(const LawBrick& of, int i, const CellMotion& nothing, LawColumn& column,
-                              WallBrick* wall) {
+HWY_INLINE void stepLawColumn(const LawBrick& of, int i, const CellMotion& nothing, LawColumn& column) {
   Face faces[2];
   int known = -1;  // last plane whose face is
   column.at[0] = column.at[5] = &nothing;
@@ -191,9 +147,7 @@ HWY_INLINE void stepLawColumn(const LawBrick& of, int i, const CellMotion& nothi
       faces[(z + 1) & 1] = faceAt(of.tile, at + kUpPlane);
       known = z + 1;
       column.at[z + 1] = &out;
-      if (HWY_UNLIKELY(wall != nullptr) && !noRows(of.job.rows.wall_rows[of.b], cell))
-        wallCells(*wall, cell, at, rigidity, faces[z & 1], faces[(z + 1) & 1], out, wall->pulls[z]);
-      else if (noRows(of.job.partial_rows[of.b], cell))
+      if (noRows(of.job.partial_rows[of.b], cell))
         lawCells<true>(of, cell, rigidity, faces[z & 1], faces[(z + 1) & 1], out);
       else
         lawCells<false>(of, cell, rigidity, faces[z & 1], faces[(z + 1) & 1], out);
@@ -213,34 +167,9 @@ HWY_INLINE void sumLawBrick(const LawBrick& of, uint32_t planes) {
   float* sums = of.job.sums + size_t{of.b} * kCellSums;
   Behind behind;
   for (int i = 0; i < 16; i += static_cast<int>(hn::MaxLanes(Tag()))) {
-    stepLawColumn(of, i, nothing, column, nullptr);
+    stepLawColumn(of, i, nothing, column);
     for (int z = 0; z <= 4; ++z) {
       if (planes >> z & 1) writeSums(sums, behind, z, i, gathered(*column.at[z], *column.at[z + 1]));
-    }
-  }
-}
-
-/// The same where cells are in thin walls: sums of what they give to rows, too.
-inline HWY_NOINLINE void sumWallBrick(const LawBrick& of, uint32_t planes) {
-  const RowArrays& rows = of.job.rows;
-  const uint32_t place = rows.place[of.b];
-  UpTile tiles[3];
-  fillRows(rows, of.b, tiles);
-  const CellMotion nothing = {zero3(), zero3(), zero3(), zero3(), zero3(), zero3(), zero3()};
-  const RowMotion none = {{zero3(), zero3(), zero3()}, {{zero3(), zero3()}, {zero3(), zero3()}, {zero3(), zero3()}}};
-  WallBrick wall{of, tiles, {none, none, none, none}};
-  LawColumn column;
-  Behind behind, behind_rows[3];
-  for (int i = 0; i < 16; i += static_cast<int>(hn::MaxLanes(Tag()))) {
-    for (RowMotion& pull : wall.pulls) pull = none;
-    stepLawColumn(of, i, nothing, column, &wall);
-    for (int z = 0; z <= 4; ++z) {
-      if (planes >> z & 1)
-        writeSums(of.job.sums + size_t{of.b} * kCellSums, behind, z, i, gathered(*column.at[z], *column.at[z + 1]));
-      const RowMotion &below = z > 0 ? wall.pulls[z - 1] : none, &above = z < 4 ? wall.pulls[z] : none;
-      for (int axis = 0; axis < 3; ++axis)
-        writeSums(rows.sums[axis] + size_t{place} * kCellSums, behind_rows[axis], z, i,
-                  gatheredRows(below, above, axis));
     }
   }
 }
@@ -256,11 +185,7 @@ HWY_INLINE void lawBrick(const CellJob& job, const layout::BodyParams& params, u
     fillScaled<false>(job.arrays, b, planes, body, tile);
   for (size_t i = 0; i < 192; i += 16) hwy::Prefetch(job.arrays.displacement + size_t{next} * 192 + i);
   for (size_t i = 0; i < kCellSums; i += 16) hwy::Prefetch(job.sums + size_t{next} * kCellSums + i);
-  const LawBrick of = {job, params, body, tile, b};
-  if (HWY_UNLIKELY(job.rows.place != nullptr) && job.rows.walls[b] != nullptr)
-    sumWallBrick(of, planes);
-  else
-    sumLawBrick(of, planes);
+  sumLawBrick({job, params, body, tile, b}, planes);
 }
 
 }  // namespace viscera::simd::HWY_NAMESPACE

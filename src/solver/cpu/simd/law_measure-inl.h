@@ -116,28 +116,9 @@ inline HWY_NOINLINE LaminateMeasured measureLaminate(const LawBody& body, const 
 struct LawMeasured {
   V energy, stiffening;
 };
-/// Gradient at the centroid of the tissue of cells in thin walls, and energy of how strain varies, over mu.
-struct WallMeasured {
-  Columns star;
-  V energy;
-};
-inline HWY_NOINLINE WallMeasured measureWall(const LawBody& body, const LawMoments& m, const float* numbers, M there,
-                                             const CellMotion& q, const RowMotion& rows) {
-  const LawWall wall = loadWall(numbers);
-  const WallPoint at = wallPoint<true>(body, m, wall, there, q, rows);
-  Symmetric g[3], sigma[3];
-  gradientsOf(body.poisson, at.s, at.v, g);
-  momentsOf(body, m, wall, g, sigma);
-  V twice = hn::Zero(Tag());
-  for (int k = 0; k < 3; ++k)
-    twice = hn::Add(twice, hn::Add(dot(g[k].pulled, sigma[k].pulled), dot(g[k].sheared, sigma[k].sheared)));
-  return {at.star, hn::Mul(set(0.5f), twice)};
-}
-
-/// @param n  displacements of the corners of the cells above a vector's nodes [m]   @param rows  of their brick, second
-/// differences over 4 h by axis; null: none is in a thin wall
+/// @param n  displacements of the corners of the cells above a vector's nodes [m]
 inline HWY_NOINLINE LawMeasured measureLaw(const CellJob& job, const layout::BodyParams& params, size_t slot,
-                                           const Vec3 (&n)[8], const UpTile (*rows)[3]) {
+                                           const Vec3 (&n)[8]) {
   const V rigidity = load(job.rigidity + slot), none = hn::Zero(Tag());
   const M there = hn::Gt(rigidity, none);
   if (hn::AllFalse(Tag(), there)) return {none, none};
@@ -157,16 +138,7 @@ inline HWY_NOINLINE LawMeasured measureLaw(const CellJob& job, const layout::Bod
   const Bends s = {r * transposedOf(c, q.hx), r * transposedOf(c, q.hy), r * transposedOf(c, q.hz)};
   const Bends k = lawBends<false>(body, m, s);
   const Columns g = atCentroid(body.poisson, s, m.centroid2);
-  Columns star = {timesOf(d, g.a) + d.a, timesOf(d, g.b) + d.b, timesOf(d, g.c) + d.c};
-  V bending = hn::Mul(set(0.5f), hn::Add(dot(k.x, s.x), hn::Add(dot(k.y, s.y), dot(k.z, s.z))));
-  const size_t brick = slot / 64, cell = slot % 64;
-  if (HWY_UNLIKELY(rows != nullptr) && !noRows(job.rows.wall_rows[brick], static_cast<int>(cell))) {
-    const float* wall = job.rows.walls[brick] + cellNumberAt(static_cast<uint32_t>(cell), 0, kWallNumbers);
-    const int at = static_cast<int>(cell / 16) * kUpPlane + static_cast<int>(cell % 16);
-    const WallMeasured measured = measureWall(body, m, wall, there, q, rowMotion(*rows, at));
-    star = measured.star;
-    bending = measured.energy;
-  }
+  const Columns star = {timesOf(d, g.a) + d.a, timesOf(d, g.b) + d.b, timesOf(d, g.c) + d.c};
   const Columns of_star = cofactorsOf(star);
   const V e_star = dilationOf(star, of_star);
   V tension = none, of_tension = none;
@@ -185,7 +157,7 @@ inline HWY_NOINLINE LawMeasured measureLaw(const CellJob& job, const layout::Bod
     energy = layers.density;
     of_layers = layers.stiffening;
   }
-  energy = hn::Add(bending, energy);
+  energy = hn::MulAdd(set(0.5f), hn::Add(dot(k.x, s.x), hn::Add(dot(k.y, s.y), dot(k.z, s.z))), energy);
   energy = hn::MulAdd(set(kLawAlternating), dot(q.hxyz, q.hxyz), energy);
   energy = hn::Add(energy, of_tension);
   const V stiffening = hn::Max(stiffeningOf(body, body.bulk, d, c, e, tension),

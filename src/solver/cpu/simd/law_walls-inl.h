@@ -28,7 +28,7 @@ struct LawWall {
   Vec3 normal, rows;
   V across, variation;
 };
-/// @param numbers  of the first cell (CpuStrengths::brick_walls); the next is 16 farther
+/// @param numbers  of the first cell (WallGroups::numbers); the next is 16 farther
 HWY_INLINE LawWall loadWall(const float* numbers) {
   return {{load(numbers), load(numbers + 16), load(numbers + 32)},
           {load(numbers + 48), load(numbers + 64), load(numbers + 80)},
@@ -36,12 +36,13 @@ HWY_INLINE LawWall loadWall(const float* numbers) {
           load(numbers + 112)};
 }
 
-/// Of second differences over 4 h at the corners of a vector of cells, of rows along one axis.
-HWY_INLINE void addRowMotion(const Face& low, const Face& high, int axis, RowMotion& out) {
-  const Vec3 along[3] = {low.ds + high.ds, low.sd + high.sd, high.ss - low.ss};
-  out.second[axis] = set(0.25f) * (low.ss + high.ss);
-  out.varies[axis][0] = along[(axis + 1) % 3];
-  out.varies[axis][1] = along[(axis + 2) % 3];
+/// Of sums over edges along an axis of the second differences at both ends, over 4 h: by side along the next axis, then
+/// along the next but one.
+HWY_INLINE void addRowMotion(const Vec3 (&edges)[2][2], int axis, RowMotion& out) {
+  const Vec3 low = edges[0][0] + edges[0][1], high = edges[1][0] + edges[1][1];
+  out.second[axis] = set(0.25f) * (low + high);
+  out.varies[axis][0] = high - low;
+  out.varies[axis][1] = (edges[0][1] + edges[1][1]) - (edges[0][0] + edges[1][0]);
 }
 
 /// A symmetric tensor: xx, yy, zz; and yz, zx, xy, of strains doubled.
@@ -254,15 +255,11 @@ inline HWY_NOINLINE void wallForces(const LawBody& body, const LawMoments& m, co
     squeezedWallForces(body, m, wall, laminate, mu, q, rows, out, pull);
 }
 
-/// What the nodes of a plane get of rows along an axis from the cells below and above it.
-HWY_INLINE Corners gatheredRows(const RowMotion& below, const RowMotion& above, int axis) {
-  const auto varies = [&](const RowMotion& of, int along)
-                          HWY_ATTR { return along == axis ? zero3() : of.varies[axis][(along - axis + 3) % 3 - 1]; };
-  const Vec3 mean = set(-0.25f) * (below.second[axis] + above.second[axis]);
-  const Vec3 middle = mean - varies(below, 2) + varies(above, 2);
-  const Vec3 dx = varies(below, 0) + varies(above, 0), dy = varies(below, 1) + varies(above, 1);
-  const Vec3 sum = dx + dy, difference = dx - dy;
-  return {middle + sum, middle - difference, middle + difference, middle - sum};
+/// What an edge along an axis gets of the cell, at its sides -1 or 1 along the next axis and the next but one.
+HWY_INLINE Vec3 pullOfEdge(const RowMotion& pull, int axis, int side, int other) {
+  const Vec3 mean = set(-0.25f) * pull.second[axis];
+  return mulAdd(set(static_cast<float>(-side)), pull.varies[axis][0],
+                mulAdd(set(static_cast<float>(-other)), pull.varies[axis][1], mean));
 }
 
 }  // namespace viscera::simd::HWY_NAMESPACE

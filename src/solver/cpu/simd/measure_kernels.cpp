@@ -62,11 +62,10 @@ HWY_INLINE M hasBits(Bits of, uint32_t bits) {
   return hn::RebindMask(Tag(), hn::Ne(hn::And(of, hn::Set(d, bits)), hn::Zero(d)));
 }
 
-/// Elastic energy of cells of a law above a vector's nodes [J]. @param rows  as of measureLaw()   @param good  whose
-/// nodes are finite
+/// Elastic energy of cells of a law above a vector's nodes [J]. @param good  whose nodes are finite
 HWY_INLINE V measureLawCells(const MeasureJob& job, const Material& m, const layout::BodyParams& body, size_t slot,
-                             const Vec3 (&corners)[8], const UpTile (*rows)[3], M good, BrickStats& stats) {
-  const LawMeasured law = measureLaw(job.cells, body, slot, corners, rows);
+                             const Vec3 (&corners)[8], M good, BrickStats& stats) {
+  const LawMeasured law = measureLaw(job.cells, body, slot, corners);
   V elastic = hn::IfThenElseZero(good, law.energy);
   const V most = set(kMostStiffening), bounded = hn::IfThenElse(hn::Lt(law.stiffening, most), law.stiffening, most);
   const V stiffening = hn::IfThenElseZero(good, bounded);
@@ -77,8 +76,7 @@ HWY_INLINE V measureLawCells(const MeasureJob& job, const Material& m, const lay
   return hn::Add(elastic, hn::IfThenElseZero(good, brokenEnergy(k, m, body.origin_spacing.w, corners)));
 }
 
-void measureVector(const MeasureJob& job, const Material& m, const Tile& u, const UpTile (*rows)[3], uint32_t b, int i,
-                   BrickStats& stats) {
+void measureVector(const MeasureJob& job, const Material& m, const Tile& u, uint32_t b, int i, BrickStats& stats) {
   const Arrays& a = job.arrays;
   const size_t slot = size_t{b} * 64 + static_cast<size_t>(i);
   const Bits bits = lowBits(job.nodes + slot);
@@ -101,7 +99,7 @@ void measureVector(const MeasureJob& job, const Material& m, const Tile& u, cons
   const M whole = hn::AndNot(hasBits(bits, layout::kSeveredBit), cell);
   stats.inverted += count(hn::And(whole, hn::Lt(e, set(-1))));
   const layout::BodyParams& body = a.bodies[a.bricks[b].body];
-  if (body.law != layout::kLawSprings) elastic = measureLawCells(job, m, body, slot, corners, rows, good, stats);
+  if (body.law != layout::kLawSprings) elastic = measureLawCells(job, m, body, slot, corners, good, stats);
   const V v2 = hn::IfThenElseZero(good, dot(v, v));
   const V kinetic = hn::Mul(hn::Mul(set(0.5f), load(job.mass + slot)), v2);
   stats.kinetic_j += sum(kinetic);
@@ -112,17 +110,12 @@ void measureVector(const MeasureJob& job, const Material& m, const Tile& u, cons
 
 void measureOf(const MeasureJob& job, const uint32_t* bricks, size_t count) {
   Tile u;
-  UpTile tiles[3];
-  const RowArrays& rows = job.cells.rows;
   for (size_t n = 0; n < count; ++n) {
     const uint32_t b = bricks[n];
-    const bool in_wall = rows.place != nullptr && rows.walls[b] != nullptr;
-    if (HWY_UNLIKELY(in_wall)) fillRows(rows, b, tiles);
     const Material m = materialOf(job.arrays.bodies[job.arrays.bricks[b].body]);
     fill<true>(job.arrays, job.arrays.displacement, b, u);
     BrickStats stats{};
-    for (int i = 0; i < 64; i += static_cast<int>(hn::MaxLanes(Tag())))
-      measureVector(job, m, u, in_wall ? &tiles : nullptr, b, i, stats);
+    for (int i = 0; i < 64; i += static_cast<int>(hn::MaxLanes(Tag()))) measureVector(job, m, u, b, i, stats);
     job.stats[b] = stats;
   }
 }

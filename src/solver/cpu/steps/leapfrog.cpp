@@ -40,7 +40,7 @@ CpuLeapfrog::CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts)
       step_bricks_(parts.kernels.leapfrog),
       predict_bricks_(parts.kernels.predict),
       sum_cells_(parts.kernels.cells),
-      run_rows_(parts.kernels.rows),
+      sum_walls_(parts.kernels.walls),
       deepest_m_(deepestOf(lattice.strengths.surface_depth)),
       near_(lattice.brickCount()),
       strained_(lattice.brickCount()),
@@ -52,6 +52,10 @@ CpuLeapfrog::CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts)
     wanted_.resize(lattice.brickCount());
     cell_bricks_.reserve(lattice.brickCount());
     cell_bricks_awake_.reserve(lattice.brickCount());
+  }
+  if (!lattice.strengths.walls.empty()) {
+    if (dashpot_) wall_places_.resize(3 * lattice.slotCount());
+    wall_forces_.resize(3 * lattice.slotCount());
   }
   if (network_) reaches_.reserve(layout::kMaxStyluses);
   if (parts.features.predicted) {
@@ -100,6 +104,7 @@ void CpuLeapfrog::stepAwake(CpuLattice& lattice, const Substep& step, const layo
   if (!cell_sums_.empty()) {
     sumCells(lattice);
     job_.arrays.cell_sums = cell_sums_.data();
+    if (!wall_groups_.empty()) sumWalls(lattice);
   }
   job_.arrays.compensation = compensation_.empty() ? nullptr : compensation_.data();
   job_.step = step;
@@ -132,47 +137,50 @@ void CpuLeapfrog::predict(const Substep& step) {
                    [&](size_t first, size_t end) { predict_bricks_(job_, &bricks[first], end - first); });
 }
 
-/// Lists the cells whose forces act on bricks that are awake: their own and those of the seven bricks below them; where
-/// there are thin walls, of all around them.
-void CpuLeapfrog::listCells(CpuLattice& lattice) {
-  if (cell_bricks_awake_ == sleep_.awake()) return;
-  cell_bricks_awake_ = sleep_.awake();
-  std::fill(wanted_.begin(), wanted_.end(), uint8_t{0});
-  for (const uint32_t brick : cell_bricks_awake_) {
-    for (const int direction : {0, 1, 3, 4, 9, 10, 12, 13})
-      wanted_[lattice.store.bricks[brick].neighbors[direction]] = 1;
-  }
-  row_places_ = lattice.rows.around(lattice.store, cell_bricks_awake_);
-  for (const uint32_t place : row_places_) wanted_[lattice.rows.brickOf(place)] = 1;
-  cell_bricks_.clear();
-  for (uint32_t b = 0; b < wanted_.size(); ++b) {
-    const bool of_law = lattice.store.bodies[lattice.store.bricks[b].body].law != layout::kLawSprings;
-    if (wanted_[b] && of_law) cell_bricks_.push_back(b);
-  }
-}
-
-void CpuLeapfrog::runRows(CpuLattice& lattice, simd::RowStage stage) {
-  const simd::RowJob job{arraysOf(lattice), lattice.rows.arrays(), dashpot_, stage};
-  parallel_.ranges(row_places_.size(), portions_,
-                   [&](size_t first, size_t end) { run_rows_(job, &row_places_[first], end - first); });
-}
-
-/// Sums the forces of cells on nodes, and what those in thin walls do to rows.
+/// Forces of all cells that have a corner in a brick that is awake: of its own and of the seven below it.
 void CpuLeapfrog::sumCells(CpuLattice& lattice) {
-  listCells(lattice);
-  if (!row_places_.empty()) {
-    runRows(lattice, simd::RowStage::kDifferences);
-    runRows(lattice, simd::RowStage::kSpread);
+  if (cell_bricks_awake_ != sleep_.awake()) {
+    cell_bricks_awake_ = sleep_.awake();
+    std::fill(wanted_.begin(), wanted_.end(), uint8_t{0});
+    for (const uint32_t brick : cell_bricks_awake_) {
+      for (const int direction : {0, 1, 3, 4, 9, 10, 12, 13})
+        wanted_[lattice.store.bricks[brick].neighbors[direction]] = 1;
+    }
+    cell_bricks_.clear();
+    for (uint32_t b = 0; b < wanted_.size(); ++b) {
+      const bool of_law = lattice.store.bodies[lattice.store.bricks[b].body].law != layout::kLawSprings;
+      if (wanted_[b] && of_law) cell_bricks_.push_back(b);
+    }
+    wall_groups_ = lattice.strengths.walls.acting(cell_bricks_awake_);
+    wall_bricks_ = lattice.strengths.walls.seen(wall_groups_);
   }
   simd::CellJob job = cellsOf(lattice);
   job.dashpot = dashpot_;
   job.sums = cell_sums_.data();
   parallel_.ranges(cell_bricks_.size(), portions_,
                    [&](size_t first, size_t end) { sum_cells_(job, &cell_bricks_[first], end - first); });
-  job_.rows = job.rows;
-  if (row_places_.empty()) return;
-  runRows(lattice, simd::RowStage::kGather);
-  runRows(lattice, simd::RowStage::kReturn);
+}
+
+/// Forces of cells in thin walls on the nodes of bricks that are awake.
+void CpuLeapfrog::sumWalls(CpuLattice& lattice) {
+  CpuWalls& walls = lattice.strengths.walls;
+  const float* places = job_.arrays.displacement;
+  if (dashpot_) {
+    simd::LeapfrogJob ahead = job_;
+    ahead.predicted = wall_places_.data();
+    places = ahead.predicted;
+    parallel_.ranges(wall_bricks_.size(), portions_,
+                     [&](size_t first, size_t end) { predict_bricks_(ahead, &wall_bricks_[first], end - first); });
+  }
+  const simd::WallJob job{lattice.store.bodies.data(), walls.groups(), places};
+  parallel_.ranges(wall_groups_.size(), portions_,
+                   [&](size_t first, size_t end) { sum_walls_(job, &wall_groups_[first], end - first); });
+  const std::vector<uint32_t>& awake = sleep_.awake();
+  parallel_.ranges(awake.size(), portions_, [&](size_t first, size_t end) {
+    for (size_t i = first; i < end; ++i) walls.sumForces(awake[i], wall_forces_.data());
+  });
+  job_.arrays.wall_forces = wall_forces_.data();
+  job_.arrays.in_wall = walls.inWall();
 }
 
 void CpuLeapfrog::stepBricks(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, size_t first,

@@ -23,9 +23,8 @@ class CpuLeapfrog : public CpuStepper {
   void stepAwake(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
   void predict(const Substep& step);
   void sumCells(CpuLattice& lattice);
+  void sumWalls(CpuLattice& lattice);
   void forgetSums();
-  void listCells(CpuLattice& lattice);
-  void runRows(CpuLattice& lattice, simd::RowStage stage);
   void stepBricks(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, size_t first,
                   size_t end);
   void stepNetwork(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
@@ -38,14 +37,17 @@ class CpuLeapfrog : public CpuStepper {
   simd::BrickLeapfrog step_bricks_;
   simd::BrickPredict predict_bricks_;
   simd::BrickCells sum_cells_;
-  simd::BrickRows run_rows_;
+  simd::WallForces sum_walls_;
   AlignedVector<float> predicted_;           ///< [3 * slots], see kernels.h; empty where it is not needed
   std::vector<uint32_t> all_bricks_;         ///< where it is
   std::vector<uint32_t> predicted_awake_;    ///< those awake when it was written as a whole
   AlignedVector<float> cell_sums_;           ///< [simd::kCellSums * bricks] N; empty without a law
   std::vector<uint32_t> cell_bricks_;        ///< whose cells the nodes of those awake are corners of
-  std::vector<uint32_t> row_places_;         ///< CpuRows::around() those awake
   std::vector<uint32_t> cell_bricks_awake_;  ///< those awake when they were listed
+  AlignedVector<float> wall_places_;         ///< [3 * slots] where nodes will be that cells in thin walls look at [m]
+  AlignedVector<float> wall_forces_;         ///< [3 * slots] N; empty without such cells
+  std::vector<uint32_t> wall_groups_;        ///< that act on bricks that are awake
+  std::vector<uint32_t> wall_bricks_;        ///< that they look at
   std::vector<uint8_t> wanted_;              ///< [bricks] while they are listed
   AlignedVector<float> compensation_;        ///< [6 * slots], see kernels.h; empty without compensation
   simd::LeapfrogJob job_{};

@@ -72,7 +72,6 @@ CpuLattice::CpuLattice(const Model& model, const std::vector<layout::BodyParams>
     : store(model, params),
       links(model),
       strengths(model, store, features, links.network.masses_kg),
-      rows(store, strengths),
       state(store.slotCount()),
       hands(store, features),
       record(model, links.network, features),

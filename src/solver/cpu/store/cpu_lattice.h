@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "solver/cpu/store/cpu_rows.h"
 #include "solver/cpu/store/cpu_strengths.h"
 #include "solver/tissue/cut_record.h"
 #include "solver/tissue/joined_network.h"
@@ -95,7 +94,6 @@ struct CpuLattice {
   CpuStore store;
   CpuLinks links;
   CpuStrengths strengths;
-  CpuRows rows;
   CpuState state;
   CpuHands hands;
   CutRecord record;

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "solver/cpu/simd/kernels.h"
+#include "solver/cpu/store/cell_numbers.h"
 #include "solver/cpu/store/slot_beside.h"
 #include "solver/tissue/joined_lattice.h"
 #include "viscera/solver/material.h"
@@ -34,14 +35,6 @@ void addSlab(std::vector<AlignedVector<float>>& slabs) {
 
 bool isAlone(const layout::NodeBits& bits) {
   return (bits.lo & layout::kAxialMask) == 0 && (bits.hi & layout::kDiagonalMask) == 0;
-}
-
-/// Of LawMoments (law-inl.h). @param m  first, square and mixed moments   @param v  which of them
-float lawMoment(const layout::vec4* m, size_t v, size_t c) {
-  const auto of = [](const layout::vec4& vector, size_t i) { return i == 0 ? vector.x : i == 1 ? vector.y : vector.z; };
-  if (v == 0) return 2 * of(m[0], c);
-  const size_t a = v == 1 ? c : (c + 1) % 3, b = v == 1 ? c : (c + 2) % 3;
-  return 4 * (of(m[v], c) - of(m[0], a) * of(m[0], b));
 }
 
 /// Strain of springs that have a cell's stress at rest, along a direction: n.E.n with E = (S - tr S / 5) / 2 over mu.
@@ -84,7 +77,7 @@ CpuStrengths::CpuStrengths(const Model& model, const CpuStore& store, const Feat
     spreadMoments(store);
     spreadTensions(store);
     spreadLaminates(store);
-    if (features.walls) spreadWalls(store);
+    if (features.walls) walls = CpuWalls(store, moments, table_);
   }
   refreshAll(store);
 }
@@ -153,6 +146,15 @@ float* CpuStrengths::newBrokenPlanes() {
   return planes;
 }
 
+/// Fits the cells in thin walls around a node to the springs that it has.
+void CpuStrengths::refreshWalls(const CpuStore& store, uint32_t slot) {
+  for (int c = 0; c < 8; ++c) {
+    const uint32_t cell = slotBeside(store.bricks, slot, {-(c & 1), -(c >> 1 & 1), -(c >> 2 & 1)});
+    if (cell != kNoSlot && walls.has(cell))
+      walls.refresh(store, cell, cellRigidity(store, cell), cellBulk(store, cell));
+  }
+}
+
 /// Has one of a cell's 24 springs softened? It resists by nothing else then, or it would hold a tear together.
 bool CpuStrengths::hasSoftened(const CpuStore& store, uint32_t slot) const {
   for (int c = 0; c < 8 && !left.empty(); ++c) {
@@ -187,9 +189,9 @@ void CpuStrengths::refresh(const CpuStore& store, uint32_t slot) {
   uniform[brick] = uniform[brick] && isFull(store, slot);
   if (bulk.empty()) return;
   bulk[slot] = cellBulk(store, slot);
-  rigidity[slot] = cellRigidity(store, slot);
+  rigidity[slot] = walls.has(slot) ? 0 : cellRigidity(store, slot);
   breakCells(store, slot);
-  if (!brick_walls.empty()) refreshWalls(store, slot);
+  if (!walls.empty()) refreshWalls(store, slot);
 }
 
 /// Makes brick_moments and partial_rows.
@@ -252,15 +254,9 @@ void CpuStrengths::spreadLaminates(const CpuStore& store) {
     float* planes = &laminate_planes_[i * kBrick];
     brick_laminates[bricks[i]] = planes;
     for (uint32_t local = 0; local < layout::kBrickSlots; ++local) {
-      const uint32_t slot = bricks[i] * layout::kBrickSlots + local;
-      const layout::vec4* l = moments.laminateOf(slot);
-      const float rigidity = table_.rigidity_j[slot];
-      const float bulk = 5.0f / 3 + (rigidity > 0 ? table_.bulk_j[slot] / rigidity : 0);
-      const float none[] = {1, 0, 0, 1, 1, 1, bulk, bulk};
-      for (uint32_t n = 0; n < simd::kLaminateNumbers; ++n) {
-        const float* of_vector = l == nullptr ? none : n < 4 ? &l[0].x : &l[1].x - 4;
-        planes[simd::cellNumberAt(local, n, simd::kLaminateNumbers)] = of_vector[n];
-      }
+      const LaminateNumbers numbers = laminateNumbers(moments, table_, bricks[i] * layout::kBrickSlots + local);
+      for (uint32_t n = 0; n < simd::kLaminateNumbers; ++n)
+        planes[simd::cellNumberAt(local, n, simd::kLaminateNumbers)] = numbers[n];
     }
   }
 }
@@ -321,7 +317,6 @@ bool CpuStrengths::isIdleRow(const CpuStore& store, uint32_t first) const {
   bool nothing = true, still = true;
   for (uint32_t slot = first; slot < first + 4; ++slot) {
     nothing = nothing && !(store.nodes[slot].lo & layout::kLawCellBit);
-    still = still && (brick_walls.empty() || moments.wallOf(slot) == nullptr);  // rows reach farther
     for (int c = 0; c < 8; ++c) {
       still = still && mobility[neighborSlot(store.bricks, slot, {c & 1, c >> 1 & 1, c >> 2 & 1})] == 0;
     }

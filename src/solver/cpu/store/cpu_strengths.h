@@ -4,6 +4,7 @@
 
 #include "math/aligned.h"
 #include "solver/cpu/store/cpu_store.h"
+#include "solver/cpu/store/cpu_walls.h"
 #include "solver/tissue/features.h"
 #include "solver/tissue/joined_lattice.h"
 #include "viscera/model/body/elasticity.h"
@@ -35,6 +36,7 @@ struct CpuStrengths {
   AlignedVector<float> both_ends;      ///< [18 * slots] N/m of all springs, from either end (springAt() in kernels.h)
   AlignedVector<float> rigidity;  ///< [slots] J of the cell above the node (law.glsl); 0 torn, absent, or of springs;
                                   ///< empty without a law
+  CpuWalls walls;                 ///< cells in thin walls, whose rigidity above is 0
   JoinedMoments moments;          ///< empty without
   std::vector<const float*> brick_moments;    ///< [bricks] [9 * 64] moments of its cells, number by number, the
                                               ///< those of LawMoments (law-inl.h); null where all are full; empty
@@ -43,9 +45,6 @@ struct CpuStrengths {
                                               ///< number by number; null where none has one; empty without a law
   std::vector<const float*> brick_laminates;  ///< [bricks] [kLaminateNumbers * 64] laminates of its cells, number by
                                               ///< number; null where none is of two materials; empty without a law
-  std::vector<float*> brick_walls;     ///< [bricks] [kWallNumbers * 64] of cells in thin walls, number by number; null
-                                       ///< where none is; empty without any
-  std::vector<uint16_t> wall_rows;     ///< [bricks] bit r: some of the four cells from 4 r on is in a thin wall
   std::vector<float*> broken;          ///< [bricks] [kBrokenNumbers * 64] stiffness times 4 h of the springs within
                                        ///< cells of a law that have lost one, number by number (kernels.h) [N];
                                        ///< null where all are whole; empty without a law
@@ -65,7 +64,6 @@ struct CpuStrengths {
   void spreadMoments(const CpuStore& store);
   void spreadTensions(const CpuStore& store);
   void spreadLaminates(const CpuStore& store);
-  void spreadWalls(const CpuStore& store);
   void refreshWalls(const CpuStore& store, uint32_t slot);
   float wholeRigidity(const CpuStore& store, uint32_t slot) const;
   void breakCells(const CpuStore& store, uint32_t slot);
@@ -78,7 +76,6 @@ struct CpuStrengths {
   AlignedVector<float> moment_planes_;              ///< what brick_moments points to
   AlignedVector<float> tension_planes_;             ///< what brick_tensions points to
   AlignedVector<float> laminate_planes_;            ///< what brick_laminates points to
-  AlignedVector<float> wall_planes_;                ///< what brick_walls points to
   std::vector<AlignedVector<float>> broken_slabs_;  ///< what broken points to: planes of kSlab bricks each
   size_t broken_bricks_ = 0;                        ///< how many there are
   Strengths table_;  ///< of models with parts, whose counts only say alive or cut; else empty

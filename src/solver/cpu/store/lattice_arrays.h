@@ -36,7 +36,6 @@ inline simd::CellJob cellsOf(CpuLattice& lattice) {
   job.partial_rows = lattice.strengths.partial_rows.data();
   job.tension = lattice.strengths.brick_tensions.data();
   job.laminates = lattice.strengths.brick_laminates.data();
-  job.rows = lattice.rows.arrays();
   job.broken = lattice.strengths.broken.data();
   job.parts = lattice.strengths.has_parts;
   return job;

@@ -1,0 +1,185 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "solver/cpu/simd/kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "solver/cpu/simd/wall_kernels.cpp"
+#include "hwy/foreach_target.h"  // IWYU pragma: keep
+#include "hwy/highway.h"
+#include "solver/cpu/simd/law_measure-inl.h"
+#include "solver/cpu/simd/law_walls-inl.h"
+#include "solver/cpu/simd/targets.h"
+#include "solver/cpu/simd/wall_nodes.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace viscera::simd::HWY_NAMESPACE {
+
+/// Some cells of a group, from `lane` on.
+struct WallVector {
+  const WallJob& job;
+  size_t group;
+  size_t lane;
+
+  const float* at(const float* numbers, uint32_t count) const { return numbers + group * count * kWallLanes + lane; }
+};
+
+/// What a vector of cells is computed from.
+struct WallMotion {
+  CellMotion cell;
+  RowMotion rows;
+};
+
+HWY_INLINE WallMotion wallMotion(const WallVector& of, V scale) {
+  const hn::RebindToSigned<Tag> di;
+  const int32_t* nodes = of.job.walls.nodes + of.group * kWallNodes * kWallLanes + of.lane;
+  const float* places = of.job.places;
+  const auto node = [&](uint32_t which) HWY_ATTR {
+    const auto index = hn::LoadU(di, nodes + which * kWallLanes);
+    return Vec3{hn::Mul(scale, hn::GatherIndex(Tag(), places, index)),
+                hn::Mul(scale, hn::GatherIndex(Tag(), places + 64, index)),
+                hn::Mul(scale, hn::GatherIndex(Tag(), places + 128, index))};
+  };
+  Vec3 n[8];
+  for (uint32_t c = 0; c < 8; ++c) n[c] = node(c);
+  WallMotion out;
+  out.cell = motionOf4(faceOf(n[0], n[1], n[2], n[3]), faceOf(n[4], n[5], n[6], n[7]));
+  const float* ends = of.at(of.job.walls.ends, kWallEnds);
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 edges[2][2];
+    for (int side = 0; side < 2; ++side) {
+      for (int other = 0; other < 2; ++other) {
+        const uint32_t a = lowerCorner(axis, side, other), b = upperCorner(axis, side, other);
+        const float* weights = ends + endsAt(axis, side, other) * kWallLanes;
+        const Vec3 edge = n[b] - n[a], before = n[a] - node(nodeBeyond(a, axis)),
+                   after = node(nodeBeyond(b, axis)) - n[b];
+        edges[side][other] = mulAdd(load(weights), edge - before, load(weights + kWallLanes) * (after - edge));
+      }
+    }
+    addRowMotion(edges, axis, out.rows);
+  }
+  return out;
+}
+
+HWY_INLINE LawBody bodyOf(const WallVector& of) {
+  const layout::BodyParams& params = of.job.bodies[of.job.walls.bodies[of.group]];
+  return lawBodyOf(params, load(of.at(of.job.walls.strengths, 2) + kWallLanes), false);
+}
+HWY_INLINE const float* laminateOf(const WallVector& of) {
+  const float* numbers = of.job.walls.laminates[of.group];
+  return HWY_UNLIKELY(numbers != nullptr) ? numbers + of.lane : nullptr;
+}
+
+/// Forces of cells' motions and of their rows on their nodes.
+HWY_INLINE void storeForces(const WallVector& of, const CellMotion& out, const RowMotion& pull) {
+  const CellMotion none = {zero3(), zero3(), zero3(), zero3(), zero3(), zero3(), zero3()};
+  const Corners low = gathered(none, out), high = gathered(out, none);
+  Vec3 f[8] = {low.n00, low.n10, low.n01, low.n11, high.n00, high.n10, high.n01, high.n11};
+  float* forces = of.job.walls.forces + of.group * 3 * kWallNodes * kWallLanes + of.lane;
+  const auto store = [&](uint32_t node, const Vec3& force) HWY_ATTR {
+    float* to = forces + 3 * node * kWallLanes;
+    hn::StoreU(force.x, Tag(), to);
+    hn::StoreU(force.y, Tag(), to + kWallLanes);
+    hn::StoreU(force.z, Tag(), to + 2 * kWallLanes);
+  };
+  const float* ends = of.at(of.job.walls.ends, kWallEnds);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int side = 0; side < 2; ++side) {
+      for (int other = 0; other < 2; ++other) {
+        const uint32_t a = lowerCorner(axis, side, other), b = upperCorner(axis, side, other);
+        const float* weights = ends + endsAt(axis, side, other) * kWallLanes;
+        const Vec3 edge = pullOfEdge(pull, axis, 2 * side - 1, 2 * other - 1);
+        const Vec3 lower = load(weights) * edge, upper = load(weights + kWallLanes) * edge;
+        store(nodeBeyond(a, axis), lower);
+        store(nodeBeyond(b, axis), upper);
+        f[a] = f[a] + (upper - (lower + lower));
+        f[b] = f[b] + (lower - (upper + upper));
+      }
+    }
+  }
+  for (uint32_t c = 0; c < 8; ++c) store(c, f[c]);
+}
+
+void wallsOf(const WallJob& job, const uint32_t* groups, size_t count) {
+  for (size_t n = 0; n < count; ++n) {
+    for (size_t lane = 0; lane < kWallLanes; lane += hn::MaxLanes(Tag())) {
+      const WallVector of = {job, groups[n], lane};
+      const LawBody body = bodyOf(of);
+      const V mu = hn::Mul(load(of.at(job.walls.strengths, 2)), body.per_4h);
+      if (hn::AllFalse(Tag(), hn::Gt(mu, hn::Zero(Tag())))) {
+        storeForces(of, {zero3(), zero3(), zero3(), zero3(), zero3(), zero3(), zero3()},
+                    {{zero3(), zero3(), zero3()}, {{zero3(), zero3()}, {zero3(), zero3()}, {zero3(), zero3()}}});
+        continue;
+      }
+      const WallMotion motion = wallMotion(of, set(body.scale));
+      const LawWall wall = loadWall(of.at(job.walls.numbers, kWallNumbers));
+      CellMotion out;
+      RowMotion pull;
+      wallForces(body, loadLawMoments(of.at(job.walls.moments, kMomentNumbers), 0), wall, laminateOf(of), mu,
+                 motion.cell, motion.rows, out, pull);
+      storeForces(of, out, pull);
+    }
+  }
+}
+
+/// Energy of a vector of cells over rigidity, and how much stiffer they are than at rest.
+HWY_INLINE LawMeasured measuredOf(const LawBody& body, const LawMoments& m, const LawWall& wall, const float* laminate,
+                                  M there, const WallMotion& motion) {
+  const WallPoint at = wallPoint<true>(body, m, wall, there, motion.cell, motion.rows);
+  Symmetric g[3], sigma[3];
+  gradientsOf(body.poisson, at.s, at.v, g);
+  momentsOf(body, m, wall, g, sigma);
+  V twice = hn::Zero(Tag());
+  for (int k = 0; k < 3; ++k)
+    twice = hn::Add(twice, hn::Add(dot(g[k].pulled, sigma[k].pulled), dot(g[k].sheared, sigma[k].sheared)));
+  const Columns d = {motion.cell.da, motion.cell.db, motion.cell.dc}, of_star = cofactorsOf(at.star);
+  const V e_star = hn::IfThenElseZero(there, dilationOf(at.star, of_star)), none = hn::Zero(Tag());
+  LawMeasured out = {lawDensity(body, body.bulk, sizeOf(at.star), e_star), none};
+  if (HWY_UNLIKELY(laminate != nullptr)) {
+    const LaminateMeasured layers = measureLaminate(body, laminate, at.star, of_star, e_star, none);
+    out = {layers.density, layers.stiffening};
+  }
+  out.energy = hn::MulAdd(set(0.5f), twice, out.energy);
+  out.energy = hn::MulAdd(set(kLawAlternating), dot(motion.cell.hxyz, motion.cell.hxyz), out.energy);
+  out.stiffening = hn::Max(out.stiffening, hn::Max(stiffeningOf(body, body.bulk, d, at.c, at.e, none),
+                                                   stiffeningOf(body, body.bulk, at.star, of_star, e_star, none)));
+  return out;
+}
+
+void measureWallsOf(const WallJob& job, const uint32_t* groups, size_t count) {
+  for (size_t n = 0; n < count; ++n) {
+    for (size_t lane = 0; lane < kWallLanes; lane += hn::MaxLanes(Tag())) {
+      const WallVector of = {job, groups[n], lane};
+      const LawBody body = bodyOf(of);
+      const V rigidity = load(of.at(job.walls.strengths, 2));
+      const M there = hn::Gt(rigidity, hn::Zero(Tag()));
+      const LawMeasured found = measuredOf(body, loadLawMoments(of.at(job.walls.moments, kMomentNumbers), 0),
+                                           loadWall(of.at(job.walls.numbers, kWallNumbers)), laminateOf(of), there,
+                                           wallMotion(of, set(body.scale)));
+      float* to = job.walls.measured + 2 * kWallLanes * of.group + lane;
+      hn::StoreU(hn::IfThenElseZero(there, hn::Mul(rigidity, found.energy)), Tag(), to);
+      hn::StoreU(hn::IfThenElseZero(there, found.stiffening), Tag(), to + kWallLanes);
+    }
+  }
+}
+
+}  // namespace viscera::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace viscera::simd {
+
+HWY_EXPORT(wallsOf);
+HWY_EXPORT(measureWallsOf);
+
+WallForces wallsFor(int64_t target) {
+  return VISCERA_KERNEL_FOR(wallsOf, target);
+}
+
+WallForces measureWallsFor(int64_t target) {
+  return VISCERA_KERNEL_FOR(measureWallsOf, target);
+}
+
+}  // namespace viscera::simd
+#endif  // HWY_ONCE

@@ -1,0 +1,225 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/cpu/store/cpu_walls.h"
+
+#include <algorithm>
+
+#include "solver/cpu/simd/wall_nodes.h"
+#include "solver/cpu/store/cell_numbers.h"
+#include "solver/cpu/store/slot_beside.h"
+#include "viscera/model/body/neighbors.h"
+
+namespace viscera {
+
+namespace {
+
+using simd::kWallLanes;
+
+std::array<int, 3> cornerOffset(uint32_t corner) {
+  return {static_cast<int>(corner & 1), static_cast<int>(corner >> 1 & 1), static_cast<int>(corner >> 2 & 1)};
+}
+
+/// Index of the spring from a corner of a cell outwards along an axis.
+uint32_t outward(uint32_t corner, int axis) {
+  return static_cast<uint32_t>(2 * axis) + (corner >> axis & 1 ? 0 : 1);
+}
+
+bool isWithinRow(const layout::NodeBits& bits, int axis) {
+  const auto first = static_cast<uint32_t>(2 * axis);
+  return springCount(bits, first) != 0 && springCount(bits, first + 1) != 0;
+}
+
+/// Place of a number of a cell in arrays of `numbers` of them per group.
+size_t numberAt(size_t position, uint32_t number, uint32_t numbers) {
+  return (position / kWallLanes * numbers + number) * kWallLanes + position % kWallLanes;
+}
+
+void sortAndUnite(std::vector<uint32_t>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+}  // namespace
+
+CpuWalls::CpuWalls(const CpuStore& store, const JoinedMoments& moments, const Strengths& table) {
+  uint32_t body = 0;
+  for (uint32_t slot = 0; slot < store.slotCount(); ++slot) {
+    if (moments.wallOf(slot) == nullptr) continue;
+    const uint32_t here = store.nodes[slot].hi >> layout::kBodyShift;
+    if (here != body) cells_.resize((cells_.size() + kWallLanes - 1) / kWallLanes * kWallLanes, kNone);
+    body = here;
+    if (cells_.size() % kWallLanes == 0) bodies_.push_back(body);
+    cells_.push_back(slot);
+  }
+  if (cells_.empty()) return;
+  cells_.resize(bodies_.size() * kWallLanes, kNone);
+  position_.assign(store.slotCount(), kNone);
+  cells_of_.resize(store.brickCount());
+  for (uint32_t i = 0; i < cells_.size(); ++i) {
+    if (cells_[i] == kNone) continue;
+    position_[cells_[i]] = i;
+    cells_of_[cells_[i] / layout::kBrickSlots].push_back(i);
+  }
+  for (uint32_t group = 0; group < bodies_.size(); ++group) all_.push_back(group);
+  listNodes(store);
+  addNumbers(moments, table);
+  addForces(store);
+}
+
+/// Makes nodes_ and bricks_of_. Beyond where no node is, stands the corner: its weight is 0.
+void CpuWalls::listNodes(const CpuStore& store) {
+  nodes_.resize(cells_.size() * simd::kWallNodes);
+  bricks_of_.resize(bodies_.size());
+  for (size_t i = 0; i < cells_.size(); ++i) {
+    if (cells_[i] == kNone) continue;
+    const auto note = [&](uint32_t node, uint32_t slot) {
+      nodes_[numberAt(i, node, simd::kWallNodes)] = static_cast<int32_t>(vectorAt(slot));
+      bricks_of_[i / kWallLanes].push_back(slot / layout::kBrickSlots);
+    };
+    for (uint32_t corner = 0; corner < 8; ++corner) {
+      const uint32_t slot = neighborSlot(store.bricks, cells_[i], cornerOffset(corner));
+      note(corner, slot);
+      for (int axis = 0; axis < 3; ++axis) {
+        const uint32_t spring = outward(corner, axis);
+        const bool there = springCount(store.whole_nodes[slot], spring) != 0;
+        note(simd::nodeBeyond(corner, axis), there ? neighborSlot(store.bricks, slot, kNeighborOffsets[spring]) : slot);
+      }
+    }
+  }
+  for (std::vector<uint32_t>& bricks : bricks_of_) sortAndUnite(bricks);
+}
+
+void CpuWalls::addNumbers(const JoinedMoments& moments, const Strengths& table) {
+  const size_t groups = bodies_.size();
+  ends_.resize(cells_.size() * simd::kWallEnds);
+  moments_.resize(cells_.size() * simd::kMomentNumbers);
+  numbers_.resize(cells_.size() * simd::kWallNumbers);
+  strengths_.resize(cells_.size() * 2);
+  forces_.resize(cells_.size() * 3 * simd::kWallNodes);
+  measured_.resize(cells_.size() * 2);
+  rows_.resize(cells_.size());
+  laminates_.assign(groups, nullptr);
+  std::vector<size_t> of_two;
+  for (size_t i = 0; i < cells_.size(); ++i) {
+    if (cells_[i] == kNone) continue;
+    const layout::vec4* wall = moments.wallOf(cells_[i]);
+    const float numbers[simd::kWallNumbers] = {wall[0].x, wall[0].y, wall[0].z, 0, 0, 0, wall[0].w, wall[1].x};
+    for (uint32_t n = 0; n < simd::kWallNumbers; ++n) numbers_[numberAt(i, n, simd::kWallNumbers)] = numbers[n];
+    rows_[i] = wall[0].w;
+    const layout::vec4* fill = &moments.vectors[kVectorsPerFill * moments.of_cell[cells_[i]]];
+    for (uint32_t n = 0; n < simd::kMomentNumbers; ++n)
+      moments_[numberAt(i, n, simd::kMomentNumbers)] = lawMoment(fill, n / 3, n % 3);
+    if (moments.laminateOf(cells_[i]) != nullptr && (of_two.empty() || of_two.back() != i / kWallLanes))
+      of_two.push_back(i / kWallLanes);
+  }
+  constexpr size_t kGroup = simd::kLaminateNumbers * kWallLanes;
+  laminate_numbers_.resize(of_two.size() * kGroup);
+  for (size_t n = 0; n < of_two.size(); ++n) {
+    laminates_[of_two[n]] = &laminate_numbers_[n * kGroup];
+    for (uint32_t lane = 0; lane < kWallLanes; ++lane) {
+      const uint32_t cell = cells_[of_two[n] * kWallLanes + lane];
+      const LaminateNumbers of_cell =
+          cell == kNone ? LaminateNumbers{1, 0, 0, 1, 1, 1, 2, 2} : laminateNumbers(moments, table, cell);
+      for (uint32_t k = 0; k < simd::kLaminateNumbers; ++k)
+        laminate_numbers_[n * kGroup + k * kWallLanes + lane] = of_cell[k];
+    }
+  }
+}
+
+/// Makes shares_, first_share_ and in_wall_.
+void CpuWalls::addForces(const CpuStore& store) {
+  for (uint32_t i = 0; i < cells_.size(); ++i) {
+    if (cells_[i] == kNone) continue;
+    for (uint32_t node = 0; node < simd::kWallNodes; ++node) {
+      const auto at = static_cast<uint32_t>(nodes_[numberAt(i, node, simd::kWallNodes)]);
+      const uint32_t slot = at / 192 * layout::kBrickSlots + at % 192;
+      const bool beyond = node >= 8;
+      if (beyond && nodes_[numberAt(i, (node - 8) / 3, simd::kWallNodes)] == static_cast<int32_t>(at)) continue;
+      shares_.push_back({slot, static_cast<uint32_t>(numberAt(i, 3 * node, 3 * simd::kWallNodes))});
+    }
+  }
+  std::sort(shares_.begin(), shares_.end(),
+            [](const Share& a, const Share& b) { return a.slot != b.slot ? a.slot < b.slot : a.force < b.force; });
+  in_wall_.assign(store.brickCount(), 0);
+  first_share_.assign(store.brickCount() + 1, 0);
+  for (const Share& share : shares_) {
+    in_wall_[share.slot / layout::kBrickSlots] = 1;
+    ++first_share_[share.slot / layout::kBrickSlots + 1];
+  }
+  for (size_t b = 0; b < store.brickCount(); ++b) first_share_[b + 1] += first_share_[b];
+}
+
+void CpuWalls::refresh(const CpuStore& store, uint32_t cell, float rigidity_j, float bulk_j) {
+  const uint32_t i = position_[cell];
+  strengths_[numberAt(i, 0, 2)] = rigidity_j;
+  strengths_[numberAt(i, 1, 2)] = rigidity_j > 0 ? bulk_j / rigidity_j : 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    bool any = false;
+    for (int side = 0; side < 2; ++side) {
+      for (int other = 0; other < 2; ++other) {
+        const uint32_t a = simd::lowerCorner(axis, side, other), b = simd::upperCorner(axis, side, other);
+        const bool low = isWithinRow(store.nodes[neighborSlot(store.bricks, cell, cornerOffset(a))], axis);
+        const bool high = isWithinRow(store.nodes[neighborSlot(store.bricks, cell, cornerOffset(b))], axis);
+        const uint32_t at = simd::endsAt(axis, side, other);
+        ends_[numberAt(i, at, simd::kWallEnds)] = low ? (high ? 1.0f : 2.0f) : 0.0f;
+        ends_[numberAt(i, at + 1, simd::kWallEnds)] = high ? (low ? 1.0f : 2.0f) : 0.0f;
+        any = any || low || high;
+      }
+    }
+    numbers_[numberAt(i, static_cast<uint32_t>(3 + axis), simd::kWallNumbers)] = any ? rows_[i] : 0;
+  }
+}
+
+simd::WallGroups CpuWalls::groups() {
+  return {bodies_.data(),    nodes_.data(),     ends_.data(),   moments_.data(), numbers_.data(),
+          strengths_.data(), laminates_.data(), forces_.data(), measured_.data()};
+}
+
+std::vector<uint32_t> CpuWalls::acting(const std::vector<uint32_t>& bricks) const {
+  std::vector<uint32_t> out;
+  if (empty()) return out;
+  std::vector<uint8_t> wanted(in_wall_.size(), 0);
+  for (const uint32_t brick : bricks) wanted[brick] = 1;
+  for (uint32_t group = 0; group < bricks_of_.size(); ++group) {
+    const std::vector<uint32_t>& of_group = bricks_of_[group];
+    if (std::any_of(of_group.begin(), of_group.end(), [&](uint32_t brick) { return wanted[brick] != 0; }))
+      out.push_back(group);
+  }
+  return out;
+}
+
+std::vector<uint32_t> CpuWalls::seen(const std::vector<uint32_t>& groups) const {
+  std::vector<uint32_t> out;
+  for (const uint32_t group : groups) out.insert(out.end(), bricks_of_[group].begin(), bricks_of_[group].end());
+  sortAndUnite(out);
+  return out;
+}
+
+void CpuWalls::sumForces(uint32_t brick, float* out) const {
+  for (uint32_t s = first_share_[brick]; s < first_share_[brick + 1];) {
+    const uint32_t slot = shares_[s].slot;
+    float x = 0, y = 0, z = 0;
+    for (; s < first_share_[brick + 1] && shares_[s].slot == slot; ++s) {
+      const float* force = &forces_[shares_[s].force];
+      x += force[0];
+      y += force[kWallLanes];
+      z += force[2 * kWallLanes];
+    }
+    float* to = out + vectorAt(slot);
+    to[0] = x;
+    to[64] = y;
+    to[128] = z;
+  }
+}
+
+std::array<float, 2> CpuWalls::measured(uint32_t brick) const {
+  double energy_j = 0;
+  float stiffening = 0;
+  for (const uint32_t i : cells_of_[brick]) {
+    energy_j += static_cast<double>(measured_[numberAt(i, 0, 2)]);
+    stiffening = std::max(stiffening, measured_[numberAt(i, 1, 2)]);
+  }
+  return {static_cast<float>(energy_j), stiffening};
+}
+
+}  // namespace viscera
