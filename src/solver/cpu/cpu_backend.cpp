@@ -217,9 +217,13 @@ void CpuBackend::surround(const Substep& step, const Surroundings& surroundings)
 /// Adds cells in thin walls to what was measured of bricks.
 void CpuBackend::measureWalls(const std::vector<uint32_t>& bricks) {
   CpuWalls& walls = lattice_.strengths.walls;
-  const std::vector<uint32_t> groups = walls.acting(bricks);
-  const simd::WallJob job{lattice_.store.bodies.data(), walls.groups(),
-                          lattice_.state.displacement[lattice_.state.current].data()};
+  const std::vector<uint32_t> groups = walls.acting(bricks), seen = walls.seen(groups);
+  const float* displacement = lattice_.state.displacement[lattice_.state.current].data();
+  pool_(seen.size(), [&](size_t i) {
+    const layout::BodyParams& body = lattice_.store.bodies[lattice_.store.bricks[seen[i]].body];
+    walls.place(seen[i], body, displacement, nullptr, 0);
+  });
+  const simd::WallJob job{lattice_.store.bodies.data(), walls.groups()};
   pool_.ranges(groups.size(), kMeasuredBricks,
                [&](size_t first, size_t end) { kernels_.measure_walls(job, &groups[first], end - first); });
   for (const uint32_t brick : bricks) {

@@ -104,19 +104,19 @@ constexpr uint32_t kWallEnds = 24;
 constexpr uint32_t kWallNumbers = 8;
 struct WallGroups {
   const uint32_t* bodies;         ///< [groups]
-  const int32_t* nodes;           ///< [groups][kWallNodes][kWallLanes] places in arrays of vectors (vectorAt())
+  const uint32_t* nodes;          ///< [groups][kWallNodes][kWallLanes] where displacements of its nodes begin in places
   const float* ends;              ///< [groups][kWallEnds][kWallLanes]
   const float* moments;           ///< [groups][kMomentNumbers][kWallLanes]
   const float* numbers;           ///< [groups][kWallNumbers][kWallLanes]
   const float* strengths;         ///< [groups][2][kWallLanes] rigidity [J], 0 where there is no cell; bulk over it
   const float* const* laminates;  ///< [groups] [kLaminateNumbers][kWallLanes]; null where none is of two materials
-  float* forces;                  ///< [groups][3 * kWallNodes][kWallLanes] on its nodes, x, y, z of each [N]
+  const float* places;            ///< [nodes][4] displacements over 4 h, x, y, z
+  float* forces;                  ///< [groups][kWallLanes][kWallNodes][4] of cells on their nodes, x, y, z [N]
   float* measured;                ///< [groups][2][kWallLanes] energy [J], and how much stiffer than at rest
 };
 struct WallJob {
   const layout::BodyParams* bodies;
   WallGroups walls;
-  const float* places;  ///< [3 * slots] displacements [m]
 };
 /// Writes forces of some groups; or what is measured of them.
 using WallForces = void (*)(const WallJob& job, const uint32_t* groups, size_t count);

@@ -53,10 +53,7 @@ CpuLeapfrog::CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts)
     cell_bricks_.reserve(lattice.brickCount());
     cell_bricks_awake_.reserve(lattice.brickCount());
   }
-  if (!lattice.strengths.walls.empty()) {
-    if (dashpot_) wall_places_.resize(3 * lattice.slotCount());
-    wall_forces_.resize(3 * lattice.slotCount());
-  }
+  if (!lattice.strengths.walls.empty()) wall_forces_.resize(3 * lattice.slotCount());
   if (network_) reaches_.reserve(layout::kMaxStyluses);
   if (parts.features.predicted) {
     predicted_.resize(3 * lattice.slotCount());
@@ -164,15 +161,13 @@ void CpuLeapfrog::sumCells(CpuLattice& lattice) {
 /// Forces of cells in thin walls on the nodes of bricks that are awake.
 void CpuLeapfrog::sumWalls(CpuLattice& lattice) {
   CpuWalls& walls = lattice.strengths.walls;
-  const float* places = job_.arrays.displacement;
-  if (dashpot_) {
-    simd::LeapfrogJob ahead = job_;
-    ahead.predicted = wall_places_.data();
-    places = ahead.predicted;
-    parallel_.ranges(wall_bricks_.size(), portions_,
-                     [&](size_t first, size_t end) { predict_bricks_(ahead, &wall_bricks_[first], end - first); });
-  }
-  const simd::WallJob job{lattice.store.bodies.data(), walls.groups(), places};
+  parallel_.ranges(wall_bricks_.size(), portions_, [&](size_t first, size_t end) {
+    for (size_t i = first; i < end; ++i) {
+      const layout::BodyParams& body = lattice.store.bodies[lattice.store.bricks[wall_bricks_[i]].body];
+      walls.place(wall_bricks_[i], body, job_.arrays.displacement, job_.arrays.velocity, dashpot_ ? body.dashpot_s : 0);
+    }
+  });
+  const simd::WallJob job{lattice.store.bodies.data(), walls.groups()};
   parallel_.ranges(wall_groups_.size(), portions_,
                    [&](size_t first, size_t end) { sum_walls_(job, &wall_groups_[first], end - first); });
   const std::vector<uint32_t>& awake = sleep_.awake();

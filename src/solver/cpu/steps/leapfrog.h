@@ -44,7 +44,6 @@ class CpuLeapfrog : public CpuStepper {
   AlignedVector<float> cell_sums_;           ///< [simd::kCellSums * bricks] N; empty without a law
   std::vector<uint32_t> cell_bricks_;        ///< whose cells the nodes of those awake are corners of
   std::vector<uint32_t> cell_bricks_awake_;  ///< those awake when they were listed
-  AlignedVector<float> wall_places_;         ///< [3 * slots] where nodes will be that cells in thin walls look at [m]
   AlignedVector<float> wall_forces_;         ///< [3 * slots] N; empty without such cells
   std::vector<uint32_t> wall_groups_;        ///< that act on bricks that are awake
   std::vector<uint32_t> wall_bricks_;        ///< that they look at

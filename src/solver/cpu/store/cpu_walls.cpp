@@ -63,21 +63,22 @@ CpuWalls::CpuWalls(const CpuStore& store, const JoinedMoments& moments, const St
   for (uint32_t group = 0; group < bodies_.size(); ++group) all_.push_back(group);
   listNodes(store);
   addNumbers(moments, table);
-  addForces(store);
+  addForces();
 }
 
-/// Makes nodes_ and bricks_of_. Beyond where no node is, stands the corner: its weight is 0.
+/// Makes nodes_, slots_ and bricks_of_. Beyond where no node is, stands the corner: its weight is 0.
 void CpuWalls::listNodes(const CpuStore& store) {
   nodes_.resize(cells_.size() * simd::kWallNodes);
   bricks_of_.resize(bodies_.size());
   for (size_t i = 0; i < cells_.size(); ++i) {
-    if (cells_[i] == kNone) continue;
     const auto note = [&](uint32_t node, uint32_t slot) {
-      nodes_[numberAt(i, node, simd::kWallNodes)] = static_cast<int32_t>(vectorAt(slot));
+      nodes_[numberAt(i, node, simd::kWallNodes)] = slot;
+      slots_.push_back(slot);
       bricks_of_[i / kWallLanes].push_back(slot / layout::kBrickSlots);
     };
+    const uint32_t cell = cells_[i] == kNone ? cells_[i / kWallLanes * kWallLanes] : cells_[i];
     for (uint32_t corner = 0; corner < 8; ++corner) {
-      const uint32_t slot = neighborSlot(store.bricks, cells_[i], cornerOffset(corner));
+      const uint32_t slot = neighborSlot(store.bricks, cell, cornerOffset(corner));
       note(corner, slot);
       for (int axis = 0; axis < 3; ++axis) {
         const uint32_t spring = outward(corner, axis);
@@ -87,6 +88,18 @@ void CpuWalls::listNodes(const CpuStore& store) {
     }
   }
   for (std::vector<uint32_t>& bricks : bricks_of_) sortAndUnite(bricks);
+  sortAndUnite(slots_);
+  places_.resize(4 * slots_.size());
+  in_wall_.assign(store.brickCount(), 0);
+  first_node_.assign(store.brickCount() + 1, 0);
+  std::vector<uint32_t> index(store.slotCount());
+  for (uint32_t n = 0; n < slots_.size(); ++n) {
+    index[slots_[n]] = n;
+    in_wall_[slots_[n] / layout::kBrickSlots] = 1;
+    ++first_node_[slots_[n] / layout::kBrickSlots + 1];
+  }
+  for (size_t b = 0; b < store.brickCount(); ++b) first_node_[b + 1] += first_node_[b];
+  for (uint32_t& node : nodes_) node = 4 * index[node];
 }
 
 void CpuWalls::addNumbers(const JoinedMoments& moments, const Strengths& table) {
@@ -95,7 +108,7 @@ void CpuWalls::addNumbers(const JoinedMoments& moments, const Strengths& table) 
   moments_.resize(cells_.size() * simd::kMomentNumbers);
   numbers_.resize(cells_.size() * simd::kWallNumbers);
   strengths_.resize(cells_.size() * 2);
-  forces_.resize(cells_.size() * 3 * simd::kWallNodes);
+  forces_.resize(cells_.size() * 4 * simd::kWallNodes);
   measured_.resize(cells_.size() * 2);
   rows_.resize(cells_.size());
   laminates_.assign(groups, nullptr);
@@ -126,27 +139,22 @@ void CpuWalls::addNumbers(const JoinedMoments& moments, const Strengths& table) 
   }
 }
 
-/// Makes shares_, first_share_ and in_wall_.
-void CpuWalls::addForces(const CpuStore& store) {
+/// Makes shares_ and first_share_.
+void CpuWalls::addForces() {
+  std::vector<std::vector<uint32_t>> of_node(slots_.size());
   for (uint32_t i = 0; i < cells_.size(); ++i) {
     if (cells_[i] == kNone) continue;
     for (uint32_t node = 0; node < simd::kWallNodes; ++node) {
-      const auto at = static_cast<uint32_t>(nodes_[numberAt(i, node, simd::kWallNodes)]);
-      const uint32_t slot = at / 192 * layout::kBrickSlots + at % 192;
-      const bool beyond = node >= 8;
-      if (beyond && nodes_[numberAt(i, (node - 8) / 3, simd::kWallNodes)] == static_cast<int32_t>(at)) continue;
-      shares_.push_back({slot, static_cast<uint32_t>(numberAt(i, 3 * node, 3 * simd::kWallNodes))});
+      const uint32_t at = nodes_[numberAt(i, node, simd::kWallNodes)];
+      const bool nothing = node >= 8 && at == nodes_[numberAt(i, (node - 8) / 3, simd::kWallNodes)];
+      if (!nothing) of_node[at / 4].push_back(4 * (i * simd::kWallNodes + node));
     }
   }
-  std::sort(shares_.begin(), shares_.end(),
-            [](const Share& a, const Share& b) { return a.slot != b.slot ? a.slot < b.slot : a.force < b.force; });
-  in_wall_.assign(store.brickCount(), 0);
-  first_share_.assign(store.brickCount() + 1, 0);
-  for (const Share& share : shares_) {
-    in_wall_[share.slot / layout::kBrickSlots] = 1;
-    ++first_share_[share.slot / layout::kBrickSlots + 1];
+  first_share_.push_back(0);
+  for (const std::vector<uint32_t>& shares : of_node) {
+    shares_.insert(shares_.end(), shares.begin(), shares.end());
+    first_share_.push_back(static_cast<uint32_t>(shares_.size()));
   }
-  for (size_t b = 0; b < store.brickCount(); ++b) first_share_[b + 1] += first_share_[b];
 }
 
 void CpuWalls::refresh(const CpuStore& store, uint32_t cell, float rigidity_j, float bulk_j) {
@@ -172,7 +180,7 @@ void CpuWalls::refresh(const CpuStore& store, uint32_t cell, float rigidity_j, f
 
 simd::WallGroups CpuWalls::groups() {
   return {bodies_.data(),    nodes_.data(),     ends_.data(),   moments_.data(), numbers_.data(),
-          strengths_.data(), laminates_.data(), forces_.data(), measured_.data()};
+          strengths_.data(), laminates_.data(), places_.data(), forces_.data(),  measured_.data()};
 }
 
 std::vector<uint32_t> CpuWalls::acting(const std::vector<uint32_t>& bricks) const {
@@ -195,20 +203,27 @@ std::vector<uint32_t> CpuWalls::seen(const std::vector<uint32_t>& groups) const 
   return out;
 }
 
-void CpuWalls::sumForces(uint32_t brick, float* out) const {
-  for (uint32_t s = first_share_[brick]; s < first_share_[brick + 1];) {
-    const uint32_t slot = shares_[s].slot;
-    float x = 0, y = 0, z = 0;
-    for (; s < first_share_[brick + 1] && shares_[s].slot == slot; ++s) {
-      const float* force = &forces_[shares_[s].force];
-      x += force[0];
-      y += force[kWallLanes];
-      z += force[2 * kWallLanes];
+void CpuWalls::place(uint32_t brick, const layout::BodyParams& body, const float* displacement, const float* velocity,
+                     float ahead_s) {
+  const float scale = 0.25f / body.origin_spacing.w, ahead = scale * ahead_s;
+  for (uint32_t n = first_node_[brick]; n < first_node_[brick + 1]; ++n) {
+    const size_t at = vectorAt(slots_[n]);
+    for (size_t c = 0; c < 3; ++c) {
+      const float u = scale * displacement[at + 64 * c];
+      places_[4 * n + c] = ahead_s == 0 ? u : u + ahead * velocity[at + 64 * c];
     }
-    float* to = out + vectorAt(slot);
-    to[0] = x;
-    to[64] = y;
-    to[128] = z;
+  }
+}
+
+void CpuWalls::sumForces(uint32_t brick, float* out) const {
+  for (uint32_t n = first_node_[brick]; n < first_node_[brick + 1]; ++n) {
+    float sum[4] = {};
+    for (uint32_t s = first_share_[n]; s < first_share_[n + 1]; ++s) {
+      const float* force = &forces_[shares_[s]];
+      for (size_t c = 0; c < 4; ++c) sum[c] += force[c];
+    }
+    float* to = out + vectorAt(slots_[n]);
+    for (size_t c = 0; c < 3; ++c) to[64 * c] = sum[c];
   }
 }
 

@@ -38,6 +38,10 @@ class CpuWalls {
   std::vector<uint32_t> acting(const std::vector<uint32_t>& bricks) const;
   /// Returns the bricks that groups look at, ascending.
   std::vector<uint32_t> seen(const std::vector<uint32_t>& groups) const;
+  /// Takes over where the nodes of a brick are, `ahead_s` later. @param displacement, velocity  [3 * slots] m, m/s;
+  /// velocity is not looked at where ahead_s is 0
+  void place(uint32_t brick, const layout::BodyParams& body, const float* displacement, const float* velocity,
+             float ahead_s);
   /// Writes what cells do to the nodes of a brick. @param out  [3 * slots] N
   void sumForces(uint32_t brick, float* out) const;
   /// Energy of the cells above a brick's nodes [J], and how much stiffer the stiffest is than at rest.
@@ -46,23 +50,23 @@ class CpuWalls {
  private:
   void listNodes(const CpuStore& store);
   void addNumbers(const JoinedMoments& moments, const Strengths& table);
-  void addForces(const CpuStore& store);
+  void addForces();
 
   static constexpr uint32_t kNone = ~0u;
-  struct Share {
-    uint32_t slot, force;  ///< of a node; place of its x in forces_
-  };
 
   std::vector<uint32_t> cells_;     ///< [kWallLanes * groups] slots; kNone where there is none
   std::vector<uint32_t> position_;  ///< [slots] place in cells_
   std::vector<uint32_t> bodies_, all_;
-  AlignedVector<int32_t> nodes_;
+  std::vector<uint32_t> nodes_;       ///< [groups][kWallNodes][kWallLanes] four times an index into slots_
+  std::vector<uint32_t> slots_;       ///< [nodes] of cells in walls, ascending
+  std::vector<uint32_t> first_node_;  ///< [bricks + 1] where a brick's begin
+  AlignedVector<float> places_;       ///< [nodes][4]
   AlignedVector<float> ends_, moments_, numbers_, strengths_, laminate_numbers_, forces_, measured_;
   std::vector<const float*> laminates_;
   std::vector<float> rows_;                       ///< [kWallLanes * groups] of WallCell
   std::vector<uint8_t> in_wall_;                  ///< [bricks]
-  std::vector<Share> shares_;                     ///< ascending by slot
-  std::vector<uint32_t> first_share_;             ///< [bricks + 1] into shares_
+  std::vector<uint32_t> shares_;                  ///< places in forces_, node by node
+  std::vector<uint32_t> first_share_;             ///< [nodes + 1] where a node's begin
   std::vector<std::vector<uint32_t>> bricks_of_;  ///< [groups] bricks of its nodes
   std::vector<std::vector<uint32_t>> cells_of_;   ///< [bricks] places in cells_
 };
