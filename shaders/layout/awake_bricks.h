@@ -25,7 +25,8 @@ struct SleepingBrick {
   uint node_count;
   uint first_cell;    // in the list of cells
   uint cell_count;
-  uint pad[3];
+  uint cells_listed;  // 1: its cells are, as it or one around it is awake; only with cells in thin walls
+  uint pad[2];
 };
 
 // In front of a list of nodes or cells: how many, and in groups as glDispatchComputeIndirect takes them.

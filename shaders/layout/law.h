@@ -22,8 +22,13 @@ const float kMostStiffening = 1e4f;
 const int kLaminateSteps = 3;
 // What resists the alternating motion: 5/36 mu h^3 |H_xyz|^2, the hexahedron's.
 const float kLawAlternating = 5.0f / 18.0f;
-// Stress across a thin wall that the gradient of strain within its cells leaves, as a share: the wall is free to thin.
+// Stress across a thin wall that the gradient of strain within a cell leaves, as a share: the wall is free to thin.
 const float kRowStressAcross = 0.1f;
+// With cells in thin walls a node has one vector per axis more than kCellVectors: of the row of nodes that it is in (row_forces.comp).
+const uint kRowVectors = 3u;
+// Vectors that a cell in a thin wall leaves for these: by its second derivatives along x, y, z, and by their variation, by axis of the
+// row and axis of the sides xy, xz, yz, yx, zx, zy.
+const uint kWallVectors = 9u;
 
 #ifdef __cplusplus
 }  // namespace viscera::layout

@@ -280,14 +280,27 @@ void listNodes(uint b) {
 }
 
 #ifdef LAW
-/// Cells with a corner in a brick that is awake: it is their own or one of the seven above.
-void listCells(uint b) {
-  uint count = sleeping[b].cell_count, first = sleeping[b].first_cell;
+/// Cells with a corner in a brick that is awake: it is their own or one of the seven above. With rows of nodes a cell reaches two nodes
+/// farther: all around.
+bool needsCells(uint b) {
   bool needed = false;
+#ifdef WALLS
+  for (uint d = lane(); d < 27u; d += LANES) needed = needed || isAwake(neighborBrick(firstSlot(b), d));
+#else
   for (uint c = lane(); c < 8u; c += LANES) {
     needed = needed || isAwake(neighborBrick(firstSlot(b), 13u + (c & 1u) + 3u * ((c >> 1) & 1u) + 9u * (c >> 2)));
   }
-  if (!anyOf(needed) || count == 0u) return;
+#endif
+  return anyOf(needed);
+}
+
+void listCells(uint b) {
+  uint count = sleeping[b].cell_count, first = sleeping[b].first_cell;
+  bool needed = needsCells(b);
+#ifdef WALLS
+  if (isFirst()) sleeping[b].cells_listed = needed ? 1u : 0u;
+#endif
+  if (!needed || count == 0u) return;
   uint place = ofFirst(isFirst() ? atomicAdd(cells_list.count, count) : 0u);
   for (uint i = lane(); i < count; i += LANES) awake_cells[place + i] = cells[first + i];
   if (!isFirst()) return;

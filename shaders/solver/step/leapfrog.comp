@@ -75,6 +75,9 @@ vec3 elasticForce(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 v) {
 #undef VISIT_LINK
 #ifdef LAW
   force += cellForce(slot);
+#ifdef WALLS
+  force += rowForce(slot, bits);
+#endif
 #endif
   return force;
 }

@@ -40,6 +40,9 @@ layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits node
 #ifdef LAW
 #include "solver/tissue/broken_cell.glsl"
 #endif
+#ifdef WALLS
+#include "solver/tissue/rows.glsl"
+#endif
 
 /// Compilers drop isnan(); the bits do not lie (physics.md 2).
 bool finite(vec3 v) {
@@ -116,8 +119,12 @@ void main() {
     if ((bits.lo & kLawCellBit) != 0u) {
       float bulk = cellBulk(slot, body), rigidity = cellRigidity(slot, body);
       CellMotion q = cellMotion(at, h);
-      elastic += lawPull(q, cellMoments(slot), rigidity, bulk, body.stiffening).energy;
-      uint stiffening = floatBitsToUint(lawStiffening(q, cellMoments(slot), bulk / rigidity, body.stiffening));
+      CellMoments moments = cellMoments(slot);
+#ifdef WALLS
+      if (moments.wall.w > 0.0f) q.rows = cellRows(slot);
+#endif
+      elastic += lawPull(q, moments, rigidity, bulk, body.stiffening).energy;
+      uint stiffening = floatBitsToUint(lawStiffening(q, moments, bulk / rigidity, body.stiffening));
       if (stiffening > stats.max_stiffening_bits) atomicMax(stats.max_stiffening_bits, stiffening);
     }
 #endif

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // cell_forces.comp - forces of cells that obey a law on their corners.   Owner: solver/gpu/forces/cell_pass.h   physics.md 1
-// in  displacement, nodes     out  cell forces [kCellVectors * slots]
-// Feature CUT drops the cells that
-// lost a spring instead; AWAKE: only cells beside bricks that are awake.
+// in  displacement, nodes, rows     out  cell forces [kCellVectors * slots], wall pulls
+// Feature CUT drops the cells that lost a spring instead; AWAKE: only cells beside bricks that are awake; WALLS: those in thin walls leave
+// what they do to rows of nodes too, which row_forces.comp then gathers.
 #ifndef __cplusplus
 #define MAKES_CELL_FORCES
 #endif
@@ -65,6 +65,21 @@ layout(std430, binding = kBindCellForces) writeonly buffer CellForcesBuffer { ve
 vec3 u(uint slot) { return xyz(stateAt(displacement, int(slot))); }
 #include "solver/tissue/broken_cell.glsl"
 
+#ifdef WALLS
+#include "solver/tissue/rows.glsl"
+layout(std430, binding = kBindWallPulls) writeonly buffer WallPullsBuffer { vec4 wall_pulls_out[]; };
+
+/// Of a cell that is no longer whole.
+void leaveNoRows(uint slot) {
+  for (uint i = 0u; i < kWallVectors; ++i) wall_pulls_out[inPlanes(slot, i, kWallVectors)] = vec4(0.0f);
+}
+
+void leaveRows(uint slot, CellRows by) {
+  for (uint i = 0u; i < 3u; ++i) wall_pulls_out[inPlanes(slot, i, kWallVectors)] = vec4(by.second[i], 0.0f);
+  for (uint i = 0u; i < 6u; ++i) wall_pulls_out[inPlanes(slot, 3u + i, kWallVectors)] = vec4(by.varied[i], 0.0f);
+}
+#endif
+
 /// Of a body with a law: where its nodes will be, which damps (physics.md 2). Leaves a cell's forces. @param whole  it has all springs
 void leaveLawForces(uint slot, BodyParams body, bool whole) {
   float h = body.origin_spacing.w;
@@ -77,12 +92,23 @@ void leaveLawForces(uint slot, BodyParams body, bool whole) {
     at[c] = u(corner);
 #endif
   }
+  CellMoments moments = cellMoments(slot);
   if (!whole) {
-    BrokenCell cell = brokenCell(slot, at, h, cellRigidity(slot, body), cellMoments(slot));
+    BrokenCell cell = brokenCell(slot, at, h, cellRigidity(slot, body), moments);
     for (uint c = 0u; c < 8u; ++c) cell_forces_out[cellVector(slot, c)] = vec4(cell.force[c], 0.0f);
+#ifdef WALLS
+    if (moments.wall.w > 0.0f) leaveNoRows(slot);
+#endif
     return;
   }
-  CellForces f = lawForces(at, body, cellBulk(slot, body), cellRigidity(slot, body), cellMoments(slot));
+  CellMotion q = cellMotion(at, h);
+#ifdef WALLS
+  if (moments.wall.w > 0.0f) q.rows = cellRows(slot);
+#endif
+  CellForces f = lawForces(q, body, cellBulk(slot, body), cellRigidity(slot, body), moments);
+#ifdef WALLS
+  if (moments.wall.w > 0.0f) leaveRows(slot, f.rows);
+#endif
   for (uint c = 0u; c < 8u; c += 2u) {  // the corners at x -1 and 1
     vec3 s = cornerSide(c);
     vec3 even = s.y * f.b + s.z * f.c + (s.y * s.z) * f.hx;

@@ -17,18 +17,37 @@ struct CellMoments {
   vec4 plane;   // normal of the plane between its two materials, from a to b; share of a, 1 where there is one material
   vec4 layers;  // shear moduli of a and b over their mean, K/mu of both
 #endif
+#ifdef WALLS
+  vec4 wall;        // unit normal of the thin wall that it is in; share of its second derivatives that comes from rows, 0: it is in none
+  float variation;  // share of the variation of these within the cell
+#endif
 };
+
+#ifdef WALLS
+/// Of a cell in a thin wall: second derivatives of its motion along its axes by rows of nodes (rows.comp), over h; or derivatives by these.
+struct CellRows {
+  vec3 second[3];  // mean over the corners, by axis of the row
+  vec3 varied[6];  // mean over a face less that over the opposite one, by axis of the row and axis of the faces xy, xz, yz, yx, zx, zy
+  vec3 there;      // 1 where a corner has a row along the axis
+};
+#endif
 
 /// Mean edges less their rest value, and hourglass motions, over h.
 struct CellMotion {
   vec3 da, db, dc;
   vec3 hx, hy, hz, hxyz;  // hxyz: sum of s_x s_y s_z u over the corners, over sqrt(8)
+#ifdef WALLS
+  CellRows rows;  // only where CellMoments has a wall
+#endif
 };
 
 /// Energy [J], and its derivatives by the motion [J].
 struct CellPull {
   float energy;
   vec3 a, b, c, hx, hy, hz, hxyz;
+#ifdef WALLS
+  CellRows rows;  // only where CellMoments has a wall
+#endif
 };
 
 /// -1 or 1 per axis. @param corner  bit per axis, x lowest
@@ -63,6 +82,10 @@ CellMoments fullMoments() {
 #endif
 #ifdef LAMINATES
   t.plane = vec4(0.0f, 0.0f, 0.0f, 1.0f);
+#endif
+#ifdef WALLS
+  t.wall = vec4(0.0f);
+  t.variation = 0.0f;
 #endif
   return t;
 }

@@ -3,7 +3,7 @@
 //
 // What a node, a spring and a cell are made of (physics.md 1). After lattice.glsl.
 // Features: LATTICE (some body has implicit connections), NETWORK (some body has explicit ones: network.glsl), PARTS (strengths differ within a body: tables),
-// LAW (the cells of some bodies obey a hyperelastic law), PRESTRESS (some of these are stressed at rest), LAMINATES (some are of two materials), INCREMENT (implicit integrators: the state is displacement + increment), MAKES_CELL_FORCES (of kernels that do).
+// LAW (the cells of some bodies obey a hyperelastic law), PRESTRESS (some of these are stressed at rest), LAMINATES (some are of two materials), WALLS (some are in thin walls: law_walls.glsl), INCREMENT (implicit integrators: the state is displacement + increment), MAKES_CELL_FORCES (of kernels that do).
 #include "solver/tissue/spring.glsl"
 #include "solver/tissue/cell_motion.glsl"
 #ifdef LAW
@@ -67,7 +67,7 @@ layout(binding = kUnitCellForces) uniform samplerBuffer cell_forces;  // the sam
 #endif
 #endif
 #if defined(LAW) && defined(PARTS)
-layout(binding = kUnitCellMoments) uniform samplerBuffer cell_moments;  // [3 * (1 + fills)], then stresses and laminates of cells, two each (JoinedMoments)
+layout(binding = kUnitCellMoments) uniform samplerBuffer cell_moments;  // [3 * (1 + fills)], then stresses, laminates and walls of cells, two each (JoinedMoments)
 /// (lambda - mu) h^3 and mu h^3, times the cell's share [J].
 float cellBulk(uint slot, BodyParams body) { return cellStrengths(slot).x; }
 float cellRigidity(uint slot, BodyParams body) { return cellStrengths(slot).y; }
@@ -77,7 +77,8 @@ CellMoments cellMoments(uint slot) {
   CellMoments t;
   vec4 first = texelFetch(cell_moments, fill);
   t.first = first.xyz;
-  t.square = texelFetch(cell_moments, fill + 1).xyz;
+  vec4 square = texelFetch(cell_moments, fill + 1);
+  t.square = square.xyz;
   t.mixed = texelFetch(cell_moments, fill + 2).xyz;
 #ifdef PRESTRESS
   int stress = int(strengths.w);
@@ -88,6 +89,11 @@ CellMoments cellMoments(uint slot) {
   int laminate = int(first.w);
   t.plane = laminate == 0 ? vec4(0.0f, 0.0f, 0.0f, 1.0f) : texelFetch(cell_moments, laminate);
   t.layers = laminate == 0 ? vec4(1.0f) : texelFetch(cell_moments, laminate + 1);
+#endif
+#ifdef WALLS
+  int wall = int(square.w);
+  t.wall = wall == 0 ? vec4(0.0f) : texelFetch(cell_moments, wall);
+  t.variation = wall == 0 ? 0.0f : texelFetch(cell_moments, wall + 1).x;
 #endif
   return t;
 }
@@ -165,23 +171,50 @@ uint cellAt(uint slot, ivec3 corner, OUT(bool) exists) {
 /// or 1, feels minus x a + y b + z c + y z hx + z x hy + x y hz + x y z hxyz [N].
 struct CellForces {
   vec3 a, b, c, hx, hy, hz, hxyz;
+#ifdef WALLS
+  CellRows rows;  // derivatives of the energy by these [J]; only where CellMoments has a wall
+#endif
 };
 
-/// @param at  displacements of the corners, bit per axis, x lowest [m]   @param bulk, rigidity  as of lawPull()
-CellForces lawForces(vec3 at[8], BodyParams body, float bulk, float rigidity, CellMoments moments) {
+/// @param q  as of cellMotion()   @param bulk, rigidity  as of lawPull()
+CellForces lawForces(CellMotion q, BodyParams body, float bulk, float rigidity, CellMoments moments) {
   float h = body.origin_spacing.w;
-  CellPull pull = lawPull(cellMotion(at, h), moments, rigidity, bulk, body.stiffening);
+  CellPull pull = lawPull(q, moments, rigidity, bulk, body.stiffening);
   float quarter = 0.25f / h;
-  CellForces f = {quarter * pull.a, quarter * pull.b, quarter * pull.c, (2.0f * quarter) * pull.hx, (2.0f * quarter) * pull.hy,
-                  (2.0f * quarter) * pull.hz, (0.35355339f / h) * pull.hxyz};
+  CellForces f;
+  f.a = quarter * pull.a;
+  f.b = quarter * pull.b;
+  f.c = quarter * pull.c;
+  f.hx = (2.0f * quarter) * pull.hx;
+  f.hy = (2.0f * quarter) * pull.hy;
+  f.hz = (2.0f * quarter) * pull.hz;
+  f.hxyz = (0.35355339f / h) * pull.hxyz;
+#ifdef WALLS
+  f.rows = pull.rows;
+#endif
   return f;
 }
 
 /// Bit per axis, x lowest. @param corner  -1 or 1 per axis
 uint cornerNumber(ivec3 corner) { return uint((corner.x + 1) / 2 + (corner.y + 1) + 2 * (corner.z + 1)); }
 
-/// Place of what a cell does to one of its corners in cell_forces.
-uint cellVector(uint slot, uint corner) { return inPlanes(slot, corner, kCellVectors); }
+#ifdef WALLS
+#define CELL_PLANES (kCellVectors + kRowVectors)
+#else
+#define CELL_PLANES kCellVectors
+#endif
+/// Place of what a cell does to one of its corners in cell_forces; from kCellVectors on of a node's rows, by axis.
+uint cellVector(uint slot, uint corner) { return inPlanes(slot, corner, CELL_PLANES); }
+
+#ifdef WALLS
+/// Are both springs of a node along an axis whole?
+bool isWithinRow(NodeBits bits, uint axis) { return springCount(bits, 2u * axis) != 0u && springCount(bits, 2u * axis + 1u) != 0u; }
+
+/// Slot of the neighbour along an axis, as neighborSlot(). @param side  -1 or 1
+uint besideInRow(uint slot, uint axis, int side) {
+  return neighborSlot(slot, ivec3(axis == 0u ? side : 0, axis == 1u ? side : 0, axis == 2u ? side : 0));
+}
+#endif
 
 #ifndef MAKES_CELL_FORCES  // kernels that write cell_forces do not read them
 /// Force of the cells around a node [N].
@@ -199,5 +232,23 @@ vec3 cellForce(uint slot) {
   FOR_EACH_CELL(ADD_CELL)
   return xyz(sum);
 }
+
+#ifdef WALLS
+/// What the rows that a node is in do to it, of row_forces.comp [N].
+vec3 rowForce(uint slot, NodeBits bits) {
+  vec4 sum = vec4(0.0f);
+  for (uint axis = 0u; axis < 3u; ++axis) {
+    sum += 2.0f * stateAt(cell_forces, int(cellVector(slot, kCellVectors + axis)));
+    for (int side = -1; side < 2; side += 2) {
+      bool whole = springCount(bits, 2u * axis + (side < 0 ? 1u : 0u)) != 0u;
+      IF_THERE(whole) {
+        vec4 beside = stateAt(cell_forces, int(cellVector(besideInRow(slot, axis, side), kCellVectors + axis)));
+        sum -= OF_THERE(whole, beside);
+      }
+    }
+  }
+  return xyz(sum);
+}
+#endif
 #endif
 #endif

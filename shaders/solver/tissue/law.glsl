@@ -211,38 +211,16 @@ LawColumns lawPoint(LawColumns d, LawColumns c, float e, float bulk, float stiff
   return lawStress(d, c, e, bulk, stiffening);
 }
 
-/// The law's energy and its derivatives. @param rigidity  mu h^3 times the cell's share [J]   @param bulk_j  (lambda - mu) h^3 times the same [J]
-CellPull lawPull(CellMotion q, CellMoments moments, float rigidity, float bulk_j, float stiffening) {
-  float ratio = bulk_j / rigidity, bulk = ratio + 5.0f / 3.0f;  // K/mu = lambda/mu + 2/3
-  LawCell t = lawCell(moments, ratio);
-  LawColumns d = lawColumns(q.da, q.db, q.dc), c = lawCofactors(d);
-  float e = lawDilation(d, c), inverse = 1.0f / max(1.0f + e, kLeastVolume);
-  LawColumns s = lawFrame(q, c, e), r = lawBends(t, s);
-  CellPull pull;
-  pull.energy = 0.5f * (dot(r.a, s.a) + dot(r.b, s.b) + dot(r.c, s.c)) + 0.5f * kLawAlternating * dot(q.hxyz, q.hxyz);
-  LawColumns p;
-  if (dot(t.center, t.center) == 0.0f) {
-    float density;
-    p = lawPoint(d, c, e, bulk, stiffening, moments, density);
-    pull.energy += density;
-#ifdef PRESTRESS
-    lawAddPrestress(moments, d, p, pull.energy);
-#endif
-  } else {
-    LawColumns g = lawAtCentroid(t, s);
-    LawColumns star = lawColumns(d.a + lawTimes(d, g.a), d.b + lawTimes(d, g.b), d.c + lawTimes(d, g.c));
-    LawColumns of_star = lawCofactors(star);
-    float e_star = lawDilation(star, of_star);
-    float density;
-    LawColumns ps = lawPoint(star, of_star, e_star, bulk, stiffening, moments, density);
-    pull.energy += density;
-#ifdef PRESTRESS
-    lawAddPrestress(moments, star, ps, pull.energy);
-#endif
-    lawAddCentroid(t, lawColumns(lawTransposed(d, ps.a), lawTransposed(d, ps.b), lawTransposed(d, ps.c)), r);
-    p = lawColumns(ps.a + g.a.x * ps.a + g.b.x * ps.b + g.c.x * ps.c, ps.b + g.a.y * ps.a + g.b.y * ps.b + g.c.y * ps.c,
-                   ps.c + g.a.z * ps.a + g.b.z * ps.b + g.c.z * ps.c);
-  }
+/// P* (1 + G)^T: what dW/dF* does by the mean edges, the frame held.
+LawColumns lawByEdges(LawColumns ps, LawColumns g) {
+  return lawColumns(ps.a + g.a.x * ps.a + g.b.x * ps.b + g.c.x * ps.c, ps.b + g.a.y * ps.a + g.b.y * ps.b + g.c.y * ps.c,
+                    ps.c + g.a.z * ps.a + g.b.z * ps.b + g.c.z * ps.c);
+}
+
+/// Leaves the derivatives by the motion [J]. @param c, e  cofactors and dilation of d   @param s  row by row
+/// @param p  by the mean edges, the frame held   @param r  by s, row by row; both over mu
+void lawLeave(CellMotion q, LawColumns d, LawColumns c, float e, LawColumns s, LawColumns p, LawColumns r, float rigidity, INOUT(CellPull) pull) {
+  float inverse = 1.0f / max(1.0f + e, kLeastVolume);
   pull.hx = inverse * lawTimes(c, vec3(r.a.x, r.b.x, r.c.x));
   pull.hy = inverse * lawTimes(c, vec3(r.a.y, r.b.y, r.c.y));
   pull.hz = inverse * lawTimes(c, vec3(r.a.z, r.b.z, r.c.z));
@@ -266,6 +244,47 @@ CellPull lawPull(CellMotion q, CellMoments moments, float rigidity, float bulk_j
   pull.hy *= rigidity;
   pull.hz *= rigidity;
   pull.hxyz = (rigidity * kLawAlternating) * q.hxyz;
+}
+
+#ifdef WALLS
+#include "solver/tissue/law_walls.glsl"
+#endif
+
+/// The law's energy and its derivatives. @param rigidity  mu h^3 times the cell's share [J]   @param bulk_j  (lambda - mu) h^3 times the same [J]
+CellPull lawPull(CellMotion q, CellMoments moments, float rigidity, float bulk_j, float stiffening) {
+#ifdef WALLS
+  if (moments.wall.w > 0.0f) return lawWallPull(q, moments, rigidity, bulk_j, stiffening);
+#endif
+  float ratio = bulk_j / rigidity, bulk = ratio + 5.0f / 3.0f;  // K/mu = lambda/mu + 2/3
+  LawCell t = lawCell(moments, ratio);
+  LawColumns d = lawColumns(q.da, q.db, q.dc), c = lawCofactors(d);
+  float e = lawDilation(d, c);
+  LawColumns s = lawFrame(q, c, e), r = lawBends(t, s);
+  CellPull pull;
+  pull.energy = 0.5f * (dot(r.a, s.a) + dot(r.b, s.b) + dot(r.c, s.c)) + 0.5f * kLawAlternating * dot(q.hxyz, q.hxyz);
+  LawColumns p;
+  if (dot(t.center, t.center) == 0.0f) {
+    float density;
+    p = lawPoint(d, c, e, bulk, stiffening, moments, density);
+    pull.energy += density;
+#ifdef PRESTRESS
+    lawAddPrestress(moments, d, p, pull.energy);
+#endif
+  } else {
+    LawColumns g = lawAtCentroid(t, s);
+    LawColumns star = lawColumns(d.a + lawTimes(d, g.a), d.b + lawTimes(d, g.b), d.c + lawTimes(d, g.c));
+    LawColumns of_star = lawCofactors(star);
+    float e_star = lawDilation(star, of_star);
+    float density;
+    LawColumns ps = lawPoint(star, of_star, e_star, bulk, stiffening, moments, density);
+    pull.energy += density;
+#ifdef PRESTRESS
+    lawAddPrestress(moments, star, ps, pull.energy);
+#endif
+    lawAddCentroid(t, lawColumns(lawTransposed(d, ps.a), lawTransposed(d, ps.b), lawTransposed(d, ps.c)), r);
+    p = lawByEdges(ps, g);
+  }
+  lawLeave(q, d, c, e, s, p, r, rigidity, pull);
   return pull;
 }
 
@@ -319,6 +338,16 @@ float lawStiffening(CellMotion q, CellMoments moments, float ratio, float stiffe
 #endif
   float found = lawStiffeningAt(d, c, ratio, stiffening, tension);
   LawColumns star = d, of_star = c;
+#ifdef WALLS
+  if (moments.wall.w > 0.0f) {
+    float e = lawDilation(d, c);
+    LawColumns s = lawFrame(q, c, e);
+    LawWall w = lawWall(q, moments, t, c, e, s);
+    star = lawWallStar(d, lawWallCentroid(t, s, w), w);
+    of_star = lawCofactors(star);
+    found = max(found, lawStiffeningAt(star, of_star, ratio, stiffening, tension));
+  } else
+#endif
   if (dot(t.center, t.center) != 0.0f) {
     LawColumns g = lawAtCentroid(t, lawFrame(q, c, lawDilation(d, c)));
     star = lawColumns(d.a + lawTimes(d, g.a), d.b + lawTimes(d, g.b), d.c + lawTimes(d, g.c));

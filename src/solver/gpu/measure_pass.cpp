@@ -14,6 +14,11 @@ MeasurePass::MeasurePass(const FeatureSet& features, size_t active_count)
     : energies_(active_count + sumTreeSize(active_count), "energies"), group_size_(features.group_size) {
   std::vector<std::string> defines = features.defines();
   measure_ = gpu::Program::compute("measure.comp", defines);
+  if (features.walls) {
+    FeatureSet in_place = features;  // energy is of where nodes are, not of where they will be
+    in_place.dashpot = false;
+    rows_.emplace(RowPass::differences(in_place, false));
+  }
   defines.push_back("FOLD");
   fold_ = gpu::Program::compute("measure.comp", defines);
 }
@@ -26,6 +31,7 @@ void MeasurePass::run(const LatticeBuffers& buffers) const {
   };
   clear(0, offsetof(layout::TickStats, springs_cut));
   clear(offsetof(layout::TickStats, nonfinite), sizeof(layout::TickStats));
+  if (rows_) rows_->run(buffers);
   energies_.bindStorage(layout::kBindPartials);
   measure_.use();
   measure_.set("count", static_cast<uint32_t>(buffers.store.active_count));

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "gpu/program.h"
 #include "solver/gpu/buffers/lattice_buffers.h"
+#include "solver/gpu/forces/row_pass.h"
 #include "solver/tissue/features.h"
 
 namespace viscera {
@@ -22,6 +24,7 @@ class MeasurePass {
   void sumEnergies(const LatticeBuffers& buffers) const;
 
   gpu::Program measure_, fold_;
+  std::optional<RowPass> rows_;                 ///< feature walls
   gpu::Buffer<std::array<float, 2>> energies_;  ///< of nodes, then of the runs of each level
   uint32_t group_size_;
 };

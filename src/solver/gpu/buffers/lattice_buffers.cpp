@@ -7,6 +7,7 @@
 #include "gpu/archive.h"
 #include "gpu/limits.h"
 #include "layout/bindings.h"
+#include "layout/law.h"
 #include "solver/tissue/joined_lattice.h"
 #include "solver/tissue/restored_nodes.h"
 
@@ -75,7 +76,7 @@ StrengthBuffers::StrengthBuffers(const Model& model, const FeatureSet& features,
   if (features.parts) {
     const Strengths table = allStrengths(model);
     spring_stiffness = gpu::Buffer<float>(inPlanes(table.spring_n_per_m, kSpringPairs), "spring stiffness");
-    if (features.law) writeMoments(model, table);
+    if (features.law) writeMoments(model, features, table);
     if (masses.empty()) masses = table.mass_kg;
     spring_texels_ = gpu::TexelView(spring_stiffness.raw(), gpu::TexelFormat::kR32f);
   }
@@ -84,7 +85,7 @@ StrengthBuffers::StrengthBuffers(const Model& model, const FeatureSet& features,
   mass_texels_ = gpu::TexelView(node_mass.raw(), depths_m.empty() ? gpu::TexelFormat::kR32f : gpu::TexelFormat::kRg32f);
 }
 
-void StrengthBuffers::writeMoments(const Model& model, const Strengths& table) {
+void StrengthBuffers::writeMoments(const Model& model, const FeatureSet& features, const Strengths& table) {
   const JoinedMoments moments = allMoments(model);
   std::vector<layout::vec4> cells(table.bulk_j.size());
   for (size_t slot = 0; slot < cells.size(); ++slot) {
@@ -99,6 +100,7 @@ void StrengthBuffers::writeMoments(const Model& model, const Strengths& table) {
   surface_ways = gpu::Buffer<uint32_t>(ways, "ways to the surface");
   bulk_texels_ = gpu::TexelView(cell_strengths.raw(), gpu::TexelFormat::kRgba32f);
   moment_texels_ = gpu::TexelView(cell_moments.raw(), gpu::TexelFormat::kRgba32f);
+  if (features.walls) walls = WallBuffers(model, moments);
 }
 
 void StrengthBuffers::bind() const {
@@ -113,6 +115,7 @@ void StrengthBuffers::bind() const {
   if (cell_moments.size()) {
     moment_texels_.bind(layout::kUnitCellMoments);
     surface_ways.bindStorage(layout::kBindSurfaceWays);
+    walls.bind();
   }
   if (node_mass.size()) mass_texels_.bind(layout::kUnitNodeMass);
 }
@@ -176,7 +179,8 @@ LatticeBuffers::LatticeBuffers(const Model& model, const std::vector<layout::Bod
     cut_sides.clear();
   }
   if (features.law) {
-    cell_forces = gpu::Buffer<layout::vec4>(layout::kCellVectors * store.slot_count, "cell forces");
+    const size_t vectors = layout::kCellVectors + (features.walls ? layout::kRowVectors : 0);
+    cell_forces = gpu::Buffer<layout::vec4>(vectors * store.slot_count, "cell forces");
     cell_force_texels_ = gpu::TexelView(cell_forces.raw(), gpu::TexelFormat::kRgba32f);
   }
   bind();  // what is too large for the driver is said now

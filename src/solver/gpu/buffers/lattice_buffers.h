@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gpu/buffer.h"
+#include "solver/gpu/buffers/wall_buffers.h"
 #include "solver/tissue/cut_record.h"
 #include "solver/tissue/features.h"
 #include "solver/tissue/joined_network.h"
@@ -49,9 +50,10 @@ struct StrengthBuffers {
       cell_strengths;  ///< [slots] x bulk, y rigidity [J], z which moments, w stress; features parts, law
   gpu::Buffer<layout::vec4> cell_moments;  ///< JoinedMoments::vectors; features parts, law
   gpu::Buffer<uint32_t> surface_ways;      ///< [slots] surfaceWays(), or 0 everywhere; features parts, law
+  WallBuffers walls;                       ///< feature walls
 
  private:
-  void writeMoments(const Model& model, const Strengths& table);
+  void writeMoments(const Model& model, const FeatureSet& features, const Strengths& table);
   gpu::TexelView spring_texels_, mass_texels_, bulk_texels_, moment_texels_;
 };
 
@@ -142,10 +144,11 @@ struct LatticeBuffers {
   StateBuffers state;
   HandBuffers hands;
   CutRecord record;
-  gpu::Buffer<layout::vec4> cut_sides;    ///< [slots] where there is axial_cut: see shaders/solver/tools/cut_sides.glsl
-  gpu::Buffer<float> axial_cut;           ///< [record.size()] of implicit lattices; features cuts, lattice
-  gpu::Buffer<layout::TickStats> stats;   ///< [1]
-  gpu::Buffer<layout::vec4> cell_forces;  ///< [8 * slots] N, see shaders/solver/tissue/cell_forces.comp; feature law
+  gpu::Buffer<layout::vec4> cut_sides;   ///< [slots] where there is axial_cut: see shaders/solver/tools/cut_sides.glsl
+  gpu::Buffer<float> axial_cut;          ///< [record.size()] of implicit lattices; features cuts, lattice
+  gpu::Buffer<layout::TickStats> stats;  ///< [1]
+  gpu::Buffer<layout::vec4>
+      cell_forces;  ///< [8 * slots] N, see shaders/solver/tissue/cell_forces.comp; feature law; [11 * slots] with walls
 
  private:
   gpu::TexelView cell_force_texels_;

@@ -22,10 +22,19 @@ CellPass::CellPass(const FeatureSet& features, const AwakeBricks* awake)
   std::vector<std::string> defines = features.defines();
   if (awake) defines.push_back("AWAKE");
   cells_ = gpu::Program::compute("cell_forces.comp", defines);
+  if (!features.walls) return;
+  rows_.emplace(RowPass::differences(features, awake != nullptr));
+  row_forces_.emplace(RowPass::forces(features, awake != nullptr));
 }
 
 void CellPass::run(const LatticeBuffers& buffers) const {
   const gpu::TimedStage timed(gpu::Stage::kCells);
+  if (rows_) rows_->run(buffers);
+  runCells(buffers);
+  if (row_forces_) row_forces_->run(buffers);
+}
+
+void CellPass::runCells(const LatticeBuffers& buffers) const {
   if (!awake_) {
     dispatchCells(cells_, buffers, group_size_);
     return;

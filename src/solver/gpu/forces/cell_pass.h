@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "gpu/program.h"
 #include "solver/gpu/buffers/awake_bricks.h"
 #include "solver/gpu/buffers/lattice_buffers.h"
+#include "solver/gpu/forces/row_pass.h"
 #include "solver/tissue/features.h"
 
 namespace viscera {
@@ -15,11 +18,14 @@ class CellPass {
  public:
   /// @param awake  of cells beside these bricks only; null: of all
   explicit CellPass(const FeatureSet& features, const AwakeBricks* awake = nullptr);
-  /// Leaves the forces of every cell in buffers.cell_forces.
+  /// Leaves the forces of every cell in buffers.cell_forces, and those of rows of nodes in thin walls.
   void run(const LatticeBuffers& buffers) const;
 
  private:
+  void runCells(const LatticeBuffers& buffers) const;
+
   gpu::Program cells_;
+  std::optional<RowPass> rows_, row_forces_;  ///< feature walls
   const AwakeBricks* awake_;
   uint32_t group_size_;
 };
