@@ -16,6 +16,10 @@ namespace viscera {
 
 namespace {
 
+/// Substeps between two looks where cells are in thin walls: in one substep a force reaches three nodes, a cell's width
+/// and a row's beyond it, so that a brick that sleeps meanwhile misses more of what is beside it.
+constexpr int kSubstepsWithWalls = 2;
+
 /// Blocks of the kernel that has most of them, LIST.
 size_t mostBlocks(const FeatureSet& features) {
   return features.law ? 10 : 8;
@@ -80,7 +84,8 @@ AwakeBricks::AwakeBricks(const Model& model, const FeatureSet& features, const L
       slow2_(static_cast<float>(speed_m_per_s * speed_m_per_s)),
       deepest_m_(deepest(model) + edgeReach(model)),
       beside_(features.law ? layout::kFarthestTissue : 0),
-      group_size_(features.group_size) {
+      group_size_(features.group_size),
+      substeps_between_looks_(features.walls ? kSubstepsWithWalls : Sleep::kSubsteps) {
   if (features.law) cells_ = gpu::RawBuffer(listBytes(buffers.store.cells.size()), "awake cells");
   if (!features.tools) return;
   look_with_tools_ = compiled(features, "LOOK", true);
@@ -152,7 +157,7 @@ void AwakeBricks::dispatchCells() const {
 
 bool AwakeBricks::isLook(const Substep& step) {
   since_look_s_ += static_cast<double>(step.dt_s);
-  return ++substeps_since_look_ >= Sleep::kSubsteps;
+  return ++substeps_since_look_ >= substeps_between_looks_;
 }
 
 void AwakeBricks::passed(const Substep& step) {

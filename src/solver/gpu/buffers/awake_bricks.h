@@ -41,7 +41,8 @@ class AwakeBricks {
   void list();
   void dispatchNodes() const;  ///< of the program in use, over the nodes that are awake; after list()
   void dispatchCells() const;  ///< over the cells around these
-  /// They have made a substep, whose result is not the current state yet. After every Sleep::kSubsteps there is a look.
+  /// They have made a substep, whose result is not the current state yet. After every Sleep::kSubsteps there is a look;
+  /// with cells in thin walls, whose forces reach farther, after every second one.
   void passed(const Substep& step);
   /// The same where all sleep and no kernel runs.
   void slept(const Substep& step);
@@ -64,6 +65,7 @@ class AwakeBricks {
   gpu::RawBuffer nodes_, cells_;
   float slow2_, deepest_m_, beside_;
   uint32_t group_size_;
+  const int substeps_between_looks_;
   bool all_ = true, listed_ = false;
   double since_look_s_ = 0;
   int substeps_since_look_ = 0;
