@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "math/float_bits.h"
+#include "solver/cpu/cpu_solver.h"
 #include "support/random_state.h"
 #include "support/sleeping.h"
 #include "support/solver_rig.h"
@@ -194,15 +195,14 @@ ToolMotions probeAtEnd(const Model& model) {
   return probeAt(lattice.restPosition(end) + Vector3d(0.003, 0, 0.003));
 }
 
-}  // namespace
-
 /// What sleeps beside bricks that a probe has woken misses nothing: forces of cells and rows there are up to date.
-TEST_P(ThinWalls, MoveAsWithoutSleep) {
+template <class Sleeper>
+void expectToMoveAsWithoutSleep() {
   const Model model = modelOf({sleepyPlate()});
   ASSERT_FALSE(wallCells(model.bodies[0]).empty());
   // What bricks that sleep leave out is slower than that, and the drag of 60 1/s stops it within 1/60 s.
   const double left_out_m = kSleepSpeed_m_per_s / kSleepDrag_per_s;
-  GpuSolver sleeper(model, sleepyScene(model)), watcher(model, sleepyScene(model, {0}));
+  Sleeper sleeper(model, sleepyScene(model)), watcher(model, sleepyScene(model, {0}));
   ASSERT_LT(settle(sleeper), 50);
   size_t slept = 0;
   double farthest_m = 0, way_m = 0;
@@ -219,14 +219,26 @@ TEST_P(ThinWalls, MoveAsWithoutSleep) {
 }
 
 /// Where all are awake, lists of cells change nothing, to the bit.
-TEST_P(ThinWalls, AwakeAllTheyMoveAsWithoutSleepToTheBit) {
+template <class Sleeper>
+void expectToMoveAsWithoutSleepToTheBit() {
   const Model model = modelOf({sleepyPlate()});
-  GpuSolver sleeper(model, sleepyScene(model)), watcher(model, sleepyScene(model, {0}));
+  Sleeper sleeper(model, sleepyScene(model)), watcher(model, sleepyScene(model, {0}));
   const HostState start = randomState(model, 0.05 * kSleepSpacing_m, 0.1, 3);
-  for (GpuSolver* solver : {&sleeper, &watcher}) {
+  for (Sleeper* solver : {&sleeper, &watcher}) {
     solver->writeState(start);
     for (int t = 0; t < 3; ++t) solver->step(ToolMotions{});
   }
   EXPECT_EQ(sleeper.awakeBricks(), sleeper.bricks());
   EXPECT_EQ(stateHash(model, sleeper.readState()), stateHash(model, watcher.readState()));
+}
+
+}  // namespace
+
+TEST_P(ThinWalls, MoveAsWithoutSleep) {
+  GetParam() == "gpu" ? expectToMoveAsWithoutSleep<GpuSolver>() : expectToMoveAsWithoutSleep<CpuSolver>();
+}
+
+TEST_P(ThinWalls, AwakeAllTheyMoveAsWithoutSleepToTheBit) {
+  GetParam() == "gpu" ? expectToMoveAsWithoutSleepToTheBit<GpuSolver>()
+                      : expectToMoveAsWithoutSleepToTheBit<CpuSolver>();
 }

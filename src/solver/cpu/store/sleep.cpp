@@ -31,6 +31,7 @@ bool isImplicit(const CpuLattice& lattice, uint32_t brick) {
 
 Sleep::Sleep(const CpuLattice& lattice, double speed_m_per_s)
     : speed2_(static_cast<float>(speed_m_per_s * speed_m_per_s)),
+      substeps_between_looks_(lattice.strengths.walls.empty() ? kSubsteps : kSubstepsWithWalls),
       quiet_s_(lattice.brickCount()),
       farthest_m_(lattice.brickCount()),
       moves_(lattice.brickCount()),
@@ -110,9 +111,9 @@ void Sleep::requireListed(const Archive& archive) const {
     if (is_awake_[b]) listed.push_back(b);
   }
   archive.require(listed == awake_, "the list of bricks that are awake is not of those that are marked as awake");
-  archive.require(substeps_since_look_ >= 0 && substeps_since_look_ < kSubsteps,
+  archive.require(substeps_since_look_ >= 0 && substeps_since_look_ < substeps_between_looks_,
                   std::to_string(substeps_since_look_) + " substeps since the last look; 0 .. " +
-                      std::to_string(kSubsteps - 1) + " are accepted");
+                      std::to_string(substeps_between_looks_ - 1) + " are accepted");
 }
 
 void Sleep::restart() {
@@ -122,7 +123,7 @@ void Sleep::restart() {
 
 void Sleep::passed(CpuLattice& lattice, float dt_s, const std::vector<float>& speed2) {
   since_look_s_ += static_cast<double>(dt_s);
-  if (++substeps_since_look_ < kSubsteps) return;
+  if (++substeps_since_look_ < substeps_between_looks_) return;
   if (!awake_.empty()) look(lattice, speed2);
   restart();
 }

@@ -19,6 +19,9 @@ class Sleep {
  public:
   /// Substeps between two looks: disturbances cross the four cells of a brick, c_p dt <= 0.58 h each, in no fewer.
   static constexpr int kSubsteps = 6;
+  /// The same with cells in thin walls: in one substep a force reaches three nodes, a cell's width and a row's beyond
+  /// it, so that a brick that sleeps meanwhile would miss more of what is beside it.
+  static constexpr int kSubstepsWithWalls = 2;
   static constexpr double kQuiet_s = 0.1;
 
   /// @param speed_m_per_s  0: nothing ever sleeps. Bricks without a node that may move are never awake.
@@ -28,8 +31,8 @@ class Sleep {
   /// Wakes bricks with a node in a box. @param low, high  tissue frame [m]
   void wakeNear(const CpuLattice& lattice, const Vector3f& low, const Vector3f& high);
   void wake(uint32_t brick);
-  /// Those awake have made a substep. After every kSubsteps there is a look: who was fast, who falls asleep, who is
-  /// woken. @param speed2  [bricks] largest |v|^2 of those awake [m2/s2]
+  /// Those awake have made a substep. After kSubsteps, with walls kSubstepsWithWalls, there is a look: who was fast,
+  /// who falls asleep, who is woken. @param speed2  [bricks] largest |v|^2 of those awake [m2/s2]
   void passed(CpuLattice& lattice, float dt_s, const std::vector<float>& speed2);
   /// Substeps are counted from zero.
   void restart();
@@ -48,6 +51,7 @@ class Sleep {
   void freeze(CpuLattice& lattice, uint32_t brick);
 
   float speed2_;
+  int substeps_between_looks_;
   std::vector<float> quiet_s_;     ///< [bricks]
   std::vector<float> farthest_m_;  ///< [bricks] largest |u| when it fell asleep
   std::vector<uint8_t> moves_;     ///< [bricks] has nodes that may move

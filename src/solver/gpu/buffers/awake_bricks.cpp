@@ -16,10 +16,6 @@ namespace viscera {
 
 namespace {
 
-/// Substeps between two looks where cells are in thin walls: in one substep a force reaches three nodes, a cell's width
-/// and a row's beyond it, so that a brick that sleeps meanwhile misses more of what is beside it.
-constexpr int kSubstepsWithWalls = 2;
-
 /// Blocks of the kernel that has most of them, LIST.
 size_t mostBlocks(const FeatureSet& features) {
   return features.law ? 10 : 8;
@@ -85,7 +81,7 @@ AwakeBricks::AwakeBricks(const Model& model, const FeatureSet& features, const L
       deepest_m_(deepest(model) + edgeReach(model)),
       beside_(features.law ? layout::kFarthestTissue : 0),
       group_size_(features.group_size),
-      substeps_between_looks_(features.walls ? kSubstepsWithWalls : Sleep::kSubsteps) {
+      substeps_between_looks_(features.walls ? Sleep::kSubstepsWithWalls : Sleep::kSubsteps) {
   if (features.law) cells_ = gpu::RawBuffer(listBytes(buffers.store.cells.size()), "awake cells");
   if (!features.tools) return;
   look_with_tools_ = compiled(features, "LOOK", true);
