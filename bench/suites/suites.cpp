@@ -17,6 +17,7 @@
 #include "bench/suites/stability/stability_suite.h"
 #include "bench/suites/thread/thread_suite.h"
 #include "bench/suites/validate/validate_suite.h"
+#include "bench/suites/walls/walls_suite.h"
 #include "viscera/gpu/context.h"
 
 namespace viscera::bench {
@@ -54,6 +55,8 @@ const std::vector<Suite>& suites() {
        run<threadSuite>, false, true},
       {"validate", "measured silicone rubbers and a sphere on a half space, foretold by scenes", run<validateSuite>,
        false, true, true},
+      {"walls", "how far do thin-walled organs and a block of two materials hang, beside CalculiX's?", run<wallsSuite>,
+       false, true, false, false, false},
       {"haptics", "simulated devices against tissue: what is felt, limit cycles, energy, by mass, delay and stiffness",
        run<hapticsSuite>, false, true},
       {"latency", "from a pose to its force and its picture; how even ticks are", run<latencySuite>},

@@ -1,0 +1,256 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Computes what the organs of `viscera bench walls` are held to: linear elastic equilibria by CalculiX.
+
+Needs Debian's packages calculix-ccx and python3-numpy. To print the table of bench/suites/walls/walls_references.cpp:
+
+    bench/references/walls.py --work FOLDER [--levels 2 3] [NAME ...]
+
+Each organ is a map of the unit cube: s along the organ from its closed or free end to the end that is held, f around it,
+t across its wall. bench/suites/walls/walls_shapes.cpp has the same maps. Elements have twenty nodes (fifteen at a pole), all
+of them on the map; where organ and load are symmetric, half of the organ is meshed. A level is half the number of elements
+across the wall; those along it are 6 mm over the level and shorter towards the end that is held. Printed is the mean
+displacement along the load, weighted by mass (the work of the load over the load, twice the elastic energy over it): the
+middle of what elements with full and with reduced integration give, which err to opposite sides, and half of their distance.
+"""
+import argparse
+import math
+import os
+import re
+import subprocess
+import sys
+
+import numpy as np
+
+YOUNG_PA, DENSITY, GRAVITY = 20e3, 1060.0, 9.81
+RATIOS = (0.3, 0.45, 0.49)
+KINDS = ("C3D20", "C3D20R")  # the former errs to the stiff side, the latter to the soft one
+ELEMENT_M = 0.006  # along the wall, over the level
+CROWDED = 1.7  # power by which elements become shorter towards the end that is held
+
+
+def ellipsoid(axes, wall, cut):
+    """Returns the map of an ellipsoid with its pole at -z, cut off at z = `cut`; the axes of its inside are less by the wall."""
+    def place(s, f, t):
+        a, b, c = (axis - wall * (1 - t) for axis in axes)
+        angle = s * np.arccos(-cut / c)
+        return np.stack([a * np.sin(angle) * np.cos(f), b * np.sin(angle) * np.sin(f), -c * np.cos(angle)], -1)
+    return place
+
+
+def bowl(s, f, t):
+    """Maps half a sphere of radius 40 mm, wall 3 mm, that opens up, with its pole at -y, cut off at y = 25 mm."""
+    r = 0.037 + 0.003 * t
+    angle = s * np.arccos(-0.025 / r)
+    return np.stack([r * np.sin(angle) * np.cos(f), -r * np.cos(angle), r * np.sin(angle) * np.sin(f)], -1)
+
+
+def tube(s, f, t):
+    """Maps a tube of radius 12 mm, wall 3 mm: 20 mm along x, a quarter turn of radius 35 mm, 20 mm up to z = 0."""
+    r = 0.009 + 0.003 * t
+    turn, leg = 0.035 * math.pi / 2, 0.020
+    way = (1 - s) * (2 * leg + turn)  # from the end that is held
+    bent = np.clip(way - leg, 0, turn) / 0.035
+    x = 0.035 * (1 - np.cos(bent)) + np.maximum(way - leg - turn, 0)
+    z = -np.minimum(way, leg) - 0.035 * np.sin(bent)
+    return np.stack([x + r * np.cos(f) * np.cos(bent), r * np.sin(f), z + r * np.cos(f) * np.sin(bent)], -1)
+
+
+def torus(s, f, t):
+    """Maps half of a torus of radii 30 and 12 mm, wall 3 mm; both ends are held at y = 0."""
+    r = 0.009 + 0.003 * t
+    around = math.pi / 2 * (1 - s)
+    out = 0.030 + r * np.cos(f)
+    return np.stack([out * np.cos(around), out * np.sin(around), r * np.sin(f)], -1)
+
+
+def stomach(s, f, t):
+    """Maps an ellipsoid of 28 x 28 x 60 mm, wall 4 mm, cut off at 45 mm, bent by a radius of 60 mm; it is held at z = 0."""
+    place = ellipsoid((0.028, 0.028, 0.060), 0.004, 0.045)(s, f, t)
+    bent, out = (0.045 - place[..., 2]) / 0.060, 0.060 - place[..., 0]
+    return np.stack([0.060 - out * np.cos(bent), place[..., 1], -out * np.sin(bent)], -1)
+
+
+class Organ:
+    """What is meshed of an organ, and how.
+
+    place: map; lengths: [m] along s, and around at its widest for the range of f; around: that range; wall: [m];
+    load: direction of gravity; mirror: axis whose displacement is nil in the plane of symmetry.
+    """
+
+    def __init__(self, place, lengths, around, load, mirror, pole=True):
+        self.place, self.lengths, self.around, self.load, self.mirror, self.pole = place, lengths, around, load, mirror, pole
+
+
+HALF = (0.0, math.pi)
+ORGANS = {
+    "bowl": Organ(bowl, (0.088, 0.063), (-math.pi / 2, 0.0), (0, 0, -1), 0),
+    "bladder": Organ(ellipsoid((0.036, 0.032, 0.028), 0.003, 0.020), (0.080, 0.107), HALF, (-1, 0, 0), 1),
+    "tube": Organ(tube, (0.095, 0.038), HALF, (0, 0, -1), 1, pole=False),
+    "ellipsoid": Organ(ellipsoid((0.022, 0.022, 0.045), 0.003, 0.030), (0.090, 0.069), HALF, (-1, 0, 0), 1),
+    "torus": Organ(torus, (0.047, 0.075), (-math.pi, math.pi), (0, 0, -1), 0, pole=False),
+    "stomach": Organ(stomach, (0.120, 0.088), HALF, (-1, 0, 0), 1),
+}
+
+# Corners and middles of edges of an element, as half steps along s, f, t; CalculiX's order.
+HEXAHEDRON = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2),
+              (1, 0, 0), (2, 1, 0), (1, 2, 0), (0, 1, 0), (1, 0, 2), (2, 1, 2), (1, 2, 2), (0, 1, 2),
+              (0, 0, 1), (2, 0, 1), (2, 2, 1), (0, 2, 1)]
+WEDGE = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2),
+         (1, 0, 0), (2, 1, 0), (1, 2, 0), (1, 0, 2), (2, 1, 2), (1, 2, 2), (0, 0, 1), (2, 0, 1), (2, 2, 1)]
+MIRRORED = {20: [4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11, 16, 17, 18, 19],
+            15: [3, 4, 5, 0, 1, 2, 9, 10, 11, 6, 7, 8, 12, 13, 14]}
+
+
+def with_middles(steps):
+    """Returns the ends of elements along an axis and the middles between them, in order."""
+    out = np.empty(2 * len(steps) - 1)
+    out[::2], out[1::2] = steps, (steps[1:] + steps[:-1]) / 2
+    return out
+
+
+class Mesh:
+    """Nodes [m] and elements of an organ, with the nodes that are held and those in the plane of symmetry."""
+
+    def __init__(self, organ, level):
+        counts = [max(2, round(length / ELEMENT_M * level)) for length in organ.lengths] + [2 * level]
+        steps = [np.linspace(0, 1, n + 1) for n in counts]
+        steps[0] = 1 - (1 - steps[0]) ** CROWDED
+        steps[2] = (1 - np.cos(math.pi * steps[2])) / 2
+        steps = [with_middles(step) for step in steps]
+        low, high = organ.around
+        s, f, t = np.meshgrid(steps[0], low + (high - low) * steps[1], steps[2], indexing="ij")
+        places = organ.place(s, f, t).reshape(-1, 3)
+        _, first, same = np.unique(np.round(places / 1e-8).astype(np.int64), axis=0, return_index=True, return_inverse=True)
+        self.nodes = places[first]
+        self.at = same.reshape(s.shape)  # node of each half step
+        self.held = np.unique(self.at[-1])
+        self.mirrored = np.array([], int)
+        if organ.mirror is not None:
+            self.mirrored = np.where(np.abs(self.nodes[:, organ.mirror]) < 1e-8)[0]
+        self.elements = {20: self.stack(HEXAHEDRON, range(1 if organ.pole else 0, counts[0]), counts),
+                         15: self.stack(WEDGE, range(1) if organ.pole else (), counts)}
+        used = np.unique(np.concatenate([e.ravel() for e in self.elements.values()]))
+        self.held, self.mirrored = np.intersect1d(self.held, used), np.intersect1d(self.mirrored, used)
+        self.used = used
+
+    def stack(self, pattern, along, counts):
+        """Returns the nodes of elements of one kind, turned so that their volume is positive."""
+        out = [[self.at[2 * i + a, 2 * j + b, 2 * k + c] for a, b, c in pattern]
+               for i in along for j in range(counts[1]) for k in range(counts[2])]
+        out = np.array(out, int).reshape(-1, len(pattern))
+        if len(out) == 0:
+            return out
+        up = 4 if len(pattern) == 20 else 3
+        x = self.nodes[out]
+        volume = np.einsum("ij,ij->i", np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]), x[:, up] - x[:, 0])
+        assert (volume > 0).all() or (volume < 0).all()
+        return out if volume[0] > 0 else out[:, MIRRORED[len(pattern)]]
+
+
+class Block:
+    """The block of two materials: 60 x 40 x 30 mm, soft up to x = 4.3 mm and stiff beyond, held at x = 30 mm; half of it."""
+
+    BORDER = 0.0043
+
+    def __init__(self, level):
+        size = 2 * ELEMENT_M / level
+        soft, stiff = round((self.BORDER + 0.030) / size), round((0.030 - self.BORDER) / size)
+        half = lambda a, b, n: np.linspace(a, b, 2 * n + 1)
+        x = np.concatenate([half(-0.030, self.BORDER, soft), half(self.BORDER, 0.030, stiff)[1:]])
+        grid = np.meshgrid(x, half(0, 0.020, round(0.020 / size)), half(-0.015, 0.015, round(0.030 / size)), indexing="ij")
+        self.nodes = np.stack(grid, -1).reshape(-1, 3)
+        self.at = np.arange(len(self.nodes)).reshape(grid[0].shape)
+        counts = [(n - 1) // 2 for n in self.at.shape]
+        self.elements = {20: Mesh.stack(self, HEXAHEDRON, range(counts[0]), counts), 15: np.zeros((0, 15), int)}
+        self.used = np.unique(self.elements[20])
+        self.held = np.intersect1d(self.at[-1], self.used)
+        self.mirrored = np.intersect1d(self.at[:, 0], self.used)
+        self.soft = np.where(self.nodes[self.elements[20]].mean(1)[:, 0] < self.BORDER)[0]
+
+
+def write_ids(out, ids):
+    """Writes numbers of nodes or elements, counted from 1, in lines of a set."""
+    for i in range(0, len(ids), 12):
+        out.write(", ".join(str(k + 1) for k in ids[i:i + 12]) + ",\n")
+
+
+def write_deck(path, mesh, kind_of_20, ratio, load, mirror):
+    """Writes CalculiX's input: weight alone, linear."""
+    soft = set(getattr(mesh, "soft", ()))
+    with open(path, "w") as out:
+        out.write("*NODE, NSET=ALL\n")
+        out.writelines("%d, %.12g, %.12g, %.12g\n" % (i + 1, *mesh.nodes[i]) for i in mesh.used)
+        number = 0
+        for count, kind in ((20, kind_of_20), (15, "C3D15")):
+            if len(mesh.elements[count]) > 0:
+                out.write("*ELEMENT, TYPE=%s, ELSET=N%d\n" % (kind, count))
+            for element in mesh.elements[count]:
+                number += 1
+                ids = [str(k + 1) for k in element]
+                out.write("%d, %s,\n%s\n" % (number, ", ".join(ids[:10]), ", ".join(ids[10:])))
+        parts = [(sorted(soft), YOUNG_PA / 10), (sorted(set(range(number)) - soft), YOUNG_PA)]
+        out.write("*ELSET, ELSET=ALL\n")
+        write_ids(out, list(range(number)))
+        for k, (ids, young) in enumerate(parts):
+            if not ids:
+                continue
+            out.write("*ELSET, ELSET=P%d\n" % k)
+            write_ids(out, ids)
+            out.write("*MATERIAL, NAME=M%d\n*ELASTIC\n%.9g, %.9g\n*DENSITY\n%.9g\n" % (k, young, ratio, DENSITY))
+            out.write("*SOLID SECTION, ELSET=P%d, MATERIAL=M%d\n" % (k, k))
+        out.write("*NSET, NSET=HELD\n")
+        write_ids(out, mesh.held)
+        out.write("*BOUNDARY\nHELD, 1, 3\n")
+        free = np.setdiff1d(mesh.mirrored, mesh.held)
+        if len(free):
+            out.write("*NSET, NSET=MIRROR\n")
+            write_ids(out, free)
+            out.write("*BOUNDARY\nMIRROR, %d, %d\n" % (mirror + 1, mirror + 1))
+        out.write("*STEP\n*STATIC\n*DLOAD\nALL, GRAV, %g, %g, %g, %g\n" % (GRAVITY, *load))
+        out.write("*EL PRINT, ELSET=ALL, TOTALS=ONLY\nELSE, EVOL\n*NODE PRINT, NSET=ALL\nU\n*END STEP\n")
+
+
+def run(folder, name, mesh, kind, ratio, load, mirror):
+    """Returns the mean displacement along the load, the largest displacement [m] and the volume [m3]."""
+    path = os.path.join(folder, name)
+    write_deck(path + ".inp", mesh, kind, ratio, load, mirror)
+    done = subprocess.run(["ccx", "-i", name], cwd=folder, capture_output=True, text=True, check=False)
+    if "Job finished" not in done.stdout:
+        raise RuntimeError(done.stdout[-2000:])
+    with open(path + ".dat") as lines:
+        text = lines.read()
+    energy = float(re.search(r"total internal energy[^\n]*\n\s*\n?\s*([-+0-9.E]+)", text).group(1))
+    volume = float(re.search(r"total volume[^\n]*\n\s*\n?\s*([-+0-9.E]+)", text).group(1))
+    moved = re.search(r"displacements[^\n]*\n\s*\n(.*?)(\n\s*\n|\Z)", text, re.S).group(1)
+    u = np.array([[float(x) for x in line.split()[1:4]] for line in moved.splitlines()])
+    for end in (".inp", ".dat", ".frd", ".sta", ".cvg", ".12d"):
+        if os.path.exists(path + end):
+            os.remove(path + end)
+    return 2 * energy / (DENSITY * GRAVITY * volume), np.linalg.norm(u, axis=1).max(), volume
+
+
+def main():
+    """Prints a line for every organ, Poisson's ratio and level."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--work", required=True, help="folder of CalculiX's files")
+    parser.add_argument("--levels", type=int, nargs="+", default=[2, 3], help="half of the elements across the wall")
+    parser.add_argument("names", nargs="*", default=[*ORGANS, "two"])
+    asked = parser.parse_args()
+    os.makedirs(asked.work, exist_ok=True)
+    for name in asked.names or [*ORGANS, "two"]:
+        for level in asked.levels:
+            organ = ORGANS.get(name)
+            mesh = Mesh(organ, level) if organ else Block(level)
+            load, mirror = (organ.load, organ.mirror) if organ else ((0, 0, -1), 1)
+            for ratio in RATIOS:
+                found = [run(asked.work, "%s_%d" % (name, level), mesh, kind, ratio, load, mirror) for kind in KINDS]
+                (least, largest, volume), (most, _, _) = found
+                print("%-10s nu %.2f level %d nodes %6d mean %.5f mm, +- %.2f %%, largest %.4f mm, meshed %.4f cm3" %
+                      (name, ratio, level, len(mesh.used), 5e2 * (least + most), 50 * (most / least - 1), 1e3 * largest,
+                       1e6 * volume), flush=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,152 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Thin-walled organs and a block of two materials that hang under their weight, beside an independent finite element
+// program.
+#include "bench/suites/walls/walls_suite.h"
+
+#include <cmath>
+
+#include "bench/suites/walls/walls_references.h"
+#include "bench/suites/walls/walls_shapes.h"
+#include "math/number_text.h"
+#include "solver/cpu/equilibrium.h"
+#include "solver/reference/reference_lattice.h"
+#include "viscera/math/error.h"
+#include "viscera/model/scene/scene.h"
+
+namespace viscera::bench {
+
+namespace {
+
+/// Mean displacement along gravity, which is chosen for it [m]: strains of some 1e-4, so that nothing is nonlinear, and
+/// three thousandths of a spacing, so that float32 resolves it.
+constexpr double kWallsMean_m = 1e-5;
+constexpr double kWallsRatios[] = {0.3, 0.45, 0.49};
+constexpr double kWallsPercent = 100, kWallsMm = 1e3;
+
+/// What is measured of every organ, and what is held to.
+struct WallsSpacing {
+  double spacing_m;
+  bool is_short;  ///< measured in the short form too
+};
+constexpr WallsSpacing kWallsSpacings[] = {
+    {0.00567, true}, {0.004, true}, {0.003, false}, {0.002, false}, {0.0015, false}};
+/// Errors that are reached today, at all of kWallsRatios; a wall that is not named is shown only.
+struct WallsLimit {
+  const char* organ;
+  double spacing_m;  ///< and finer ones
+  double most;       ///< of |error|
+};
+constexpr WallsLimit kWallsLimits[] = {{"tube", 0.004, 0.06}, {"two", 0.004, 0.03}};
+
+Scene hangingScene(const Organ& organ, const OrganFile& file, double nu, double spacing_m) {
+  BodyConfig body;
+  body.name = organ.name;
+  body.source = TissueSource::kMesh;
+  body.mesh_file = file.path();
+  body.textures = false;
+  body.spacing_m = spacing_m;
+  body.material.young_modulus_pa = kWallsYoung_pa;
+  body.material.poisson_ratio = nu;
+  body.material.density_kg_per_m3 = kWallsDensity_kg_per_m3;
+  body.material.law = Law::kNeoHookean;
+  body.fixed = {organ.clamp};
+  if (!organ.place) {
+    PartConfig part{"soft"};
+    part.poisson_ratio = nu;
+    part.density_kg_per_m3 = kWallsDensity_kg_per_m3;
+    part.young_modulus_pa = kWallsSoft_pa;
+    body.parts.push_back(part);
+    part.part = "stiff";
+    part.young_modulus_pa = kWallsYoung_pa;
+    body.parts.push_back(part);
+  }
+  Scene scene;
+  scene.bodies = {body};
+  const double load = kWallsGravity * kWallsMean_m / wallsReference(organ.name, nu).mean_m;
+  scene.environment.gravity_m_per_s2 = load * organ.load;
+  return scene;
+}
+
+/// One organ hanging in equilibrium.
+struct Hanging {
+  size_t nodes = 0;
+  SettleReport settle;
+  double error = std::nan("");  ///< of the mean displacement along gravity, as a share; not finite: no equilibrium
+};
+
+Hanging hang(const Organ& organ, const OrganFile& file, double nu, double spacing_m) {
+  const Scene scene = hangingScene(organ, file, nu, spacing_m);
+  const Model model = buildModel(scene);
+  Hanging out;
+  out.nodes = model.activeNodes();
+  try {
+    const HostState state = equilibriumOf(model, scene, out.settle);
+    const ReferenceLattice lattice(model);
+    double moved = 0, mass_kg = 0;
+    for (const uint32_t slot : lattice.active) {
+      const layout::vec4& u = state.displacement_m[slot];
+      moved += lattice.mass(slot) * Vector3d(u.x, u.y, u.z).dot(organ.load);
+      mass_kg += lattice.mass(slot);
+    }
+    out.error = moved / mass_kg / kWallsMean_m - 1;
+  } catch (const Error&) {
+  }
+  return out;
+}
+
+void checkOrgan(Report& report, const Organ& organ, double nu, double spacing_m, double error) {
+  for (const WallsLimit& limit : kWallsLimits) {
+    if (organ.name != std::string(limit.organ) || spacing_m > limit.spacing_m) continue;
+    report.checkAtMost(std::string(organ.name) + ", nu " + numberText(nu, 2) + ", " +
+                           numberText(kWallsMm * spacing_m, 3) + " mm: displacement over CalculiX's, less 1",
+                       std::abs(error), limit.most);
+  }
+}
+
+void measureOrgan(Report& report, const Organ& organ) {
+  Table table(organ.what, {{"nu"},
+                           {"spacing", "mm"},
+                           {"cells a wall", "", 3},
+                           {"nodes"},
+                           {"CalculiX", "mm/g"},
+                           {"unsure", "%", 1},
+                           {"error", "%", 3},
+                           {"settled in", "s", 2},
+                           {"substeps"}});
+  const OrganFile file(organ);
+  for (const double nu : kWallsRatios) {
+    const WallsReference& truth = wallsReference(organ.name, nu);
+    for (const WallsSpacing& spacing : kWallsSpacings) {
+      if (report.isShort() && !spacing.is_short) continue;
+      report.stage(std::string(organ.name) + ", nu " + numberText(nu, 2) + ", " +
+                   numberText(kWallsMm * spacing.spacing_m, 3) + " mm");
+      const Hanging found = hang(organ, file, nu, spacing.spacing_m);
+      table.add({nu, kWallsMm * spacing.spacing_m, organ.wall_m / spacing.spacing_m, static_cast<double>(found.nodes),
+                 kWallsMm * truth.mean_m, kWallsPercent * (truth.unsure + truth.refined),
+                 std::isfinite(found.error) ? Cell(kWallsPercent * found.error) : Cell("no equilibrium"),
+                 found.settle.seconds, found.settle.substeps});
+      checkOrgan(report, organ, nu, spacing.spacing_m, found.error);
+    }
+  }
+  report.add(table, organ.name);
+}
+
+template <size_t kOrgan>
+void measure(Report& report) {
+  measureOrgan(report, organs().at(kOrgan));
+}
+
+template <size_t... kOrgans>
+std::vector<Part> partsOf(std::index_sequence<kOrgans...> /*organs*/) {
+  return {{organs()[kOrgans].name, measure<kOrgans>}...};
+}
+
+}  // namespace
+
+void wallsSuite(Report& report) {
+  measureParts(report, partsOf(std::make_index_sequence<kOrgans>()));
+}
+
+}  // namespace viscera::bench
