@@ -155,7 +155,7 @@ class Block:
     BORDER = 0.0043
 
     def __init__(self, level):
-        size = 2 * ELEMENT_M / level
+        size = ELEMENT_M / level
         soft, stiff = round((self.BORDER + 0.030) / size), round((0.030 - self.BORDER) / size)
         half = lambda a, b, n: np.linspace(a, b, 2 * n + 1)
         x = np.concatenate([half(-0.030, self.BORDER, soft), half(self.BORDER, 0.030, stiff)[1:]])
