@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace viscera::bench {
 
@@ -10,11 +11,16 @@ namespace viscera::bench {
 struct WallsReference {
   const char* organ;
   double nu;
-  double mean_m;   ///< displacement along gravity, mean of the mass, small strain, E 20 kPa, 1060 kg/m3, 9.81 m/s2
-  double unsure;   ///< half of what full and reduced integration are apart, as a share
-  double refined;  ///< change from the coarser mesh, as a share
+  double mean_m;   ///< displacement along gravity, mean of the mass, small strain, E 20 kPa, 1060 kg/m3, 9.81 m/s2;
+                   ///< extrapolated, see bench/references/walls.py
+  double full;     ///< share by which that is above what the finest mesh of C3D20 gives
+  double reduced;  ///< the same of C3D20R
+  int nodes;       ///< of that mesh, of half the organ
 };
 constexpr double kWallsYoung_pa = 20e3, kWallsSoft_pa = 2e3, kWallsDensity_kg_per_m3 = 1060, kWallsGravity = 9.81;
+
+/// Returns all of them.
+const std::vector<WallsReference>& wallsReferences();
 
 /// Returns the reference of an organ. @throws std::invalid_argument  there is none
 const WallsReference& wallsReference(const std::string& organ, double nu);

@@ -173,7 +173,7 @@ const std::vector<Organ>& organs() {
        clampBehind(Vector3d::Zero(), Vector3d::UnitY()), torus, -1, -M_PI, M_PI, false},
       {"stomach", "Stomach, wall 4 mm, ellipsoid of 28 x 28 x 60 mm bent by a radius of 60 mm, held at its upper end",
        0.004, left, clampFrom(2, 0), stomach},
-      {"two",
+      {"block",
        "Block of 60 x 40 x 30 mm, 2 kPa up to x = 4.3 mm and 20 kPa beyond, held at x = 30 mm",
        0.03,
        down,
