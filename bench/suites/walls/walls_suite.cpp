@@ -44,11 +44,8 @@ struct WallsLimit {
   double spacing_m;  ///< this one and finer ones
   double most;       ///< of |error|
 };
-constexpr WallsLimit kWallsLimits[] = {{"tube", 0.004, 0.065},
-                                       {"tube", 0.003, 0.05},
-                                       {"torus", 0.004, 0.065},
-                                       {"torus", 0.002, 0.03},
-                                       {"block", 0.00567, 0.03}};
+constexpr WallsLimit kWallsLimits[] = {{"tube", 0.004, 0.065}, {"tube", 0.003, 0.05},    {"torus", 0.004, 0.07},
+                                       {"torus", 0.002, 0.03}, {"block", 0.00567, 0.05}, {"block", 0.003, 0.03}};
 
 Scene hangingScene(const Organ& organ, const OrganFile& file, double nu, double spacing_m) {
   BodyConfig body;
