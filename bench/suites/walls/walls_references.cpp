@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What bench/references/walls.py prints (CalculiX 2.20): bowl, bladder and block with --levels 2 3, the others as by
-// default.
+// What bench/references/walls.py prints (CalculiX 2.20): with --levels 2 3 of bowl, block and, but for nu 0.49,
+// bladder; else as by default.
 #include "bench/suites/walls/walls_references.h"
 
 #include <cmath>
@@ -15,7 +15,7 @@ namespace {
 const std::vector<WallsReference> kReferences = {
     {"bowl", 0.3, 30.03e-3, 0.001, 0.0006, 38909},      {"bowl", 0.45, 30.75e-3, 0.005, 0.003, 38909},
     {"bowl", 0.49, 30.76e-3, 0.01, 0.005, 38909},       {"bladder", 0.3, 5.97e-3, 0.003, 0.001, 59133},
-    {"bladder", 0.45, 6.299e-3, 0.02, 0.007, 18855},    {"bladder", 0.49, 6.382e-3, 0.04, 0.02, 18855},
+    {"bladder", 0.45, 6.309e-3, 0.008, 0.004, 59133},   {"bladder", 0.49, 6.382e-3, 0.04, 0.02, 18855},
     {"tube", 0.3, 15.23e-3, 0.0007, 8e-05, 8543},       {"tube", 0.45, 14.65e-3, 0.001, 0.0002, 8543},
     {"tube", 0.49, 14.45e-3, 0.002, 0.0002, 8543},      {"ellipsoid", 0.3, 12.92e-3, 0.001, 0.0008, 13539},
     {"ellipsoid", 0.45, 13.49e-3, 0.004, 0.003, 13539}, {"ellipsoid", 0.49, 13.61e-3, 0.009, 0.006, 13539},
