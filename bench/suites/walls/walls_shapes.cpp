@@ -18,7 +18,7 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kOrganEdge_m = 0.0015;    ///< of triangles: a chord lies 7 um within a sphere of 40 mm
+constexpr double kOrganEdge_m = 0.0015;    ///< of triangles: half of it changes displacements by 0.2 % at most
 constexpr double kOrganBorder_m = 0.0043;  ///< x of the border of the block's two materials, amid cells
 constexpr double kStomachCut = 0.045;      ///< where the straight stomach is cut off and held [m]
 constexpr double kStomachBend = 0.06;      ///< radius [m]

@@ -31,7 +31,7 @@ constexpr size_t kOrgans = 7;
 /// An OBJ file that is there as long as this is.
 class OrganFile {
  public:
-  /// Writes the organ's closed surface in triangles with edges of about 1 mm; parts `soft` and `stiff` of the block.
+  /// Writes the organ's closed surface in triangles with edges of about 1.5 mm; parts `soft` and `stiff` of the block.
   /// @throws Error  it cannot be written
   explicit OrganFile(const Organ& organ);
   ~OrganFile();
