@@ -55,7 +55,7 @@ bodies:
     position_m: [0.051, 0.052, 0.053]
     rotation_deg: [61, 62, 63]
     color: [0.071, 0.072, 0.073]
-    material: {tissue: liver, young_modulus_pa: 8100, poisson_ratio: 0.25, density_kg_per_m3: 820, drag_per_s: 8.3, dashpot_ratio: 0.084, weights: cell, law: springs, stiffening: 0, cut: {toughness_j_per_m2: 187},
+    material: {tissue: liver, young_modulus_pa: 8100, poisson_ratio: 0.25, density_kg_per_m3: 820, drag_per_s: 8.3, dashpot_ratio: 0.084, weights: cell, law: springs, walls: cells, stiffening: 0, cut: {toughness_j_per_m2: 187},
                bleeding: {flow_ml_per_min: 191, calibre_m: 0.0192}}
     parts: [{part: valve, tissue: spleen, young_modulus_pa: 8101, poisson_ratio: 0.25, density_kg_per_m3: 821, cut: {toughness_j_per_m2: 188},
              bleeding: {flow_ml_per_min: 193, calibre_m: 0.0194}}]

@@ -15,13 +15,30 @@ namespace {
 constexpr double kStartSpacing_m = 0.004;
 constexpr int kSubstepsAtRest = 15;  ///< of a tick, as in a session with 4 mm and 100 Hz
 
-enum class Shape { kCell, kBlock, kBall };
+enum class Shape { kCell, kBlock, kBall, kThinPlate, kPlate, kBowl };
+
+/// Walls of 0.5, 1 and 0.8 cells that are askew to the lattice.
+Body wallBody(Shape shape) {
+  if (shape == Shape::kBowl)
+    return momentBody({11, 10, 6}, kStartSpacing_m, [](const Vector3d& p) {
+      const double r = (p - Vector3d(5.4, 5.1, 5.7)).norm();
+      return r < 4.9 && r > 4.1 && p.z() < 5.7;
+    });
+  const double cells = shape == Shape::kThinPlate ? 0.5 : 1;
+  const Vector3d normal = Vector3d(0.35, 0.5, 0.8).normalized();
+  return momentBody({8, 6, 8}, kStartSpacing_m,
+                    [&](const Vector3d& p) { return std::abs((p - Vector3d(4, 3, 4)).dot(normal)) < 0.5 * cells; });
+}
 
 Body startBody(Shape shape, double nu) {
   Body body = shape == Shape::kBall
                   ? momentBody({5, 5, 5}, kStartSpacing_m,
                                [](const Vector3d& p) { return (p - Vector3d(2.6, 2.3, 2.4)).norm() < 1.9; })
                   : boxBody(Vector3i::Constant(shape == Shape::kCell ? 1 : 3), kStartSpacing_m);
+  if (shape == Shape::kThinPlate || shape == Shape::kPlate || shape == Shape::kBowl) {
+    body = wallBody(shape);
+    body.material.walls = Walls::kRows;
+  }
   body = ofLaw(body, nu);
   body.material.dashpot_ratio = 0.2;
   body.material.drag_per_s = 4;
@@ -119,6 +136,25 @@ TEST_P(LawStarts, RandomOnesOfTwoMaterialsComeToRest) {
         const bool may_trip = shape == Shape::kBall;
         EXPECT_TRUE(may_trip || ended.trips == 0) << ended.trips;
         expectAtRest(ended);
+      }
+    }
+  }
+}
+
+/// Of thin walls with rows of nodes.
+TEST_P(LawStarts, RandomOnesOfThinWallsComeToRest) {
+  for (const Shape shape : {Shape::kThinPlate, Shape::kPlate, Shape::kBowl}) {
+    for (const double nu : {0.3, 0.45}) {
+      for (const double size : {0.1, 0.3}) {
+        for (uint32_t seed = 0; seed < (seeds() + 2) / 3; ++seed) {
+          SCOPED_TRACE(::testing::Message() << static_cast<int>(shape) << " nu " << nu << " seed " << seed);
+          const Ended ended = run(startBody(shape, nu), 1.0, [&](const Lattice& lattice, HostState& state) {
+            std::mt19937 random(seed);
+            for (const uint32_t slot : lattice.active_slots)
+              state.displacement_m[slot] = vec4(randomVector(random, size * kStartSpacing_m));
+          });
+          expectAtRest(ended);
+        }
       }
     }
   }

@@ -23,12 +23,18 @@ constexpr double kWallFloat32Energy = 2e-5;
 constexpr double kWallSpacing_m = 0.01;
 constexpr double kWallThickness = 0.75;  // cells
 
+Body byRows(Body body) {
+  body.material.walls = Walls::kRows;
+  return body;
+}
+
 /// A plate that is askew to all axes.
 Body askewPlate(double nu = 0.3, const Vector3i& cells = {9, 8, 7}, double spacing_m = kWallSpacing_m) {
   const Vector3d normal = Vector3d(0.5, 0.3, 1).normalized(), middle = 0.5 * cells.cast<double>();
-  return ofLaw(momentBody(cells, spacing_m,
-                          [&](const Vector3d& p) { return std::abs((p - middle).dot(normal)) < 0.5 * kWallThickness; }),
-               nu);
+  return byRows(
+      ofLaw(momentBody(cells, spacing_m,
+                       [&](const Vector3d& p) { return std::abs((p - middle).dot(normal)) < 0.5 * kWallThickness; }),
+            nu));
 }
 
 /// A bowl, open above.
@@ -37,7 +43,7 @@ Body thinBowl(double nu = 0.3) {
     const Vector3d from_middle = p - Vector3d(5.1, 4.9, 5.2);
     return std::abs(from_middle.norm() - 4) < 0.5 * kWallThickness && from_middle.z() < 1;
   };
-  return ofLaw(momentBody({10, 10, 8}, kWallSpacing_m, inside), nu);
+  return byRows(ofLaw(momentBody({10, 10, 8}, kWallSpacing_m, inside), nu));
 }
 
 /// Each cell is of two materials, one to either side of a plane through its centroid.

@@ -114,8 +114,8 @@ double thicknessAt(const CellGrid& grid, const Vector3d& place, const Vector3d& 
 std::vector<WallCell> wallCells(const Body& body) {
   std::vector<WallCell> out;
   const Lattice& lattice = body.lattice;
-  if (body.material.law != Law::kNeoHookean || !body.hasCells() || body.network || lattice.fills.empty() ||
-      !body.prestress.empty())
+  if (body.material.law != Law::kNeoHookean || body.material.walls != Walls::kRows || !body.hasCells() ||
+      body.network || lattice.fills.empty() || !body.prestress.empty())
     return out;
   const CellGrid grid(lattice);
   for (const uint32_t slot : lattice.active_slots) {

@@ -100,6 +100,8 @@ constexpr Rule kRules[] = {
      in(Integrator::kLeapfrog)},
     {"material.stiffening above 0", [](const BodyConfig& b) { return b.material.stiffening > 0; }, nullptr,
      in(Structure::kLattice), in(Integrator::kLeapfrog), kAll, true, "springs do not stiffen"},
+    {"material.walls: rows", [](const BodyConfig& b) { return b.material.walls == Walls::kRows; }, nullptr,
+     in(Structure::kLattice), in(Integrator::kLeapfrog), kAll, true, "springs have no second derivatives"},
     {"material.law: neo_hookean", [](const BodyConfig& b) { return b.material.law == Law::kNeoHookean; }, nullptr,
      in(Structure::kLattice), in(Integrator::kLeapfrog)},
 };

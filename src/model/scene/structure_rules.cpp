@@ -23,9 +23,11 @@ std::string lawFault(const BodyConfig& body) {
     if (isPrestressed(body) && body.structure == Structure::kLattice)
       return "material.prestress of structure lattice needs material.law: neo_hookean";
     if (material.stiffening > 0) return "material.stiffening needs material.law: neo_hookean";
+    if (material.walls == Walls::kRows) return "material.walls: rows needs material.law: neo_hookean";
     return hasOwnPoisson(body) ? "poisson_ratio other than 0.25 needs material.law: neo_hookean: springs have 1/4" : "";
   }
   if (material.weights != Weights::kCell) return "material.weights: paper does not go with material.law: neo_hookean";
+  if (material.walls == Walls::kRows && isPrestressed(body)) return "material.walls: rows does not go with prestress";
   return "";
 }
 

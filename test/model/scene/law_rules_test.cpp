@@ -68,6 +68,12 @@ TEST(LawRules, WhatItDoesNotGoWithIsNamed) {
   EXPECT_TRUE(names(faultOf("law: neo_hookean", ", structure: explicit"), "structure lattice"));
   EXPECT_TRUE(names(faultOf("law: springs, stiffening: 2"), "material.stiffening needs material.law: neo_hookean"));
   EXPECT_NE(faultOf(withPd(boxScene("stiffening: 2"))), "") << "pd has springs";
+  EXPECT_TRUE(names(faultOf("law: springs, walls: rows"), "material.walls: rows needs material.law: neo_hookean"));
+  EXPECT_TRUE(names(faultOf("walls: rows", ", structure: explicit"), "structure lattice"));
+  EXPECT_TRUE(
+      names(faultOf("walls: rows, prestress: {strain: 0.1}"), "material.walls: rows does not go with prestress"));
+  EXPECT_NE(faultOf(withPd(boxScene("walls: rows"))), "") << "pd has springs";
+  EXPECT_EQ(faultOf("walls: rows"), "");
   EXPECT_TRUE(names(faultOf(withPd(boxScene("law: neo_hookean"))),
                     "material.law: neo_hookean needs solver.integrator leapfrog, not pd"));
 }

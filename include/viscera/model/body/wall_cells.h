@@ -23,8 +23,8 @@ struct WallCell {
 /// moderately thick walls become too stiff; with half of it pulled walls of half a cell are within 6 %.
 constexpr double kRowVariation = 0.5;
 
-/// Returns the cells of a body that lie in thin walls, ascending by cell: of lattices of the neo-Hookean law with cells
-/// that are tissue in part, without a prestress; none of other bodies.
+/// Returns the cells of a body that lie in thin walls, ascending by cell: of lattices of the neo-Hookean law with
+/// `walls: rows` and cells that are tissue in part, without a prestress; none of other bodies.
 std::vector<WallCell> wallCells(const Body& body);
 
 }  // namespace viscera

@@ -25,6 +25,12 @@ enum class Law {
   kNeoHookean  ///< a hyperelastic energy per cell, of its deformation gradient; cells are tissue in part
 };
 
+/// Where cells in thin walls have their second derivatives along the lattice's axes from (physics.md 1, Thin walls).
+enum class Walls {
+  kCells,  ///< from what their own corners show
+  kRows    ///< from rows of nodes
+};
+
 /// How spring and mass weights are assembled (physics.md 1).
 enum class Weights {
   kCell,  ///< each solid cell adds k/4 to its edges, k/2 to its face diagonals, m/8 to its nodes

@@ -41,6 +41,7 @@ struct MaterialConfig {
   double dashpot_ratio = 0.2;
   Weights weights = Weights::kCell;
   Law law = Law::kAuto;
+  Walls walls = Walls::kCells;
   double stiffening = 0;            ///< b of mu/(2 b) (exp(b (I1 - 3)) - 1), the neo-Hookean law's shear energy
   bool stiffens_as_tissue = false;  ///< `stiffening: auto`: it is that of the tissue
   std::string tissue;  ///< preset (docs/tissues.md) of those of the first three that the scene does not give
