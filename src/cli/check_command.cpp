@@ -20,8 +20,9 @@ void checkScene(const RunOptions& options) {
     std::cout << body.name << ": " << body.lattice.active_slots.size() << " nodes";
     if (body.hasCells()) std::cout << ", spacing " << body.lattice.spacing_m * 1e3 << " mm";
     std::cout << '\n';
-    const std::optional<WallThickness> walls = wallThickness(body);
-    if (walls) std::cout << "  " << wallThicknessText(*walls, body.lattice.spacing_m) << '\n';
+    const std::optional<WallThickness> thickness = wallThickness(body);
+    if (thickness)
+      std::cout << "  " << wallThicknessText(*thickness, body.lattice.spacing_m, body.material.walls) << '\n';
   }
 }
 

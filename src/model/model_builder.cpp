@@ -86,8 +86,9 @@ Body buildLatticeBody(const BodyConfig& config, const Scene& scene, const Tissue
   body.skin.can_be_cut = can_be_cut;
   body.notes.push_back(skinNote(body.skin));
   const std::optional<WallThickness> thickness = wallThickness(body);
-  if (thickness && expectedWallError(thickness->tenth_m / solid.spacing_m).most > kNotedWallError)
-    body.notes.push_back(wallThicknessText(*thickness, solid.spacing_m));
+  const Walls bent_by = body.material.walls;
+  if (thickness && expectedWallError(thickness->tenth_m / solid.spacing_m, bent_by).most > kNotedWallError)
+    body.notes.push_back(wallThicknessText(*thickness, solid.spacing_m, bent_by));
   if (config.structure != Structure::kExplicit) {
     addCellPrestress(body);
     return body;

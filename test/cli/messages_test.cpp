@@ -46,7 +46,12 @@ TEST_F(Messages, CheckSaysHowManyCellsTheWallsOfASceneHave) {
   EXPECT_EQ(heart.status, 0) << heart.err;
   expectSays(heart.out, "spacing 6 mm");
   expectSays(heart.out, "walls: least ");
-  expectSays(heart.out, " % (an open bowl) too stiff; with spacing_m 0.00");
+  expectSays(heart.out, " % (an open bowl) too stiff, with material.walls: rows ");
+  expectSays(heart.out, "; with spacing_m 0.00");
+  const Ending rows =
+      viscera({"check", "heart", "--set", "bodies[0].spacing_m=0.006", "--set", "bodies[0].material.walls=rows"});
+  EXPECT_EQ(rows.status, 0) << rows.err;
+  expectSays(rows.out, " % (an open bowl) too stiff; with spacing_m 0.00");
   const Ending block = viscera({"check", scene_});
   EXPECT_EQ(block.status, 0) << block.err;
   expectSays(block.out, "walls: least ");

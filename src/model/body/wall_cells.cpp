@@ -13,9 +13,9 @@ namespace {
 // Walls along the lattice bend right by the cell's own second derivatives alone, and rows would add their errors in
 // shear: bending across two axes at one cell is -6 % so, and -13 % by rows.
 constexpr double kAlongLattice_deg = 3, kAskew_deg = 10;
-/// Thickness in cells from which rows fade, and where they end: they cost three times as much as a cell's own second
-/// derivatives, which bend walls of two cells to 6 %.
-constexpr double kThin = 1.5, kThick = 2.25;
+/// Thickness in cells from which rows fade, and where they end: a cell's own second derivatives bend walls of three
+/// cells to 2 %.
+constexpr double kThin = 2, kThick = 3;
 /// Step along the normal in which a wall's thickness is measured, in cells.
 constexpr double kStep = 0.25;
 /// Share of tissue below which a place is outside of the wall.

@@ -23,14 +23,21 @@ constexpr double kLeastShare = 0.1;
 struct WallError {
   double cells, bowl, tube;
 };
-/// Measured beside CalculiX, nu 0.3 (nu 0.45 differs by 2 points at most): docs/material.md. Beyond its measured end at
-/// one cell the tube's error falls as the square of the spacing.
-constexpr std::array<WallError, 6> kWallErrors = {{{0.53, 0.355, 0.083},
-                                                   {0.75, 0.276, 0.047},
-                                                   {1, 0.186, 0.030},
-                                                   {1.5, 0.104, 0.013},
-                                                   {2, 0.059, 0.0075},
-                                                   {3, 0.022, 0.0033}}};
+using WallErrors = std::array<WallError, 6>;
+/// Measured beside CalculiX, nu 0.3 (`viscera bench walls`; docs/material.md). From one cell on the tube's error is
+/// taken to fall as the square of the spacing, and that of three cells by rows to be half of that of two.
+constexpr WallErrors kCellErrors = {{{0.53, 0.315, 0.095},
+                                     {0.75, 0.254, 0.056},
+                                     {1, 0.174, 0.036},
+                                     {1.5, 0.104, 0.016},
+                                     {2, 0.063, 0.009},
+                                     {3, 0.022, 0.004}}};
+constexpr WallErrors kRowErrors = {{{0.53, 0.127, 0.048},
+                                    {0.75, 0.109, 0.024},
+                                    {1, 0.066, 0.007},
+                                    {1.5, 0.036, 0.003},
+                                    {2, 0.021, 0.002},
+                                    {3, 0.01, 0.001}}};
 
 struct Ray {
   Vector3f from_m, inward;
@@ -80,48 +87,51 @@ std::optional<WallThickness> wallThickness(const Body& body) {
   return WallThickness{quantile(found_m, 0.01), quantile(found_m, 0.1), quantile(found_m, 0.5)};
 }
 
-WallErrorRange expectedWallError(double cells) {
-  const WallError& last = kWallErrors.back();
+WallErrorRange expectedWallError(double cells, Walls walls) {
+  const WallErrors& errors = walls == Walls::kRows ? kRowErrors : kCellErrors;
+  const WallError& last = errors.back();
   if (cells >= last.cells) {
     const double finer = std::pow(last.cells / cells, 2);
     return {last.tube * finer, last.bowl * finer};
   }
   size_t i = 1;
-  while (kWallErrors[i].cells < cells) ++i;
-  const WallError &a = kWallErrors[i - 1], &b = kWallErrors[i];
+  while (errors[i].cells < cells) ++i;
+  const WallError &a = errors[i - 1], &b = errors[i];
   const auto between = [&](double of_a, double of_b) {
     return std::clamp(of_a + (cells - a.cells) / (b.cells - a.cells) * (of_b - of_a), 0.0, 1.0);
   };
   return {between(a.tube, b.tube), between(a.bowl, b.bowl)};
 }
 
-double cellsForWallError(double error) {
+double cellsForWallError(double error, Walls walls) {
   double low = 0, high = 1e3;
   while (high - low > 1e-6 * high) {
     const double middle = 0.5 * (low + high);
-    (expectedWallError(middle).most > error ? low : high) = middle;
+    (expectedWallError(middle, walls).most > error ? low : high) = middle;
   }
   return high;
 }
 
-std::string wallThicknessText(const WallThickness& walls, double spacing_m) {
+std::string wallThicknessText(const WallThickness& thickness, double spacing_m, Walls walls) {
   TextOut out;
   out.precision(3);
   const auto add = [&](const char* which, double thickness_m) {
     out << which << thickness_m * 1e3 << " mm (" << thickness_m / spacing_m << " cells)";
   };
-  add("walls: least ", walls.least_m);
-  add(", 10 % below ", walls.tenth_m);
-  add(", median ", walls.median_m);
-  const WallErrorRange error = expectedWallError(walls.tenth_m / spacing_m);
+  add("walls: least ", thickness.least_m);
+  add(", 10 % below ", thickness.tenth_m);
+  add(", median ", thickness.median_m);
+  const double cells = thickness.tenth_m / spacing_m;
+  const WallErrorRange error = expectedWallError(cells, walls);
   out.precision(2);
-  out << "; bending of walls of " << walls.tenth_m / spacing_m << " cells is " << 100 * error.least << " % (a tube) to "
-      << 100 * error.most << " % (an open bowl) too stiff";
-  if (error.most > kNotedWallError) {
-    out.precision(3);
-    out << "; with spacing_m " << walls.tenth_m / cellsForWallError(kNotedWallError) << " at most "
-        << 100 * kNotedWallError << " %";
-  }
+  out << "; bending of walls of " << cells << " cells is " << 100 * error.least << " % (a tube) to " << 100 * error.most
+      << " % (an open bowl) too stiff";
+  if (error.most <= kNotedWallError) return out.str();
+  if (walls == Walls::kCells)
+    out << ", with material.walls: rows " << 100 * expectedWallError(cells, Walls::kRows).most;
+  out.precision(3);
+  out << "; with spacing_m " << thickness.tenth_m / cellsForWallError(kNotedWallError, walls) << " at most "
+      << 100 * kNotedWallError << " %";
   return out.str();
 }
 

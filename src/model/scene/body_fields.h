@@ -88,9 +88,9 @@ void visitFields(V& v, MaterialConfig& c) {
       "part (structure lattice, solver.integrator leapfrog), or springs as in the papers, cells full or empty; auto is "
       "neo_hookean in structure lattice where leapfrog steps and weights is cell, else springs");
   v.choice("walls", c.walls, {{"cells", Walls::kCells}, {"rows", Walls::kRows}},
-           "law neo_hookean: how walls below 2.25 cells that are askew to the lattice bend: by what their cells' own "
-           "corners show, too stiff by 30 % at half a cell and 6 % at two; or by rows of nodes, within 12 and 3 %, at "
-           "three to five times the time for such cells (docs/physics.md#thin-walls)");
+           "law neo_hookean: how walls below three cells that are askew to the lattice bend: by what their cells' own "
+           "corners show, or by rows of nodes, with a third to a half of the error, at two to five times the time for "
+           "such cells (docs/physics.md#thin-walls, docs/material.md#beside-finite-elements)");
   v.numberOrAuto(
       "stiffening", c.stiffening, c.stiffens_as_tissue, {0, 100}, "1",
       "law neo_hookean: b of its shear energy mu/(2 b) (exp(b (I1 - 3)) - 1), so that tissue stiffens as it is "

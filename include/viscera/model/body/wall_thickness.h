@@ -23,14 +23,14 @@ struct WallErrorRange {
   double least, most;  ///< of a bent tube, and of an open bowl held at one side
 };
 /// Returns what was measured of walls of 3 mm beside CalculiX (docs/material.md, Beside finite elements).
-/// @param cells  thickness of the wall over the spacing
-WallErrorRange expectedWallError(double cells);
+/// @param cells  thickness of the wall over the spacing   @param walls  of the body's material
+WallErrorRange expectedWallError(double cells, Walls walls = Walls::kCells);
 
 /// Returns the thickness in cells that an open bowl needs for an error.
-double cellsForWallError(double error);
+double cellsForWallError(double error, Walls walls = Walls::kCells);
 
-/// Returns walls in mm and in cells, the error to expect, and the spacing that mends it, for a person.
-std::string wallThicknessText(const WallThickness& walls, double spacing_m);
+/// Returns walls in mm and in cells, the error to expect, and what mends it, for a person.
+std::string wallThicknessText(const WallThickness& thickness, double spacing_m, Walls walls);
 
 /// Largest error of a thin wall that a body's notes do not mention.
 constexpr double kNotedWallError = 0.05;
