@@ -88,9 +88,10 @@ class Cpu : public ::testing::TestWithParam<std::string> {
       difference_m = std::max(difference_m, (xyz(here.displacement_m[slot]) - u).norm());
       difference_m_per_s = std::max(difference_m_per_s, (xyz(here.velocity_m_per_s[slot]) - v).norm());
     }
-    // Four ticks instead of one.
-    EXPECT_LT(difference_m, 4 * kFloat32Displacement * largest_m);
-    EXPECT_LT(difference_m_per_s, 4 * kFloat32Velocity * fastest);
+    // Four ticks instead of one, and the rounding of two states instead of one: how far SSE4 is from AVX-512 depends on
+    // the processor, whose estimates of roots it begins with.
+    EXPECT_LT(difference_m, 2 * 4 * kFloat32Displacement * largest_m);
+    EXPECT_LT(difference_m_per_s, 2 * 4 * kFloat32Velocity * fastest);
   }
   void expectUndisturbedByAPieceFarAway(Law law) {
     Body body = boxBody({7, 3, 3}, 0.001);
