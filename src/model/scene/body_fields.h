@@ -89,7 +89,7 @@ void visitFields(V& v, MaterialConfig& c) {
       "neo_hookean in structure lattice where leapfrog steps and weights is cell, else springs");
   v.choice("walls", c.walls, {{"cells", Walls::kCells}, {"rows", Walls::kRows}},
            "law neo_hookean: how walls below three cells that are askew to the lattice bend: by what their cells' own "
-           "corners show, or by rows of nodes, with a third to a half of the error, at two to five times the time for "
+           "corners show, or by rows of nodes, with a third to a half of the error, at three to six times the time for "
            "such cells (docs/physics.md#thin-walls, docs/material.md#beside-finite-elements)");
   v.numberOrAuto(
       "stiffening", c.stiffening, c.stiffens_as_tissue, {0, 100}, "1",
