@@ -1,16 +1,23 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <iostream>
 
 #include "cli/commands.h"
 #include "cli/scene_lookup.h"
 #include "viscera/calibration/auto_spacing.h"
 #include "viscera/gpu/context.h"
+#include "viscera/model/body/wall_cells.h"
 #include "viscera/model/body/wall_thickness.h"
 
 namespace viscera::cli {
 
 namespace {
+
+size_t cellCount(const Lattice& lattice) {
+  return static_cast<size_t>(
+      std::count_if(lattice.cell_labels.begin(), lattice.cell_labels.end(), [](uint16_t label) { return label != 0; }));
+}
 
 /// Prints what a scene's bodies came to, and how thick their walls are in cells.
 void checkScene(const RunOptions& options) {
@@ -20,6 +27,9 @@ void checkScene(const RunOptions& options) {
     std::cout << body.name << ": " << body.lattice.active_slots.size() << " nodes";
     if (body.hasCells()) std::cout << ", spacing " << body.lattice.spacing_m * 1e3 << " mm";
     std::cout << '\n';
+    if (body.material.walls == Walls::kRows)
+      std::cout << "  material.walls: rows: in " << wallCells(body).size() << " of " << cellCount(body.lattice)
+                << " cells\n";
     const std::optional<WallThickness> thickness = wallThickness(body);
     if (thickness)
       std::cout << "  " << wallThicknessText(*thickness, body.lattice.spacing_m, body.material.walls) << '\n';

@@ -51,6 +51,7 @@ TEST_F(Messages, CheckSaysHowManyCellsTheWallsOfASceneHave) {
   const Ending rows =
       viscera({"check", "heart", "--set", "bodies[0].spacing_m=0.006", "--set", "bodies[0].material.walls=rows"});
   EXPECT_EQ(rows.status, 0) << rows.err;
+  expectSays(rows.out, "material.walls: rows: in ");
   expectSays(rows.out, " % (an open bowl) too stiff; with spacing_m 0.00");
   const Ending block = viscera({"check", scene_});
   EXPECT_EQ(block.status, 0) << block.err;

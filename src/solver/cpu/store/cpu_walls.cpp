@@ -60,7 +60,6 @@ CpuWalls::CpuWalls(const CpuStore& store, const JoinedMoments& moments, const St
     position_[cells_[i]] = i;
     cells_of_[cells_[i] / layout::kBrickSlots].push_back(i);
   }
-  for (uint32_t group = 0; group < bodies_.size(); ++group) all_.push_back(group);
   listNodes(store);
   addNumbers(moments, table);
   addForces();

@@ -32,7 +32,6 @@ class CpuWalls {
   void refresh(const CpuStore& store, uint32_t cell, float rigidity_j, float bulk_j);
 
   simd::WallGroups groups();
-  const std::vector<uint32_t>& all() const { return all_; }  ///< groups
   const uint8_t* inWall() const { return in_wall_.data(); }  ///< [bricks] nodes of it are nodes of such cells
   /// Returns the groups with a cell that acts on one of some bricks, ascending.
   std::vector<uint32_t> acting(const std::vector<uint32_t>& bricks) const;
@@ -56,7 +55,7 @@ class CpuWalls {
 
   std::vector<uint32_t> cells_;     ///< [kWallLanes * groups] slots; kNone where there is none
   std::vector<uint32_t> position_;  ///< [slots] place in cells_
-  std::vector<uint32_t> bodies_, all_;
+  std::vector<uint32_t> bodies_;
   std::vector<uint32_t> nodes_;       ///< [groups][kWallNodes][kWallLanes] four times an index into slots_
   std::vector<uint32_t> slots_;       ///< [nodes] of cells in walls, ascending
   std::vector<uint32_t> first_node_;  ///< [bricks + 1] where a brick's begin
