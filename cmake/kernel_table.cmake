@@ -24,7 +24,7 @@ function(viscera_kernel_table list base out)
       string(APPEND classes "#define VARIANT_NAME ${class}\n#define VARIANT_BASE ${base}\n"
                             "#define VARIANT_TEXT \"shaders/solver/${shader}.comp\"\n"
                             "#define VARIANT_FEATURES WITH_${choice}\n"
-                            "#include \"solver/cpu/text/glsl_variant.inc\"\n\n")
+                            "#include \"solver/cpu/kernels/glsl_variant.inc\"\n\n")
       string(APPEND rows "    {\"${name}.comp\", WITH_${choice}, WITH_${choosable}, runVariant<${class}>},\n")
     endforeach()
   endforeach()

@@ -23,8 +23,8 @@ set(VISCERA_ROS_DEPENDS diagnostic_msgs diagnostic_updater geometry_msgs image_t
 find_package(catkin REQUIRED COMPONENTS message_generation ${VISCERA_ROS_DEPENDS})
 
 add_message_files(FILES Metrics.msg Needles.msg Samples.msg StylusState.msg SurfaceTopology.msg SurfaceTopologyChange.msg SurfaceVertices.msg
-                  TaskState.msg Threads.msg Tick.msg)
-add_service_files(FILES FileCommand.srv LoadScene.srv SetOverlays.srv SetToolMode.srv StartTask.srv Step.srv TieThread.srv)
+                  TaskState.msg Sutures.msg Tick.msg)
+add_service_files(FILES FileCommand.srv LoadScene.srv SetOverlays.srv SetToolMode.srv StartTask.srv Step.srv TieSuture.srv)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 set(EIGEN3_INCLUDE_DIRS ${EIGEN3_INCLUDE_DIR})
 # What the nodes use besides is not asked of users of the library or the messages.

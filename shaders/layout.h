@@ -11,7 +11,7 @@
 #include "layout/network_skin.h"
 #include "layout/overlay.h"
 #include "layout/surface_node.h"
-#include "layout/surface_ways.h"
+#include "layout/surface_offsets.h"
 #include "layout/touch_depths.h"
 #include "layout/wind.h"
 #include "viscera/layout/limits.h"

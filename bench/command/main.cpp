@@ -8,7 +8,7 @@
 #include "cli/fault.h"
 #include "math/memory_for.h"
 
-// `viscera bench`: a program of its own, so that to run scenes the suites need not be built.
+// `viscera bench` is a separate program, so that running scenes does not require building the suites.
 
 using namespace viscera;
 
@@ -18,44 +18,51 @@ struct SuiteOptions {
   bench::SuiteOptions suite;
   std::string backend = "both";
   int device = -1;
-  bool strict = false;  ///< a missed limit is exit status 1
+  bool strict = false;  ///< whether a failed check gives exit status 1
 };
 
-/// What of a suite is measured on bodies of any size, or on a scene.
+/// Adds the options of suites that measure bodies of any size, or a scene.
 void addSizes(CLI::App& command, bench::SuiteOptions& options) {
-  command.add_option("--nodes", options.nodes, "sizes of cube and heart in parts sizes, ticks and stages")
+  command
+      .add_option("--nodes", options.nodes, "numbers of nodes of cube and heart in the parts sizes, ticks and stages")
       ->check(CLI::Range(8, 20000000));
-  command.add_option("--scene", options.scene, "in their place in ticks, the part that is then measured, and stages");
+  command.add_option(
+      "--scene", options.scene,
+      "scene that replaces cube and heart in the parts ticks and stages; measures ticks unless --only is given");
   command
       .add_option("--set", options.overrides,
                   "key=value: replaces one value of the scene, as in bodies[0].spacing_m=0.003")
       ->allow_extra_args(false);
-  command.add_option("--threads", options.threads, "of the CPU backend in ticks; 0, the default: one per processor")
+  command
+      .add_option("--threads", options.threads,
+                  "threads of the CPU backend in the part ticks; 0, the default: one per processor")
       ->check(CLI::Range(0, 1024));
   command.get_option("--scene")->excludes("--nodes");
   command.get_option("--set")->needs("--scene");
 }
 
-/// One command per suite; `chosen` is the one that is given.
+/// Adds one command per suite; `chosen` becomes the given one.
 void addSuites(CLI::App& bench, SuiteOptions& options, const bench::Suite*& chosen) {
   for (const bench::Suite& suite : bench::suites()) {
     CLI::App* command = bench.add_subcommand(suite.name, suite.what);
     command->add_option("--out", options.suite.out, "folder for tables (CSV) and plots (PNG); default out/bench");
-    command->add_flag("--short", options.suite.short_form, "fewer and smaller cases: seconds");
-    command->add_flag("--strict", options.strict, "exit status 1 if a limit is missed");
-    command->add_option("--device", options.device, "EGL device, as `viscera check` lists them");
+    command->add_flag("--short", options.suite.short_form, "run fewer and smaller cases, which take seconds");
+    command->add_flag("--strict", options.strict, "exit with status 1 if a limit is missed");
+    command->add_option("--device", options.device, "index of the EGL device, as `viscera check` lists them");
     if (suite.takes_backend) {
       command
-          ->add_option("--backend", options.backend,
-                       "cpu, gpu or both: where every row is measured; both, the default, is cpu alone without EGL")
+          ->add_option(
+              "--backend", options.backend,
+              "backend on which every row is measured: cpu, gpu or both, the default; without EGL, both is cpu alone")
           ->check(CLI::IsMember({"cpu", "gpu", "both"}));
     }
     if (suite.has_parts)
-      command->add_option("--only", options.suite.only, "one part of the suite; a wrong name lists them");
+      command->add_option("--only", options.suite.only, "part of the suite to run alone; a wrong name lists the parts");
     if (suite.takes_data) {
       command
-          ->add_option("--data", options.suite.data,
-                       "CSV of measured compression: column strain, 0 to 0.5 at least, and columns NAME_mean_kpa")
+          ->add_option(
+              "--data", options.suite.data,
+              "CSV of measured compression: a column strain, from 0 to at least 0.5, and columns NAME_mean_kpa")
           ->check(CLI::ExistingFile);
     }
     if (suite.takes_sizes) addSizes(*command, options.suite);
@@ -65,13 +72,13 @@ void addSuites(CLI::App& bench, SuiteOptions& options, const bench::Suite*& chos
 
 CLI::App* addReference(CLI::App& bench, bench::ReferenceRunOptions& options) {
   CLI::App* reference = bench.add_subcommand(
-      "reference", "a scene in float64 on the processor, as `viscera run` runs it; the last line is one JSON object");
+      "reference", "run a scene in float64 on the CPU, as `viscera run` does; prints one JSON object as its last line");
   reference->add_option("scene", options.run.scene, "scene file, or name of a shipped scene")->required();
   reference->add_option("--mesh", options.run.mesh, "mesh file that becomes the first body");
   reference->add_option("--strokes", options.run.strokes, "recorded strokes to replay");
   reference->add_option("--seconds", options.run.seconds, "simulated time; default: the strokes' length, or 1")
       ->check(CLI::Range(0.0, 86400.0));
-  reference->add_flag("--compare", options.compare, "step the GPU too, and print its error as gpu_error");
+  reference->add_flag("--compare", options.compare, "step the GPU too and print its error as gpu_error");
   reference
       ->add_option("--set", options.run.overrides,
                    "key=value: replaces one value of the scene, as in bodies[0].spacing_m=0.003")

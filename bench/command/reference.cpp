@@ -15,8 +15,8 @@
 #include "solver/reference/reference_ticks.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
-#include "viscera/tools/hands.h"
 #include "viscera/tools/obstacles.h"
+#include "viscera/tools/tools.h"
 
 namespace viscera::bench {
 
@@ -24,14 +24,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The GPU solver over the same ticks: governor off, so that it takes the same substeps.
+/// The GPU solver over the same ticks. The stability monitor is off, so that it takes the same substeps.
 class Comparison {
  public:
   Comparison(const Model& model, Scene scene)
       : context_(scene.solver.device), solver_(model, ungoverned(std::move(scene))) {}
   void step(const ToolMotions& motions, const ObstacleMotions& obstacles) { solver_.step(motions, obstacles); }
 
-  /// Largest nodal error of displacement over the largest displacement.
+  /// Returns the largest nodal error of displacement relative to the largest displacement.
   double error(const ReferenceSolver& truth) const {
     const HostState state = solver_.readState();
     double error = 0, largest = 0;
@@ -45,7 +45,7 @@ class Comparison {
 
  private:
   static Scene ungoverned(Scene scene) {
-    scene.solver.governor = false;
+    scene.solver.stability_monitor = false;
     return scene;
   }
   gpu::Context context_;
@@ -82,7 +82,7 @@ int referenceRun(const ReferenceRunOptions& options) {
   const Clock::time_point start = Clock::now();
   for (uint64_t t = 0; t < plan.ticks; ++t) {
     const double time_s = static_cast<double>(t + 1) / tick_hz;
-    if (strokes.handsAnew(t + 1)) tools.forget();
+    if (strokes.inputReset(t + 1)) tools.clear();
     const ToolMotions motions = tools.advance(strokes.at(time_s, plan.scene.styluses));
     obstacles.advance(static_cast<double>(t) / tick_hz, 1 / tick_hz);
     reference.step(motions, obstacles.motions());
@@ -99,7 +99,7 @@ int referenceRun(const ReferenceRunOptions& options) {
   metrics.state_hash = stateHash(model, reference.solver().state());
   for (const auto& process : reference.processes()) metrics.facts.push_back(process->facts());
   metrics.backend = "reference";
-  metrics.stepped_by = "reference (float64), as `viscera bench reference` asks";
+  metrics.stepped_by = "reference (float64), as set by `viscera bench reference`";
   metrics.renderer = "none";
   nlohmann::ordered_json out = cli::toJson(metrics);
   if (comparison) out["gpu_error"] = comparison->error(reference.solver());

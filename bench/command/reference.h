@@ -7,11 +7,11 @@
 namespace viscera::bench {
 
 struct ReferenceRunOptions {
-  cli::RunOptions run;   ///< of these scene, mesh, strokes, seconds and overrides
-  bool compare = false;  ///< the GPU beside it
+  cli::RunOptions run;   ///< options of the run: scene, mesh, strokes, seconds and overrides are used
+  bool compare = false;  ///< whether to compare with the GPU
 };
 
-/// `viscera bench reference`: a scene in float64 on the CPU, without OpenGL unless it is compared with the GPU.
+/// Runs `viscera bench reference`: a scene in float64 on the CPU, without OpenGL unless it is compared with the GPU.
 /// @return exit status
 int referenceRun(const ReferenceRunOptions& options);
 

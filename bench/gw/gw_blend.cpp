@@ -97,7 +97,7 @@ void BlendTarget::bindTexture(uint32_t unit) const {
 }
 
 void BlendTarget::draw(size_t springs, uint32_t end, double sign) const {
-  const double at_end = end == 0 ? 1 : -1;  // what pulls a one way pulls b the other
+  const double at_end = end == 0 ? 1 : -1;  // the forces on both ends are opposite
   program_.set("end", end);
   program_.set("factor", static_cast<float>(at_end * sign / scale_n_));
   glBlendEquation(sign > 0 ? GL_FUNC_ADD : GL_FUNC_REVERSE_SUBTRACT);
@@ -118,7 +118,7 @@ void BlendTarget::add(size_t springs) {
   glBlendFunc(GL_ONE, GL_ONE);
   for (uint32_t end : {0u, 1u}) {
     draw(springs, end, 1);
-    // Fixed point knows no negative colours: they were drawn as 0 and are taken away as positive ones.
+    // Fixed point has no negative colours: they were drawn as 0 and are now subtracted as positive ones.
     if (format_ == BlendFormat::kFixed8) draw(springs, end, -1);
   }
   glBlendEquation(GL_FUNC_ADD);

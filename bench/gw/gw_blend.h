@@ -10,7 +10,7 @@
 
 namespace viscera::bench {
 
-/// A buffer seen through texel fetches, in any of OpenGL's formats. Move-only.
+/// A buffer that is read through texel fetches, in any of OpenGL's formats. Move-only.
 class TexelArray {
  public:
   TexelArray() = default;
@@ -24,25 +24,26 @@ class TexelArray {
   uint32_t id_ = 0;
 };
 
-/// What forces are blended into.
+/// Pixel format into which forces are blended.
 enum class BlendFormat { kFixed8, kFloat16, kFloat32 };
 const char* nameOf(BlendFormat format);
 
-/// A render target with a pixel per slot, in which blending adds up the forces of springs (GW 4.2).
+/// A render target with a pixel per slot, in which blending sums the forces of springs (GW 4.2).
 class BlendTarget {
  public:
-  /// @param slots  pixels wanted   @param scale_n  force that 1 stands for; see scaleOf()   @throws GpuError
+  /// @param slots  least number of pixels   @param scale_n  force that the value 1 represents; see scaleOf()
+  /// @throws GpuError
   BlendTarget(BlendFormat format, size_t slots, double scale_n);
   ~BlendTarget();
   BlendTarget(const BlendTarget&) = delete;
   BlendTarget& operator=(const BlendTarget&) = delete;
 
-  /// Draws every spring at both of its ends. The views with springs and their forces are bound.
+  /// Draws every spring at both of its ends. The views with springs and their forces must be bound.
   void add(size_t springs);
   void bindTexture(uint32_t unit) const;
   double scale_n() const { return scale_n_; }
-  double zero() const;   ///< value that stands for no force
-  Field forces() const;  ///< [slots, N] waits
+  double zero() const;   ///< value that represents zero force
+  Field forces() const;  ///< [slots, N] forces; waits for the GPU
 
  private:
   void draw(size_t springs, uint32_t end, double sign) const;
@@ -55,8 +56,8 @@ class BlendTarget {
   gpu::Program program_;
 };
 
-/// Scale for forces of which no partial sum exceeds a value: a power of two, so that scaling rounds nothing. What is
-/// stored stays within -1/2 and 1/2: a target of fixed point knows 0 to 1 and has no force at 128/255.
+/// Returns a scale for forces with partial sums up to a value. It is a power of two, so scaling does not round. Stored
+/// values stay within -1/2 and 1/2: a fixed-point target represents 0 to 1 and zero force is at 128/255.
 double scaleOf(double largest_sum_n);
 
 }  // namespace viscera::bench

@@ -7,7 +7,7 @@
 #include "bench/gw/gw_parts.h"
 #include "model/body/network_builder.h"
 #include "model/shape/mesh/plain_meshes.h"
-#include "solver/cpu/steps/surroundings.h"
+#include "solver/cpu/steps/environment.h"
 #include "solver/reference/collision.h"
 #include "viscera/model/scene/scene.h"
 
@@ -16,9 +16,9 @@ namespace viscera::bench {
 namespace {
 
 constexpr double kSpacing_m = 0.01;
-constexpr double kTolerance_m = 5e-7;  // float32 positions of up to 1 m: such pairs may go either way
+constexpr double kTolerance_m = 5e-7;  // float32 rounding at 1 m: pairs this close to the limit may or may not count
 
-/// A cloth whose nodes are put anywhere: what a search sees of it does not depend on its springs.
+/// Returns a cloth with arbitrary node positions: the search does not depend on its springs.
 Model clothModel(int edge) {
   Body cloth;
   cloth.name = "cloth";
@@ -28,7 +28,8 @@ Model clothModel(int edge) {
   return model;
 }
 
-/// Nodes anywhere in a cube, that move anywhere by the same way. @param before  gets where they came from
+/// Returns nodes at random positions in a cube, displaced by the same distance in random directions.
+/// @param before  receives the positions before
 HostState cloud(const Model& model, double cube_m, double way_m, std::mt19937& random, HostState* before = nullptr) {
   std::uniform_real_distribution<double> place(-0.5 * cube_m, 0.5 * cube_m);
   std::normal_distribution<double> any;
@@ -59,10 +60,10 @@ std::vector<CollisionPair> found(const Model& model, const Scene& scene, const H
   CpuLattice lattice(model, bodyParams(model, safeTimeStep(model)), featuresOf(model, {}, 1));
   lattice.write(state);
   const Serial serial;
-  return CpuSurroundings(model, scene, lattice, serial).findPairs(lattice);
+  return CpuEnvironment(model, scene, lattice, serial).findPairs(lattice);
 }
 
-/// Pairs that touch at some time while all nodes go straight and evenly from one state to the other.
+/// Returns the pairs that touch at some time while all nodes move linearly from one state to the other.
 std::vector<ReferencePair> pairsOnTheWay(const Model& model, const Scene& scene, const HostState& from,
                                          const HostState& to, double way_m) {
   const Body& body = model.bodies[0];
@@ -82,12 +83,12 @@ std::vector<ReferencePair> pairsOnTheWay(const Model& model, const Scene& scene,
 }
 
 void reportDensity(Report& report, const Model& model) {
-  Table table("Recall as density grows: pairs found of those that touch",
+  Table table("Recall by density: share of touching pairs that are found",
               {{"contacts per node"}, {"pairs"}, {"recall"}});
   std::mt19937 random(1);
   const double nodes = static_cast<double>(model.activeNodes());
   double worst = 1;
-  for (const double density : {0.05, 0.2, 0.5, 1.0, 2.0, 5.0}) {  // nodes per cube of the distance
+  for (const double density : {0.05, 0.2, 0.5, 1.0, 2.0, 5.0}) {  // nodes per cube of the contact distance
     const HostState state = cloud(model, kSpacing_m * std::cbrt(nodes / density), 0, random);
     const Scene scene = collidingScene();
     const auto truth = referencePairs(model, scene, state, 2 * kTolerance_m);
@@ -100,7 +101,7 @@ void reportDensity(Report& report, const Model& model) {
 }
 
 void reportStep(Report& report, const Model& model) {
-  Table table("Recall as dt grows: pairs found at the end of a substep of those that touch at any time in it",
+  Table table("Recall by dt: share of the pairs that touch during a substep and are found at its end",
               {{"way of a node", "cells"}, {"pairs"}, {"recall"}});
   std::mt19937 random(2);
   const double nodes = static_cast<double>(model.activeNodes());
@@ -123,8 +124,8 @@ void collisionRecall(Report& report, bool brief) {
   reportDensity(report, model);
   reportStep(report, model);
   report.note(
-      "A pair that only grazes on its way is found at neither end of the substep; nodes nevertheless do not pass "
-      "through sheets below half a cell per substep, as a sheet has many nodes (docs/physics.md 8).");
+      "A pair that only grazes during a substep is found at neither end of it. Nodes still do not pass through "
+      "sheets below half a cell per substep, because a sheet has many nodes (docs/physics.md 8).");
 }
 
 }  // namespace viscera::bench

@@ -7,7 +7,7 @@ namespace viscera::bench {
 
 namespace {
 
-/// GW Table 1, for a mesh whose largest valence is N.
+/// GW Table 1, for a mesh with largest valence N.
 struct Printed {
   double rgb, rgba, fetches, dependent, operations;
 };
@@ -20,24 +20,24 @@ Printed printedEdge(double nodes, double springs) {
   return {springs, springs + nodes, springs, 2 * springs, 14 * springs};
 }
 
-/// What the kernels of bench/gw/gw_*.comp do for all forces. A fetch is a texel; a dependent one has its address from
+/// Work of the kernels of bench/gw/gw_*.comp for all forces. A fetch is a texel; a dependent one has its address from
 /// another fetch.
 struct Counted {
   double bytes, fetches, dependent, stores, operations;
 };
 
-// Float32 operations of a force (spring.glsl with NETWORK): w 3, d + w 3, its square 5, root 1, direction 3 and the one
-// of rest with its root 10, extension 5 + 5 + 2 + 2 + 1, k 1, direction 3. Comparisons and selections are none.
+// Float32 operations of a force (spring.glsl with NETWORK): w 3, d + w 3, its square 5, root 1, direction 3 and that at
+// rest with its root 10, extension 5 + 5 + 2 + 2 + 1, k 1, direction 3. Comparisons and selections do not count.
 constexpr double kForce = 44, kAddition = 3, kNegation = 3;
 
 Counted countPoint(const GwKernels& kernels, const NetworkLinks& links, double nodes) {
-  // Per node two starts and u; per link two texels and u of its far end.
+  // Per node, two starts and u; per link, two texels and u of its far end.
   const auto all = static_cast<double>(links.links.size());
   return {static_cast<double>(kernels.pointBytes()), 3 * nodes + 3 * all, 3 * all, nodes, (kForce + kAddition) * all};
 }
 
 Counted countRuns(const GwKernels& kernels, const NetworkLinks& links, double nodes) {
-  // Per spring its ends, then two texels and both u; per node two starts; per link its force.
+  // Per spring, its ends, then two texels and both u; per node, two starts; per link, its force.
   const auto springs = static_cast<double>(links.ends.size()), all = static_cast<double>(links.links.size());
   return {static_cast<double>(kernels.edgeBytes()), 5 * springs + 2 * nodes + all, 4 * springs + all,
           2 * springs + nodes, (kForce + kNegation) * springs + kAddition * all};
@@ -55,9 +55,10 @@ void addRow(Table& table, const GwNetwork& network, const std::string& way, cons
 void countCosts(Report& report) {
   report.stage("counting");
   Table table(
-      "GW Table 1, per node. GW: its formulae with N the largest valence; counted: bytes of our buffers (springs, u, "
+      "GW Table 1, per node. GW: its formulae with N as the largest valence; counted: bytes of our buffers (springs, "
+      "u, "
       "1/m, "
-      "forces), and what our kernels do",
+      "forces) and operations of our kernels",
       {{"mesh"},
        {"nodes", "", 8},
        {"springs", "", 8},

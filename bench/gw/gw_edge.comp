@@ -3,7 +3,7 @@
 //
 // gw_edge.comp - edge-centric forces (GW 4.2), first pass: each spring once.   Owner: bench/gw/gw_kernels.h
 // in  displacement [nodes], springs, links
-// out  PER_LINK, as the solver does it: link_forces [links] N, both signs, a node's one behind the other; else, as
+// out  PER_LINK, as in the solver: link_forces [links] N, both signs, consecutive for each node; otherwise, as in
 // GW's force texture: spring_forces [springs] N on end a
 #include "gw_mesh.glsl"
 

@@ -13,14 +13,14 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kAgreement = 1e-6;   ///< point- against edge-centric, of the largest force
-constexpr double kBlending32 = 1e-5;  ///< 32-bit blending against float64, of the largest force
-constexpr double kDtFraction = 0.5;   ///< of the largest stable substep
-constexpr double kHeadroom = 2;       ///< a target holds as many times the largest sum of the true motion
-constexpr double kMotion = 1e-5;      ///< ways in 32 bit floats against float64, of the largest u
+constexpr double kAgreement = 1e-6;   ///< point- against edge-centric, relative to the largest force
+constexpr double kBlending32 = 1e-5;  ///< 32-bit blending against float64, relative to the largest force
+constexpr double kDtFraction = 0.5;   ///< substep relative to the largest stable one
+constexpr double kHeadroom = 2;       ///< range of a target relative to the largest sum of the true motion
+constexpr double kMotion = 1e-5;      ///< methods in float32 against float64, relative to the largest u
 const Vector3d kGravity_m_per_s2(0, 0, -9.81);
 
-/// Gathers forces in one of the ways. @return the target they are in, if any
+/// Gathers forces by one of the methods. @return the target that contains them, if any
 using Gather = std::function<const BlendTarget*(GwKernels&)>;
 struct Way {
   std::string name;
@@ -68,7 +68,7 @@ Misfit errorOf(const GwNetwork& network, const Field& measured, const Field& tru
   return misfit(network.model, {{measured}, 0}, {{truth}, 0});
 }
 
-/// As kernels hold it, so that only their arithmetic is compared; 16-bit states round once more.
+/// Rounds to float32 as in the kernels, so that only their arithmetic is compared; 16-bit states round once more.
 Field asFloats(const Field& field) {
   Field out;
   for (const Vector3d& v : field) out.emplace_back(v.cast<float>().cast<double>());
@@ -95,18 +95,18 @@ void compareForces(Report& report, const GwNetwork& network, Table& table) {
                      errorOf(network, forces_n[kBlend32], truth_n).max, kBlending32);
 }
 
-/// Displacements of the true motion at some moments, and what a target must hold on the way.
+/// Displacements of the true motion at checkpoints, and the largest sum that a target must represent.
 struct TrueMotion {
   GwMotion motion;
-  std::vector<int> substeps;  ///< [checkpoints]
-  std::vector<Field> u_m;     ///< [checkpoints]
+  std::vector<int> substeps;  ///< [checkpoints] number of substeps
+  std::vector<Field> u_m;     ///< [checkpoints] displacements
   double largest_sum_n = 0;
 };
 
 TrueMotion trueMotion(const GwNetwork& network, const std::vector<int>& substeps) {
   TrueMotion out;
   out.substeps = substeps;
-  // Rounded as the kernels take it.
+  // Rounded as in the kernels.
   out.motion.dt_s = static_cast<double>(static_cast<float>(kDtFraction * safeTimeStep(network.model)));
   out.motion.gravity_m_per_s2 = kGravity_m_per_s2.cast<float>().cast<double>();
   ReferenceSolver solver(network.model, out.motion.gravity_m_per_s2, out.motion.dt_s);
@@ -121,7 +121,7 @@ TrueMotion trueMotion(const GwNetwork& network, const std::vector<int>& substeps
   return out;
 }
 
-/// [checkpoints]
+/// Returns [checkpoints] errors.
 std::vector<Misfit> errorsOf(const GwNetwork& network, const TrueMotion& truth, const Way& way) {
   GwKernels kernels(network, way.state);
   kernels.start(Field(network.slots(), Vector3d::Zero()));
@@ -137,7 +137,7 @@ std::vector<Misfit> errorsOf(const GwNetwork& network, const TrueMotion& truth, 
 void compareMotions(Report& report, const GwNetwork& network, const std::vector<int>& substeps, Table& table) {
   report.stage("motion, " + network.name + ", float64");
   const TrueMotion truth = trueMotion(network, substeps);
-  double worst = 0;  // of what is in 32 bit floats throughout
+  double worst = 0;  // of methods that use 32-bit floats throughout
   const std::vector<Way> ways = waysOf(network.slots(), kHeadroom * truth.largest_sum_n);
   Plot plot{"Error of u over its largest, " + network.name,
             "substeps of dt_safe/2",
@@ -161,7 +161,7 @@ void compareMotions(Report& report, const GwNetwork& network, const std::vector<
     plot.series.push_back(std::move(series));
   }
   report.add(plot, "motion_" + network.name);
-  report.checkAtMost(network.name + ": motion in 32 bit floats, whatever the way, largest error of u", worst, kMotion);
+  report.checkAtMost(network.name + ": motion in 32 bit floats with any method, largest error of u", worst, kMotion);
 }
 
 }  // namespace

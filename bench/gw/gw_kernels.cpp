@@ -28,7 +28,7 @@ void run(const gpu::Program& program, size_t invocations) {
   gpu::Program::storageBarrier();
 }
 
-/// [slots] 1/kg; 0 where a node is fixed or none is
+/// Returns [slots] 1/kg; 0 for fixed nodes and slots without a node.
 std::vector<float> inverseMasses(const GwNetwork& network) {
   std::vector<float> out(network.slots(), 0);
   for (uint32_t slot : network.body().lattice.active_slots) {
@@ -38,7 +38,7 @@ std::vector<float> inverseMasses(const GwNetwork& network) {
   return out;
 }
 
-/// Four of them per node, as texels have them.
+/// Writes four numbers per node, the layout of texels.
 template <class Number>
 void write(gpu::RawBuffer& buffer, const Field& vectors) {
   std::vector<Number> values;
@@ -115,7 +115,7 @@ GwKernels::State GwKernels::makeState() const {
   return state;
 }
 
-/// Nodes by falling valence, as GW lay them out so that every pass has a block of its own.
+/// Sorts nodes by falling valence, as GW do, so that every pass covers a contiguous block.
 void GwKernels::makeOrder() {
   const std::vector<uint32_t> starts = starts_.read();
   const auto valence = [&](uint32_t node) { return starts[node + 1] - starts[node]; };
@@ -193,7 +193,7 @@ void GwKernels::integrate(const GwMotion& motion, const BlendTarget* target) {
   const Eigen::Vector3f gravity = motion.gravity_m_per_s2.cast<float>();
   program.set("dt_s", dt_s);
   program.set("kick_s", first_ ? 0.5F * dt_s : dt_s);
-  program.set("drag_per_s", static_cast<float>(network_.body().material.drag_per_s));
+  program.set("mass_damping_per_s", static_cast<float>(network_.body().material.mass_damping_per_s));
   program.set("gravity", {gravity.x(), gravity.y(), gravity.z()});
   if (target) program.set("decoding", {static_cast<float>(target->scale_n()), static_cast<float>(target->zero())});
   run(program, network_.slots());

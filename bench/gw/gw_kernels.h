@@ -10,39 +10,40 @@
 
 namespace viscera::bench {
 
-/// What components of displacements and velocities are stored in.
+/// Number format in which displacements and velocities are stored.
 enum class StateFormat { kFloat32, kFloat16 };
 
-/// What moves a network (physics.md 2): leapfrog with the symmetric drag of its body.
+/// Parameters of a network's motion (physics.md 2): leapfrog with the symmetric drag of its body.
 struct GwMotion {
   double dt_s = 0;
   Vector3d gravity_m_per_s2 = Vector3d::Zero();
 };
 
-/// The stages of GW's two ways on the GPU, each to be run and timed by itself. Needs the context current.
+/// The stages of GW's two methods on the GPU, which can be run and timed separately. Requires a current context.
 class GwKernels {
  public:
-  /// @param network  must outlive this
+  /// @param network  must outlive this object
   explicit GwKernels(const GwNetwork& network, StateFormat format = StateFormat::kFloat32);
 
-  /// @name Forces from the current displacements
+  /// @name Compute forces from the current displacements
   /// @{
   void pointForces();                       ///< point-centric, one pass
-  void pointPasses();                       ///< point-centric, a pass per neighbour: GW's way with varying valence
+  void pointPasses();                       ///< point-centric, a pass per neighbour: GW's method for varying valence
   void springForces();                      ///< edge-centric, a pass over springs: each force is stored at both links
   void sumForces();                         ///< edge-centric, second pass, as a gather over each node's links
-  void forceTexture();                      ///< edge-centric as GW did it, first pass
-  void scatterForces(BlendTarget& target);  ///< the second one, by blending
+  void forceTexture();                      ///< edge-centric in GW's original form, first pass
+  void scatterForces(BlendTarget& target);  ///< second pass, by blending
   /// @}
 
-  /// One leapfrog substep from the forces there are. @param target  forces are in it; else in the buffer
+  /// Performs one leapfrog substep with the current forces.
+  /// @param target  target with the forces; null: they are in the buffer
   void integrate(const GwMotion& motion, const BlendTarget* target = nullptr);
 
-  /// Starts again. @param u_m  [slots]; velocities become zero
+  /// Sets the initial state. @param u_m  [slots]; velocities become zero
   void start(const Field& u_m);
-  Field forces() const;         ///< [slots, N] of the passes that leave them in a buffer
-  Field displacements() const;  ///< [slots, m]
-  /// Bytes of the buffers that one way needs.
+  Field forces() const;         ///< [slots, N] forces of the passes that write a buffer
+  Field displacements() const;  ///< [slots, m] displacements
+  /// Returns the size of the buffers that one method needs [bytes].
   size_t pointBytes() const;
   size_t edgeBytes() const;
 
@@ -69,7 +70,7 @@ class GwKernels {
   State states_[2];
   int current_ = 0;
   bool first_ = true;
-  std::vector<size_t> with_valence_above_;  ///< [most valence] nodes with more than so many links
+  std::vector<size_t> with_valence_above_;  ///< [largest valence] number of nodes with more links than the index
 };
 
 }  // namespace viscera::bench

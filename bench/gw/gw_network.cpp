@@ -17,8 +17,8 @@ namespace viscera::bench {
 namespace {
 
 constexpr double kGwNetworkSpacing_m = 0.01, kThickness_m = 0.001;
-constexpr double kJitter = 0.15;    // of a spacing, to either side
-constexpr double kDrag_per_s = 20;  // enough for what hangs to come to rest within a second
+constexpr double kJitter = 0.15;    // of a spacing, in both directions
+constexpr double kDrag_per_s = 20;  // hanging bodies come to rest within a second
 
 using Corners = std::array<uint32_t, 3>;
 
@@ -52,8 +52,8 @@ std::vector<Corners> sheetTriangles(uint32_t edge) {
 
 MaterialConfig undashed() {
   MaterialConfig material;
-  material.drag_per_s = kDrag_per_s;
-  material.dashpot_ratio = 0;
+  material.mass_damping_per_s = kDrag_per_s;
+  material.stiffness_damping_ratio = 0;
   return material;
 }
 
@@ -73,7 +73,7 @@ GwNetwork sheetOf(const std::string& name, const Field& at_m, const std::vector<
   return out;
 }
 
-/// The node that lies farthest along a direction.
+/// Returns the node that is farthest along a direction.
 uint32_t farthest(const GwNetwork& sheet, const Vector3d& direction) {
   const std::vector<uint32_t>& active = sheet.body().lattice.active_slots;
   return *std::max_element(active.begin(), active.end(), [&](uint32_t a, uint32_t b) {
@@ -102,7 +102,7 @@ GwNetwork regularSheet(uint32_t nodes_per_edge) {
 GwNetwork irregularSheet(uint32_t nodes_per_edge) {
   Field at_m = sheetPositions(nodes_per_edge);
   std::mt19937 random(1);
-  // Not std::uniform_real_distribution, which is another one in every library.
+  // Not std::uniform_real_distribution, which differs between libraries.
   const auto jitter_m = [&] { return kJitter * kGwNetworkSpacing_m * (random() / 2147483648.0 - 1); };
   for (Vector3d& p : at_m) {
     p.x() += jitter_m();
@@ -128,12 +128,12 @@ GwNetwork hangingCloth(uint32_t nodes_per_edge) {
 GwNetwork hangingHeart(int nodes) {
   Scene scene = pigHeartScene(nodes, 0);
   scene.bodies[0].structure = Structure::kExplicit;
-  scene.bodies[0].material.drag_per_s = kDrag_per_s;
+  scene.bodies[0].material.mass_damping_per_s = kDrag_per_s;
   return {"heart", buildModel(scene)};
 }
 
 Field deformed(const GwNetwork& network) {
-  constexpr double kAmplitude = 0.4, kNumber = 0.5;  // spacings; radians per spacing
+  constexpr double kAmplitude = 0.4, kNumber = 0.5;  // [spacings]; [radians per spacing]
   const double length_m = network.network().meanLength();
   Field out(network.slots(), Vector3d::Zero());
   for (uint32_t slot : network.body().lattice.active_slots) {

@@ -9,7 +9,7 @@
 
 namespace viscera::bench {
 
-/// What Georgii & Westermann's experiments run on: a model of one body with explicit connections, without dashpot.
+/// Model of Georgii & Westermann's experiments: one body with explicit connections, without dashpots.
 struct GwNetwork {
   std::string name;
   Model model;
@@ -21,28 +21,30 @@ struct GwNetwork {
   size_t springs() const { return network().springs.size(); }
 };
 
-/// The fewest and most springs of a node, and how many.
+/// The smallest, largest and mean number of springs per node.
 struct Valences {
   uint32_t least = 0, most = 0;
   double mean = 0;
 };
 Valences valencesOf(const GwNetwork& network);
 
-/// Square sheet of equilateral triangles in the plane z = 0 (GW Table 2): valence 6 but at its border. A membrane 1 mm
-/// thick with 10 mm between nodes; nothing is fixed.
+/// Creates a square sheet of equilateral triangles in the plane z = 0 (GW Table 2): valence 6 except at its border. It
+/// is a membrane 1 mm thick with 10 mm between nodes; nothing is fixed.
 GwNetwork regularSheet(uint32_t nodes_per_edge);
-/// The same nodes, jittered, in an irregular triangulation: edges of convex quadrangles were flipped at random while
-/// valences stayed within 3 and 12 (GW 5) and edges within five spacings. The same for the same size, always.
+/// Creates a sheet with the same nodes, jittered, in an irregular triangulation. Edges of convex quadrangles are
+/// flipped at random while valences stay within 3 and 12 (GW 5) and edges within five spacings. The result depends on
+/// the size only.
 GwNetwork irregularSheet(uint32_t nodes_per_edge);
-/// A sheet held at its four corners (GW figure 2).
+/// Creates a sheet fixed at its four corners (GW figure 2).
 GwNetwork hangingCloth(uint32_t nodes_per_edge);
-/// The built-in heart as an explicit lattice (VR05 2.5.1), its top held.
+/// Creates the built-in heart as an explicit lattice (VR05 2.5.1), fixed at its top.
 GwNetwork hangingHeart(int nodes);
 
-/// A smooth displacement with strains of some tenths. [slots]
+/// Returns a smooth displacement with strains of some tenths. [slots]
 Field deformed(const GwNetwork& network);
 
-/// Largest sum over a node's springs of their forces' magnitudes [N]: what an accumulation must be able to hold.
+/// Returns the largest sum of force magnitudes over a node's springs [N], which an accumulation must be able to
+/// represent.
 /// @param u_m  [slots]
 double largestSum_n(const GwNetwork& network, const Field& u_m);
 

@@ -3,14 +3,14 @@
 //
 // gw_point.comp - point-centric forces (GW 4.1): every node gathers over its links.   Owner: bench/gw/gw_kernels.h
 // in  displacement [nodes], links     out  forces [nodes] N
-// Feature ONE_NEIGHBOUR: GW's own way with a mesh of varying valence, a pass per neighbour over the nodes that have so
-// many; nodes are listed by falling valence, passes hand their sums on.
+// Feature ONE_NEIGHBOUR: GW's own method for a mesh of varying valence, with a pass per neighbour over the nodes that
+// have that many. Nodes are sorted by falling valence, and passes continue the sums.
 #include "gw_mesh.glsl"
 
 layout(std430, binding = 0) buffer Forces { vec4 forces[]; };
 #ifdef ONE_NEIGHBOUR
 layout(std430, binding = 1) readonly buffer Order { uint by_valence[]; };
-uniform uint neighbour;  // number of this pass
+uniform uint neighbour;  // index of this pass
 #endif
 
 void main() {

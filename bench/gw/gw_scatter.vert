@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// gw_scatter.vert - a spring as a point at the pixel of one of its ends, in the colour of its force: blending adds
-// them up there (GW 4.2).   Owner: bench/gw/gw_blend.h
+// gw_scatter.vert - a spring as a point at the pixel of one of its ends, in the colour of its force: blending sums the
+// forces (GW 4.2).   Owner: bench/gw/gw_blend.h
 // in  springs, spring_forces [springs] N     out  colour
 #include "layout.h"
 #include "bench/gw/gw_units.h"
@@ -10,8 +10,8 @@
 layout(binding = kUnitSprings) uniform usamplerBuffer springs;  // SpringEnds
 layout(binding = kUnitLinkForces) uniform samplerBuffer spring_forces;
 uniform uint end;      // 0: a, 1: b
-uniform uvec2 size;    // of the target [px]
-uniform float factor;  // of the force in the colour [1/N], with the sign
+uniform uvec2 size;    // size of the target [px]
+uniform float factor;  // factor from force to colour [1/N], with the sign
 out vec3 color;
 
 void main() {

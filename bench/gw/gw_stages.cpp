@@ -15,25 +15,25 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kStill_s = 1e-9;  // substep that leaves a state as it is: every round has the same work
+constexpr double kStill_s = 1e-9;  // substep that leaves the state unchanged, so that every round has the same work [s]
 constexpr double kMilli = 1e3;
 
-/// GW Table 2 [ms]; no accumulation of its own in the point-centric way.
+/// GW Table 2 [ms]; the point-centric method has no separate accumulation.
 struct GwStagesPrinted {
   uint32_t edge;
   double point_force, edge_force, edge_sum, integration;
 };
 constexpr GwStagesPrinted kPaper[] = {
     {128, 0.54, 0.40, 0.12, 0.20}, {256, 2.34, 1.76, 0.52, 0.74}, {512, 9.82, 7.34, 2.08, 3.18}};
-constexpr double kPaperIrregular = 1.6;  // of its text: point- over edge-centric, valences 3 to 12
+constexpr double kPaperIrregular = 1.6;  // from GW's text: point- over edge-centric, valences 3 to 12
 
-/// One way to go a substep, in stages. Those without work are empty.
+/// A method for a substep, in stages. Stages without work are empty.
 struct GwStagesWay {
   std::string name;
   std::function<void()> force, accumulate, integrate;
 };
 
-/// Ways and what they run on.
+/// Methods and the data on which they run.
 struct Course {
   std::unique_ptr<GwKernels> kernels;
   std::unique_ptr<BlendTarget> target;
@@ -68,12 +68,12 @@ Candidate candidateOf(const GwNetwork& network, std::function<void()> work) {
           }};
 }
 
-/// [ms] of the stages of a way; 0 where there is none.
+/// [ms] times of a method's stages; 0 if there is no such stage.
 struct Times {
   double force = 0, accumulate = 0, integrate = 0, total = 0, spread = 0;
 };
 
-/// All stages of all ways in turn.
+/// Times all stages of all methods in turn.
 std::vector<Times> timesOf(const GwNetwork& network, double seconds) {
   const Course course = courseOf(network);
   std::vector<Candidate> candidates;
@@ -109,7 +109,7 @@ Cell orNone(double value) {
   return value > 0 ? Cell(value) : Cell("");
 }
 
-/// GW's figures for a way; none for what is not GW's.
+/// Returns GW's figures for a method; zeros for methods that are not GW's.
 Times printedFor(const GwStagesPrinted& row, size_t way) {
   Times out;
   if (way == kPoint) out = {row.point_force, 0, row.integration};
@@ -145,7 +145,7 @@ std::vector<Cell> cellsOf(const GwNetwork& network, size_t way, const std::vecto
 
 void measureRegular(Report& report, double seconds) {
   Table table =
-      stageTable("GW Table 2: a regular mesh of valence 6. Times are of this machine and this moment: compare ratios",
+      stageTable("GW Table 2: a regular mesh of valence 6. Times hold for this machine and this moment; compare ratios",
                  {{"GW force", "ms"},
                   {"GW accumulation", "ms"},
                   {"GW integration", "ms"},

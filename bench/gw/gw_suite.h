@@ -6,8 +6,8 @@
 
 namespace viscera::bench {
 
-/// Georgii & Westermann's experiments (docs/benchmarks.md, gw): their tables 1 and 2, and what they left out: errors.
-/// Needs the context current.
+/// Runs Georgii & Westermann's experiments (docs/benchmarks.md, gw): their tables 1 and 2, and errors, which they do
+/// not report. Requires a current context.
 void gwSuite(Report& report);
 
 }  // namespace viscera::bench

@@ -9,7 +9,7 @@ namespace viscera::bench {
 namespace {
 
 constexpr size_t kTriesPerEdge = 12;
-constexpr double kFlattest = 0.05;  // of the longest edge squared: twice the area of a triangle that a flip may leave
+constexpr double kFlattest = 0.05;  // least area of a triangle after a flip, doubled, over its longest edge squared
 
 void replace(std::array<uint32_t, 2>& corners, uint32_t from, uint32_t to) {
   corners[corners[0] == from ? 0 : 1] = to;
@@ -42,7 +42,7 @@ double Triangulation::turn(uint32_t a, uint32_t b, uint32_t c) const {
   return (at_m_[b] - at_m_[a]).cross(at_m_[c] - at_m_[a]).z();
 }
 
-/// Do the diagonals of the two triangles cross, and are the triangles of the other diagonal no slivers?
+/// Returns whether the diagonals of the two triangles cross and the flipped triangles are not slivers.
 bool Triangulation::isConvex(const Edge& edge) const {
   const auto [c, d] = edge.across;
   const double a_side = turn(c, d, edge.a), b_side = turn(c, d, edge.b);
@@ -77,7 +77,7 @@ void Triangulation::flip(size_t e) {
 
 void Triangulation::flipAtRandom(const Bounds& bounds, std::mt19937& random) {
   for (size_t i = 0; i < kTriesPerEdge * edges_.size(); ++i) {
-    const size_t e = random() % edges_.size();  // not std::uniform_int_distribution: the same with every library
+    const size_t e = random() % edges_.size();  // std::uniform_int_distribution differs between libraries
     if (mayFlip(edges_[e], bounds)) flip(e);
   }
 }
@@ -86,7 +86,7 @@ std::vector<std::array<uint32_t, 3>> Triangulation::triangles() const {
   std::vector<std::array<uint32_t, 3>> out;
   for (const Edge& edge : edges_) {
     for (uint32_t across : edge.across) {
-      // Of the three edges of a triangle, the one across its highest corner tells of it.
+      // Of the three edges of a triangle, only the one opposite its highest corner outputs it.
       if (across == kNone || across < std::max(edge.a, edge.b)) continue;
       const bool left = turn(edge.a, edge.b, across) > 0;
       out.push_back({left ? edge.a : edge.b, left ? edge.b : edge.a, across});

@@ -12,27 +12,27 @@
 
 namespace viscera::bench {
 
-/// A triangulation in the plane z = 0 whose edges can be flipped.
+/// A triangulation in the plane z = 0 with edges that can be flipped.
 class Triangulation {
  public:
-  /// What flips must keep.
+  /// Bounds that flips must preserve.
   struct Bounds {
-    uint32_t least_valence, most_valence;  ///< of nodes within
-    double longest_m;                      ///< edge
+    uint32_t least_valence, most_valence;  ///< valence of interior nodes
+    double longest_m;                      ///< longest edge [m]
   };
 
-  /// @param at_m  [nodes], must outlive this   @param triangles  every edge in one or two of them
+  /// @param at_m  [nodes], must outlive this object   @param triangles  every edge belongs to one or two of them
   Triangulation(const std::vector<Vector3d>& at_m, const std::vector<std::array<uint32_t, 3>>& triangles);
-  /// Tries to flip as many edges, taken at random, as there are edges times some.
+  /// Tries to flip edges chosen at random; the number of trials is a multiple of the number of edges.
   void flipAtRandom(const Bounds& bounds, std::mt19937& random);
-  /// [triangles] counter-clockwise seen from +z
+  /// Returns [triangles], counter-clockwise seen from +z.
   std::vector<std::array<uint32_t, 3>> triangles() const;
 
  private:
   static constexpr uint32_t kNone = ~0u;
   struct Edge {
-    uint32_t a, b;                                 ///< ends
-    std::array<uint32_t, 2> across{kNone, kNone};  ///< third corners of its triangles
+    uint32_t a, b;                                 ///< end nodes
+    std::array<uint32_t, 2> across{kNone, kNone};  ///< opposite corners of its triangles
   };
   static uint64_t keyOf(uint32_t a, uint32_t b);
   Edge& edge(uint32_t a, uint32_t b) { return edges_[index_.at(keyOf(a, b))]; }

@@ -47,7 +47,7 @@ Experiment experimentOf(Model model, double tick_in_dt_safe, int ticks) {
 }
 
 Track runOn(Backend backend, const Experiment& experiment, const Method& method) {
-  const std::unique_ptr<Ticks> solver = solverOn(backend, experiment.model, sceneFor(experiment, method), true);
+  const std::unique_ptr<TissueStepper> solver = solverOn(backend, experiment.model, sceneFor(experiment, method), true);
   solver->step(experiment.motions[0]);  // drivers finish compiling at the first use
   solver->readState();
   solver->reset();

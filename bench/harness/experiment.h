@@ -11,25 +11,26 @@
 
 namespace viscera::bench {
 
-/// A motion to be computed: what moves, from which state, what the styluses do in each tick.
+/// A motion to compute: the model, its initial state, and the motions of the tools in each tick.
 struct Experiment {
   Model model;
-  Scene scene;                       ///< tick, gravity, styluses; governor off
-  HostState start;                   ///< displacements and velocities of time 0
+  Scene scene;                       ///< tick, gravity, styluses; stability monitor off
+  HostState start;                   ///< displacements and velocities at time 0
   std::vector<ToolMotions> motions;  ///< [ticks]
   double dt_safe_s = 0;
 
   double duration_s() const { return static_cast<double>(motions.size()) / scene.solver.tick_hz; }
 };
 
-/// How it is computed.
+/// A method of time integration.
 struct Method {
   Integrator integrator = Integrator::kLeapfrog;
-  int substeps = 1;    ///< per tick
-  int iterations = 1;  ///< per substep, of those who iterate
+  int substeps = 1;    ///< number per tick
+  int iterations = 1;  ///< number per substep, for iterative methods
 
-  bool iterates() const { return traitsOf(integrator).iterates; }  ///< as often as it says
-  /// Gathers over all nodes per tick: what an explicit substep and an implicit iteration cost alike.
+  bool iterates() const { return traitsOf(integrator).iterates; }  ///< whether it iterates a given number of times
+  /// Returns the number of gathers over all nodes per tick, the common cost of an explicit substep and an implicit
+  /// iteration.
   int sweeps() const { return substeps * (iterates() ? iterations : 1); }
   bool operator==(const Method& other) const {
     return std::tie(integrator, substeps, iterations) == std::tie(other.integrator, other.substeps, other.iterations);
@@ -37,33 +38,34 @@ struct Method {
 };
 std::string nameOf(Integrator integrator);
 
-/// What came out of it.
+/// The result of an experiment.
 struct Track {
-  std::vector<Field> u_m;  ///< [ticks] displacements at the end of each
-  double wall_s = 0;       ///< without compiling kernels
+  std::vector<Field> u_m;  ///< [ticks] displacements at the end of each tick
+  double wall_s = 0;       ///< wall-clock time without compiling kernels [s]
 };
 
-/// No governor, no sleep. Ticks are `tick_in_dt_safe` times the largest stable substep long.
+/// Creates an experiment without stability monitor and sleep. A tick is `tick_in_dt_safe` times the largest stable
+/// substep.
 Experiment experimentOf(Model model, double tick_in_dt_safe, int ticks);
 
-/// In float32.
+/// Runs an experiment in float32.
 Track runOn(Backend backend, const Experiment& experiment, const Method& method);
-/// In float64. @param substeps  per tick
+/// Runs an experiment in float64. @param substeps  per tick
 Track runReference(const Experiment& experiment, int substeps,
                    ReferenceIntegrator integrator = ReferenceIntegrator::kLeapfrog);
-/// Richardson: what two tracks of substeps 2 dt and dt say of dt -> 0. @param order  of their error
+/// Extrapolates two tracks with substeps 2 dt and dt to dt -> 0 (Richardson). @param order  order of their error
 Track extrapolated(const Track& coarse, const Track& fine, int order);
 
-/// Nodal errors at the ends of all ticks over the largest displacement of the truth.
+/// Nodal errors at the ends of all ticks, relative to the largest displacement of the reference.
 struct Misfit {
   double rms = 0, max = 0;
 };
 Misfit misfit(const Model& model, const Track& track, const Track& truth);
 
-/// The larger one; not a number if either is none.
+/// Returns the larger error; NaN if either is NaN.
 double worse(double a, double b);
 
-/// log2 of what halving the substep divides the error by.
+/// Returns the order of convergence: log2 of the ratio of errors when the substep is halved.
 double slope(double coarse_error, double fine_error);
 
 }  // namespace viscera::bench

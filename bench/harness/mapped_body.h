@@ -15,22 +15,23 @@
 
 namespace viscera::bench {
 
-/// Where a point of the body at rest goes [m].
+/// Maps a point of the body at rest to its deformed position [m].
 using Deformation = std::function<Vector3d(const Vector3d& rest_m)>;
 
 std::string nameOf(Mapping mapping);
-/// The four of EGVE, and `auto`.
+/// Returns the four mappings of EGVE, and `auto`.
 const std::vector<Mapping>& allMappings();
 
-/// A body with a skin that follows it by one of the mappings.
+/// Creates a body with a surface mesh that follows it by one of the mappings.
 Model mappedModel(const Solid& solid, const TriangleMesh& mesh, Mapping mapping);
-/// Share of vertices that have the mapping asked for, 0..1; the others have the constant one.
+/// Returns the share of vertices with the requested mapping, 0..1; the others have the constant one.
 double shareAsAsked(const Model& model);
 
-/// The state of a body whose nodes were moved, as surfaces take it.
+/// Returns the state of a body with displaced nodes, in the form that surfaces take.
 StateSnapshot movedState(const Model& model, const std::vector<uint32_t>& bricks, const Deformation& deformation);
 
-/// A sphere's grid of 2 around (up - 1) triangles, closed, each vertex moved by a function of its direction.
+/// Creates a closed sphere grid of 2 around (up - 1) triangles; a function of the direction gives the position of each
+/// vertex.
 /// @param around, up  > 2
 TriangleMesh closedMesh(int around, int up, const std::function<Vector3d(const Vector3d& direction)>& place);
 

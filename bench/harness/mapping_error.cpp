@@ -12,9 +12,9 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kDifference = 1e-4;  // spacings: of the deformation, for its gradient
+constexpr double kDifference = 1e-4;  // [spacings] step of the finite differences for the gradient of the deformation
 
-/// Where a plane of tissue with this normal looks after the deformation.
+/// Returns the normal of a material plane after the deformation.
 Vector3d carriedNormal(const Deformation& deformation, const Vector3d& at_m, const Vector3d& normal, double step_m) {
   const Vector3d other = normal.unitOrthogonal(), third = normal.cross(other);
   const auto along = [&](const Vector3d& way) {
@@ -31,7 +31,7 @@ double meanOf(const std::vector<double>& values) {
 
 MappingError mappingError(const Model& model, const Deformation& deformation, MovedNormals normals_of_nodes) {
   HostSurface surface(model, normals_of_nodes);
-  ShownMesh shown;
+  VisibleMesh shown;
   surface.show(movedState(model, surface.shownBricks(), deformation), shown);
   const TriangleMesh& mesh = model.bodies[0].skin.mesh;
   const std::vector<Vector3f> normals = vertexNormals(mesh);

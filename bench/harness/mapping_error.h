@@ -10,18 +10,19 @@
 
 namespace viscera::bench {
 
-/// How far a mapped skin is from where the body is.
+/// Deviation of a mapped surface from the body.
 struct MappingError {
-  double mean = 0, p95 = 0, max = 0;       ///< places, in spacings of the lattice
-  double normal_mean = 0, normal_p95 = 0;  ///< shading normals [deg]
+  double mean = 0, p95 = 0, max = 0;       ///< position errors, in spacings of the lattice
+  double normal_mean = 0, normal_p95 = 0;  ///< errors of shading normals [deg]
 };
 
-/// @param model  whose nodes go where `deformation` says; the mapping is that of its skin
-/// @param deformation  also of the skin's vertices, and smooth enough for differences of 1e-4 spacings
+/// Measures the error of a mapping.
+/// @param model  model with nodes displaced by `deformation`; the mapping is that of its surface
+/// @param deformation  also applied to the surface's vertices; smooth enough for differences of 1e-4 spacings
 MappingError mappingError(const Model& model, const Deformation& deformation,
                           MovedNormals normals = MovedNormals::kCarried);
 
-/// Columns that follow those which say what was measured, and the cells of one row.
+/// Returns the columns of errors, which follow those that describe the measurement; appendError() adds one row's cells.
 std::vector<Column> errorColumns();
 void appendError(const MappingError& error, std::vector<Cell>& row);
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kWidth_px = 900, kHeight_px = 600;
 constexpr size_t kColours = 8, kPointTypes = 13;
-constexpr size_t kFewValues = 8;  ///< a log axis with so few values is labelled with them
+constexpr size_t kFewValues = 8;  ///< number of values up to which a log axis is labelled with them
 
 std::string quoted(const std::string& text) {
   std::string out = "'";
@@ -27,7 +27,7 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
-/// Colour, dashes and points that tell curve number `index` from the others: gnuplot has 8 colours.
+/// Returns colour, dashes and point type that distinguish curve `index` from the others: gnuplot has 8 colours.
 std::string lookOf(Series::Style style, size_t index) {
   const std::string number = std::to_string(index % kPointTypes + 1), dashes = std::to_string(index / kColours + 1);
   const std::string line = " lt " + std::to_string(index % kColours + 1) + " lw 2 dt " + dashes,
@@ -49,7 +49,7 @@ size_t pointsOf(const Plot& plot, const Series& series) {
   return count;
 }
 
-/// Is a number short enough to be read below an axis, such as 0.75 or 10000?
+/// Returns whether a number is short enough for a label of an axis, such as 0.75 or 10000.
 bool isShortNumber(double value) {
   constexpr size_t kLongest = 6;
   std::ostringstream text;
@@ -57,7 +57,7 @@ bool isShortNumber(double value) {
   return text.str().size() <= kLongest;
 }
 
-/// Ticks of a log axis that say where the points are; none where there are too many, or measured ones.
+/// Returns ticks of a log axis at the points; empty if there are too many points or they are measured values.
 std::string ticksOf(const Plot& plot) {
   std::set<double> values;
   for (const Series& s : plot.series) {
@@ -87,7 +87,7 @@ void Plot::writeScript(std::ostream& out, const std::string& png) const {
   if (log_y) out << "set logscale y\nset format y '%g'\n";
   std::string curves;
   for (size_t s = 0; s < series.size(); ++s) {
-    if (pointsOf(*this, series[s]) == 0) continue;  // gnuplot takes an empty curve for an error
+    if (pointsOf(*this, series[s]) == 0) continue;  // gnuplot fails on an empty curve
     const std::string block = "$series" + std::to_string(s);
     out << block << " << END_OF_SERIES\n";
     for (size_t i = 0; i < std::min(series[s].x.size(), series[s].y.size()); ++i) {

@@ -20,16 +20,16 @@ struct Plot {
   std::string title, x_label, y_label;
   bool log_x = false, log_y = false;
   std::vector<Series> series;
-  bool equal_axes = false;  ///< a unit is as long along y as along x
+  bool equal_axes = false;  ///< whether both axes have the same scale
 
-  /// Is there a point to draw?
+  /// Returns whether there is a point to draw.
   bool hasPoints() const;
-  /// gnuplot commands with the data among them. @param png  file that they draw
+  /// Writes gnuplot commands that include the data. @param png  file that they draw
   void writeScript(std::ostream& out, const std::string& png) const;
 };
 
 enum class Drawn { kYes, kNoGnuplot, kFailed };
-/// Runs `gnuplot script` in a folder, which takes file names in the script from there; what it says goes to stderr.
+/// Runs `gnuplot script` in a folder, to which file names in the script are relative. Its messages go to stderr.
 Drawn runGnuplot(const std::string& folder, const std::string& script);
 
 }  // namespace viscera::bench

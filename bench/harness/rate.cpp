@@ -19,7 +19,7 @@ double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// The first tick compiles and allocates, the second says how long one takes.
+/// Returns the number of ticks in a time. The first tick compiles and allocates, the second measures the duration.
 int ticksIn(const std::function<double()>& tick, double seconds) {
   tick();
   const Clock::time_point start = Clock::now();
@@ -27,7 +27,7 @@ int ticksIn(const std::function<double()>& tick, double seconds) {
   return std::max(1, static_cast<int>(std::ceil(seconds / secondsSince(start))));
 }
 
-/// [s] per substep
+/// Returns the time per substep [s].
 double substepTime(const std::function<double()>& tick, int ticks) {
   double substeps = 0;
   const Clock::time_point start = Clock::now();
@@ -65,7 +65,7 @@ Candidate candidate(const std::string& name, std::shared_ptr<Solver> solver, siz
           [solver = std::move(solver), motions] { return stepAndWait(*solver, motions); }};
 }
 
-std::shared_ptr<Ticks> onCpu(const Specimen& specimen, int threads, const std::string& simd) {
+std::shared_ptr<TissueStepper> onCpu(const Specimen& specimen, int threads, const std::string& simd) {
   Scene scene = specimen.scene;
   scene.solver.threads = threads;
   CpuSolverOptions options;
@@ -75,7 +75,7 @@ std::shared_ptr<Ticks> onCpu(const Specimen& specimen, int threads, const std::s
   return solver;
 }
 
-std::shared_ptr<Ticks> onGpu(const Specimen& specimen) {
+std::shared_ptr<TissueStepper> onGpu(const Specimen& specimen) {
   auto solver = std::make_shared<GpuSolver>(specimen.model, specimen.scene);
   solver->writeState(specimen.start);
   return solver;

@@ -19,7 +19,8 @@ Report::Report(std::string suite, SuiteOptions options, std::ostream& text)
     : suite_(std::move(suite)), options_(std::move(options)), text_(text) {
   std::error_code error;
   fs::create_directories(options_.out, error);
-  if (!fs::is_directory(options_.out)) throw Error("--out " + options_.out + ": no such folder, and it cannot be made");
+  if (!fs::is_directory(options_.out))
+    throw Error("--out " + options_.out + ": the folder does not exist and cannot be created");
 }
 
 void Report::stage(const std::string& what) const {
@@ -51,7 +52,7 @@ void Report::add(const Table& table, const std::string& stem) {
 
 void Report::add(const Plot& plot, const std::string& stem) {
   if (!plot.hasPoints()) {
-    note("no plot '" + plot.title + "': it has no point");
+    note("no plot '" + plot.title + "': it has no points");
     return;
   }
   const std::string script = fileName(stem, ".gp");
@@ -60,7 +61,8 @@ void Report::add(const Plot& plot, const std::string& stem) {
   file.close();
   const Drawn drawn = runGnuplot(options_.out, script);
   if (drawn == Drawn::kNoGnuplot && !said_no_gnuplot_) {
-    std::cerr << suite_ << ": gnuplot is not installed: no pictures; the tables are in " << options_.out << std::endl;
+    std::cerr << suite_ << ": gnuplot is not installed, so there are no plots; the tables are in " << options_.out
+              << std::endl;
     said_no_gnuplot_ = true;
   }
   if (drawn == Drawn::kFailed) std::cerr << suite_ << ": gnuplot could not draw " << script << std::endl;
@@ -98,7 +100,8 @@ void measureParts(Report& report, const std::vector<Part>& parts) {
     names += std::string(names.empty() ? "" : ", ") + part.name;
     found = found || report.only() == part.name;
   }
-  if (!found) throw Error("--only " + report.only() + ": suite " + report.suite() + " has the parts " + names);
+  if (!found)
+    throw Error("--only " + report.only() + ": unknown part; suite " + report.suite() + " has the parts " + names);
   for (const Part& part : parts) {
     if (report.only().empty() || report.only() == part.name) part.measure(report);
   }

@@ -18,32 +18,32 @@ class Context;
 namespace viscera::bench {
 
 struct SuiteOptions {
-  std::string out = "out/bench";  ///< folder of CSV files and plots; made if it is not there
+  std::string out = "out/bench";  ///< folder of CSV files and plots; created if necessary
   bool short_form = false;        ///< the form that scripts/test runs: under 20 s on two cores
-  /// kCpu, kGpu: where the suites that judge results measure every row. One with the GPU needs a current context.
+  /// Backends on which the suites with pass criteria measure every row: kCpu, kGpu. The GPU requires a current context.
   std::vector<Backend> backends = {Backend::kCpu, Backend::kGpu};
-  gpu::Context* context = nullptr;  ///< that one
-  std::string only;                 ///< the part to measure, of suites that have parts; empty: all
-  std::string data;                 ///< file of measured values, of suites that take one; empty: none
-  std::vector<int> nodes;           ///< sizes of bodies, of suites that take them; empty: the suite's own
-  std::string scene;                ///< in place of those bodies; empty: none
-  Overrides overrides;              ///< of that scene
-  int threads = 0;                  ///< of the CPU backend there; 0: as many as there are processors
+  gpu::Context* context = nullptr;  ///< context for the GPU
+  std::string only;                 ///< name of the only part to measure, for suites with parts; empty: all
+  std::string data;                 ///< file of measured values, for suites that take one; empty: none
+  std::vector<int> nodes;           ///< sizes of bodies, for suites that take them; empty: the suite's own
+  std::string scene;                ///< scene that replaces those bodies; empty: none
+  Overrides overrides;              ///< overrides of that scene
+  int threads = 0;                  ///< threads of the CPU backend for it; 0: number of CPU cores
 };
 
-/// One number that must be reached.
+/// A number with a limit.
 struct Check {
   std::string name;
   double measured, limit;
-  bool at_least;  ///< the limit is a lower one
+  bool at_least;  ///< whether the limit is a lower bound
   bool ok;
 };
 
-/// What a suite finds: tables and plots as they come, checks at the end.
+/// The results of a suite: tables and plots as they are measured, checks at the end.
 class Report {
  public:
-  /// @param suite  its name: first word of every file name   @param text  tables are printed there
-  /// @throws Error  the folder cannot be made
+  /// @param suite  name, the prefix of every file name   @param text  stream to which tables are printed
+  /// @throws Error  the folder cannot be created
   Report(std::string suite, SuiteOptions options, std::ostream& text);
 
   bool isShort() const { return options_.short_form; }
@@ -56,17 +56,17 @@ class Report {
   const std::vector<Backend>& backends() const { return options_.backends; }
   gpu::Context* context() const { return options_.context; }  ///< null: no GPU backend
   const std::string& suite() const { return suite_; }
-  /// Says on standard error what is measured next.
+  /// Prints on standard error what is measured next.
   void stage(const std::string& what) const;
-  /// One line of text, such as what a table does not say.
+  /// Prints one line of text, for remarks that are not in a table.
   void note(const std::string& line);
   /// Prints the table and writes <out>/<suite>_<stem>.csv. @throws Error  it cannot be written
   void add(const Table& table, const std::string& stem);
-  /// Writes <out>/<suite>_<stem>.gp and has gnuplot draw <suite>_<stem>.png; without gnuplot it says so, once.
+  /// Writes <out>/<suite>_<stem>.gp and runs gnuplot to draw <suite>_<stem>.png; reports a missing gnuplot once.
   void add(const Plot& plot, const std::string& stem);
   /// Writes <out>/<suite>_<stem>.png. @param rgb  [3 * width * height] sRGB, rows from the top
   void add(const std::vector<uint8_t>& rgb, int width, int height, const std::string& stem);
-  /// |measured| <= limit; what is not a number misses.
+  /// Checks |measured| <= limit; NaN fails.
   void checkAtMost(const std::string& name, double measured, double limit);
   void checkAtLeast(const std::string& name, double measured, double limit);
   /// Prints all checks and writes <out>/<suite>_checks.csv.
@@ -85,12 +85,12 @@ class Report {
   bool said_no_gnuplot_ = false;
 };
 
-/// A part of a suite, which may be measured alone.
+/// A part of a suite, which can be measured alone.
 struct Part {
   const char* name;
   void (*measure)(Report& report);
 };
-/// Measures all parts, or the one that the report's options name. @throws Error  there is none of that name
+/// Measures all parts, or the one in the report's options. @throws Error  there is no part of that name
 void measureParts(Report& report, const std::vector<Part>& parts);
 
 }  // namespace viscera::bench

@@ -41,8 +41,8 @@ std::string nameOf(Wanted wanted) {
   }
 }
 
-Wants wantsOf(const Session& session, Wanted wanted) {
-  Wants out;
+FrameRequest wantsOf(const Session& session, Wanted wanted) {
+  FrameRequest out;
   out.surface = wanted == Wanted::kSurface || wanted == Wanted::kSurfaceAndImages;
   if (wanted == Wanted::kNothing || wanted == Wanted::kSurface) return out;
   for (size_t c = 0; c < session.scene().cameras.size(); ++c)

@@ -10,35 +10,35 @@
 
 namespace viscera::bench {
 
-/// What a viewer of a session subscribes to.
+/// Outputs to which a viewer of a session subscribes.
 enum class Wanted { kNothing, kSurface, kImages, kSurfaceAndImages, kEveryImage };
 std::string nameOf(Wanted wanted);
-/// The wants of the coming step: images at the rates of the cameras, or after every tick (kEveryImage).
-Wants wantsOf(const Session& session, Wanted wanted);
+/// Returns the outputs of the next step: images at the rates of the cameras, or after every tick (kEveryImage).
+FrameRequest wantsOf(const Session& session, Wanted wanted);
 
-/// A probe that works on a body. It waits until the tissue has sagged, comes from the patient's left and presses into
-/// it; then it goes in and out once a second of simulated time.
+/// A probe that works on a body. It waits until the tissue has sagged, approaches from the patient's left and presses
+/// into it. Then it moves in and out once per second of simulated time.
 class Pressing {
  public:
-  /// Steps the session until the probe is in.
+  /// Steps the session until the probe is inside.
   explicit Pressing(Session& session);
-  /// The pose of the session's next tick, received now.
+  /// Returns the pose for the session's next tick, received now.
   StylusSamples now() const;
 
  private:
   const Session& session_;
   uint64_t start_tick_;
-  Vector3d touching_m_;  ///< where the tip is when the probe just touches
+  Vector3d touching_m_;  ///< position of the tip when contact begins [m]
 };
 
 struct SessionSpeed {
   int ticks = 0;
-  double tick_s = 0;  ///< mean, what is asked for included
-  ViewCounters work;  ///< done in these ticks
+  double tick_s = 0;  ///< mean time of a tick with the requested outputs [s]
+  ViewCounters work;  ///< work in these ticks
 };
 
-/// Steps a session as fast as it goes, then waits for what is under way. Three ticks warm up.
-/// @param samples  of the next tick
+/// Steps a session as fast as possible, then waits for outputs in flight. Three ticks warm up.
+/// @param samples  returns the samples of the next tick
 SessionSpeed measureSession(Session& session, Wanted wanted, double seconds,
                             const std::function<StylusSamples()>& samples);
 

@@ -10,8 +10,8 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr int kReach = 5;                                            // of the window, to either side
-constexpr double kSigma_px = 1.5;                                    // of the window
+constexpr int kReach = 5;                                            // radius of the window [pixels]
+constexpr double kSigma_px = 1.5;                                    // standard deviation of the window
 constexpr double kLuminance = 2.55 * 2.55, kContrast = 7.65 * 7.65;  // (0.01 and 0.03 of 255) squared
 
 using Plane = std::vector<double>;
@@ -28,7 +28,7 @@ Plane product(const Plane& a, const Plane& b) {
   return out;
 }
 
-/// Means over the window; at borders pixels repeat.
+/// Returns means over the window; pixels repeat at borders.
 Plane smoothed(const Plane& plane, int width, int height) {
   std::array<double, 2 * kReach + 1> weights{};
   double sum = 0;

@@ -7,13 +7,13 @@
 
 namespace viscera::bench {
 
-/// Mean structural similarity of two pictures (Wang et al. 2004, their constants and 11 x 11 Gaussian window), of their
-/// luma. 1: the same.
+/// Mean structural similarity of the luma of two images (Wang et al. 2004, their constants and 11 x 11 Gaussian
+/// window). 1: equal.
 struct Similarity {
-  double all = 1;   ///< over the whole picture
-  double seen = 1;  ///< over pixels where the second one differs from its first pixel: without the background
+  double all = 1;   ///< over the whole image
+  double seen = 1;  ///< over pixels at which the second image differs from its first pixel: without the background
 };
-/// @param rgb, reference  [3 * width * height] RGB8
+/// Compares two images. @param rgb, reference  [3 * width * height] RGB8
 Similarity similarity(const std::vector<uint8_t>& rgb, const std::vector<uint8_t>& reference, int width, int height);
 
 }  // namespace viscera::bench

@@ -52,7 +52,7 @@ void Table::print(std::ostream& out) const {
     for (const auto& row : rows_) width = std::max(width, row[c].text(columns_[c].digits).size());
     widths.push_back(width);
   }
-  // Numbers to the right, words to the left.
+  // Aligns numbers right and words left.
   const auto put = [&](size_t c, const std::string& text, bool right) {
     const std::string space(widths[c] - text.size(), ' ');
     const bool last = c + 1 == columns_.size();

@@ -11,11 +11,11 @@ namespace viscera::bench {
 
 struct Column {
   std::string name;
-  std::string unit = {};  ///< as in "Pa"; empty: none
-  int digits = 4;         ///< significant ones of a number that is printed
+  std::string unit = {};  ///< such as "Pa"; empty: none
+  int digits = 4;         ///< number of significant digits when printed
 };
 
-/// A word or a number. A word that is empty stands for "not measured".
+/// A word or a number. An empty word means "not measured".
 class Cell {
  public:
   Cell(std::string text) : value_(std::move(text)) {}
@@ -23,27 +23,28 @@ class Cell {
   Cell(double number) : value_(number) {}
   Cell(int number) : value_(static_cast<double>(number)) {}
   bool isNumber() const { return std::holds_alternative<double>(value_); }
-  /// @throws std::bad_variant_access  a word
+  /// Returns the number. @throws std::bad_variant_access  it is a word
   double number() const { return std::get<double>(value_); }
-  /// @param digits  significant ones of a number
+  /// Returns the cell as text. @param digits  significant digits of a number
   std::string text(int digits) const;
 
  private:
   std::variant<std::string, double> value_;
 };
 
-/// Results in rows and columns: printed aligned for a person, written as CSV for a program.
+/// Results in rows and columns, printed with alignment or written as CSV.
 class Table {
  public:
   Table(std::string title, std::vector<Column> columns);
-  /// @param row  one cell per column  @throws std::invalid_argument  more or fewer
+  /// Adds a row. @param row  one cell per column  @throws std::invalid_argument  more or fewer cells
   void add(std::vector<Cell> row);
   const std::string& title() const { return title_; }
   const std::vector<Column>& columns() const { return columns_; }
   const std::vector<std::vector<Cell>>& rows() const { return rows_; }
 
   void print(std::ostream& out) const;
-  /// Head line "name [unit]", then one line per row; numbers with 9 digits, words quoted where they must be (RFC 4180).
+  /// Writes a header line "name [unit]", then one line per row; numbers with 9 digits, words quoted if necessary (RFC
+  /// 4180).
   void writeCsv(std::ostream& out) const;
 
  private:

@@ -6,7 +6,7 @@ namespace viscera::bench {
 
 namespace {
 
-/// Curves that are drawn: gnuplot has eight colours. The table has all.
+/// Returns whether a curve is drawn, since gnuplot has eight colours. The table has all.
 bool isDrawn(const Method& method) {
   return !method.iterates() || method.iterations == 2 || method.iterations == 10 || method.iterations == 50;
 }

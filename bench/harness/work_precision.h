@@ -7,11 +7,12 @@
 
 namespace viscera::bench {
 
-/// Work-precision diagram: runs every method on every backend, prints a row each with the wall times side by side,
-/// plots error against sweeps, a file per backend, and against wall time per simulated second. A curve per integrator
-/// and number of iterations: of these 2, 10 and 50, or all in the short form; against wall time 10 alone.
-/// @param stem  of the file names   @param title  of table and plots
-/// @return errors of each backend of the report, in the order of the methods
+/// Draws a work-precision diagram. Runs every method on every backend, prints a row for each with the wall times of the
+/// backends, and plots the error against sweeps (a file per backend) and against wall time per simulated second. There
+/// is a curve per integrator and number of iterations: for these 2, 10 and 50, or all in the short form; against wall
+/// time only 10.
+/// @param stem  stem of the file names   @param title  title of table and plots
+/// @return errors on each backend of the report, in the order of the methods
 std::vector<std::vector<Misfit>> drawWorkPrecision(Report& report, const Experiment& experiment, const Track& truth,
                                                    const std::vector<Method>& methods, const std::string& stem,
                                                    const std::string& title);

@@ -7,12 +7,12 @@ Needs Debian's packages calculix-ccx and python3-numpy. To print the table of be
 
     bench/references/walls.py --work FOLDER [--levels 1 2] [NAME ...]
 
-Each organ is a map of the unit cube: s along the organ from its closed or free end to the end that is held, f around it,
-t across its wall. bench/suites/walls/walls_shapes.cpp has the same maps. Elements have twenty nodes (fifteen at a pole), all
-of them on the map; where organ and load are symmetric, half of the organ is meshed. A level is half the number of elements
-across the wall; those along it are 6 mm over the level and shorter towards the end that is held. The mean displacement
-along the load is weighted by mass: the work of the load over the load, twice the elastic energy over it. Elements with full
-and with reduced integration have different errors; the reference is what both tend to, by the two finest levels.
+Each organ is a map of the unit cube: s along the organ from its closed or free end to its fixed end, f around it, t across
+its wall. bench/suites/walls/walls_shapes.cpp has the same maps. Elements have twenty nodes (fifteen at a pole), all of them
+on the map; if organ and load are symmetric, half of the organ is meshed. A level is half the number of elements across the
+wall; those along it are 6 mm divided by the level, and shorter towards the fixed end. The mean displacement along the load
+is weighted by mass: the work of the load over the load, twice the elastic energy over it. Elements with full and with
+reduced integration have different errors; the reference is the common limit of both, from the two finest levels.
 """
 import argparse
 import math
@@ -26,12 +26,13 @@ import numpy as np
 YOUNG_PA, DENSITY, GRAVITY = 20e3, 1060.0, 9.81
 RATIOS = (0.3, 0.45, 0.49)
 KINDS = ("C3D20", "C3D20R")  # full and reduced integration; the former is always too stiff
-ELEMENT_M = 0.006  # along the wall, over the level
-CROWDED = 1.7  # power by which elements become shorter towards the end that is held
+ELEMENT_M = 0.006  # size along the wall, divided by the level
+CROWDED = 1.7  # exponent by which elements become shorter towards the fixed end
 
 
 def ellipsoid(axes, wall, cut):
-    """Returns the map of an ellipsoid with its pole at -z, cut off at z = `cut`; the axes of its inside are less by the wall."""
+    """Returns the map of an ellipsoid with its pole at -z, cut off at z = `cut`; the axes of its inside are shorter by
+    the wall."""
     def place(s, f, t):
         a, b, c = (axis - wall * (1 - t) for axis in axes)
         angle = s * np.arccos(-cut / c)
@@ -40,7 +41,7 @@ def ellipsoid(axes, wall, cut):
 
 
 def bowl(s, f, t):
-    """Maps half a sphere of radius 40 mm, wall 3 mm, that opens up, with its pole at -y, cut off at y = 25 mm."""
+    """Maps half a sphere of radius 40 mm, wall 3 mm, with an opening, with its pole at -y, cut off at y = 25 mm."""
     r = 0.037 + 0.003 * t
     angle = s * np.arccos(-0.025 / r)
     return np.stack([r * np.sin(angle) * np.cos(f), -r * np.cos(angle), r * np.sin(angle) * np.sin(f)], -1)
@@ -50,7 +51,7 @@ def tube(s, f, t):
     """Maps a tube of radius 12 mm, wall 3 mm: 20 mm along x, a quarter turn of radius 35 mm, 20 mm up to z = 0."""
     r = 0.009 + 0.003 * t
     turn, leg = 0.035 * math.pi / 2, 0.020
-    way = (1 - s) * (2 * leg + turn)  # from the end that is held
+    way = (1 - s) * (2 * leg + turn)  # from the fixed end
     bent = np.clip(way - leg, 0, turn) / 0.035
     x = 0.035 * (1 - np.cos(bent)) + np.maximum(way - leg - turn, 0)
     z = -np.minimum(way, leg) - 0.035 * np.sin(bent)
@@ -58,7 +59,7 @@ def tube(s, f, t):
 
 
 def torus(s, f, t):
-    """Maps half of a torus of radii 30 and 12 mm, wall 3 mm; both ends are held at y = 0."""
+    """Maps half of a torus of radii 30 and 12 mm, wall 3 mm; both ends are fixed at y = 0."""
     r = 0.009 + 0.003 * t
     around = math.pi / 2 * (1 - s)
     out = 0.030 + r * np.cos(f)
@@ -66,17 +67,17 @@ def torus(s, f, t):
 
 
 def stomach(s, f, t):
-    """Maps an ellipsoid of 28 x 28 x 60 mm, wall 4 mm, cut off at 45 mm, bent by a radius of 60 mm; it is held at z = 0."""
+    """Maps an ellipsoid of 28 x 28 x 60 mm, wall 4 mm, cut off at 45 mm, bent with a radius of 60 mm, fixed at z = 0."""
     place = ellipsoid((0.028, 0.028, 0.060), 0.004, 0.045)(s, f, t)
     bent, out = (0.045 - place[..., 2]) / 0.060, 0.060 - place[..., 0]
     return np.stack([0.060 - out * np.cos(bent), place[..., 1], -out * np.sin(bent)], -1)
 
 
 class Organ:
-    """What is meshed of an organ, and how.
+    """The meshed part of an organ, and its parameters.
 
     place: map; lengths: [m] along s, and around at its widest for the range of f; around: that range; wall: [m];
-    load: direction of gravity; mirror: axis whose displacement is nil in the plane of symmetry.
+    load: direction of gravity; mirror: axis along which the displacement is zero in the plane of symmetry.
     """
 
     def __init__(self, place, lengths, around, load, mirror, pole=True):
@@ -93,7 +94,7 @@ ORGANS = {
     "stomach": Organ(stomach, (0.120, 0.088), HALF, (-1, 0, 0), 1),
 }
 
-# Corners and middles of edges of an element, as half steps along s, f, t; CalculiX's order.
+# Corners and edge midpoints of an element, as half steps along s, f, t, in CalculiX's order.
 HEXAHEDRON = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2),
               (1, 0, 0), (2, 1, 0), (1, 2, 0), (0, 1, 0), (1, 0, 2), (2, 1, 2), (1, 2, 2), (0, 1, 2),
               (0, 0, 1), (2, 0, 1), (2, 2, 1), (0, 2, 1)]
@@ -104,14 +105,14 @@ MIRRORED = {20: [4, 5, 6, 7, 0, 1, 2, 3, 12, 13, 14, 15, 8, 9, 10, 11, 16, 17, 1
 
 
 def with_middles(steps):
-    """Returns the ends of elements along an axis and the middles between them, in order."""
+    """Returns the ends of elements along an axis and the midpoints between them, in order."""
     out = np.empty(2 * len(steps) - 1)
     out[::2], out[1::2] = steps, (steps[1:] + steps[:-1]) / 2
     return out
 
 
 class Mesh:
-    """Nodes [m] and elements of an organ, with the nodes that are held and those in the plane of symmetry."""
+    """Nodes [m] and elements of an organ, with the fixed nodes and those in the plane of symmetry."""
 
     def __init__(self, organ, level):
         counts = [max(2, round(length / ELEMENT_M * level)) for length in organ.lengths] + [2 * level]
@@ -136,7 +137,7 @@ class Mesh:
         self.used = used
 
     def stack(self, pattern, along, counts):
-        """Returns the nodes of elements of one kind, turned so that their volume is positive."""
+        """Returns the nodes of elements of one kind, ordered such that their volume is positive."""
         out = [[self.at[2 * i + a, 2 * j + b, 2 * k + c] for a, b, c in pattern]
                for i in along for j in range(counts[1]) for k in range(counts[2])]
         out = np.array(out, int).reshape(-1, len(pattern))
@@ -150,7 +151,7 @@ class Mesh:
 
 
 class Block:
-    """The block of two materials: 60 x 40 x 30 mm, soft up to x = 4.3 mm and stiff beyond, held at x = 30 mm; half of it."""
+    """Half of the block of two materials: 60 x 40 x 30 mm, soft up to x = 4.3 mm and stiff beyond, held at x = 30 mm."""
 
     BORDER = 0.0043
 
@@ -171,13 +172,13 @@ class Block:
 
 
 def write_ids(out, ids):
-    """Writes numbers of nodes or elements, counted from 1, in lines of a set."""
+    """Writes numbers of nodes or elements, counted from 1, as lines of a set."""
     for i in range(0, len(ids), 12):
         out.write(", ".join(str(k + 1) for k in ids[i:i + 12]) + ",\n")
 
 
 def write_deck(path, mesh, kind_of_20, ratio, load, mirror):
-    """Writes CalculiX's input: weight alone, linear."""
+    """Writes CalculiX's input: weight only, linear."""
     soft = set(getattr(mesh, "soft", ()))
     with open(path, "w") as out:
         out.write("*NODE, NSET=ALL\n")
@@ -232,7 +233,8 @@ def run(folder, name, mesh, kind, ratio, load, mirror):
 
 
 def limit(coarse, fine):
-    """Returns what both kinds of element tend to, if their errors shrink by the same factor, from two levels of both."""
+    """Returns the common limit of both kinds of element, from two levels of both, if their errors shrink by the same
+    factor."""
     gained = [new - old for old, new in zip(coarse, fine)]
     apart = gained[0] - gained[1]
     further = (fine[1] - fine[0]) / apart if abs(apart) > 1e-4 * fine[0] else 0

@@ -15,7 +15,7 @@
 #include "bench/suites/pace/performance_suites.h"
 #include "bench/suites/speed/speed_suite.h"
 #include "bench/suites/stability/stability_suite.h"
-#include "bench/suites/thread/thread_suite.h"
+#include "bench/suites/suture/suture_suite.h"
 #include "bench/suites/validate/validate_suite.h"
 #include "bench/suites/walls/walls_suite.h"
 #include "viscera/gpu/context.h"
@@ -24,13 +24,13 @@ namespace viscera::bench {
 
 namespace {
 
-/// A suite that needs the context current at most.
+/// A suite that needs at most a current context.
 template <void (*kRun)(Report&)>
 void run(Report& report, gpu::Context* /*context*/) {
   kRun(report);
 }
 
-/// A suite about speed, which shows both backends side by side.
+/// A suite about speed, which compares both backends.
 template <void (*kRun)(Report&, gpu::Context&)>
 void run(Report& report, gpu::Context* context) {
   kRun(report, *context);
@@ -40,29 +40,40 @@ void run(Report& report, gpu::Context* context) {
 
 const std::vector<Suite>& suites() {
   static const std::vector<Suite> all = {
-      {"material", "does the lattice have the elasticity that was asked for?", run<materialSuite>, true},
-      {"accuracy", "what do substeps and float32 cost in error, and error in time?", run<accuracySuite>, true},
-      {"stability", "does tissue stay finite and bounded whatever is done to it?", run<stabilitySuite>, true},
-      {"speed", "substeps per second by size, instruction set and connections, beside VR05 Table 1; what is left out",
+      {"material", "measure the elasticity of the lattice against the requested one", run<materialSuite>, true},
+      {"accuracy", "measure the error from substeps and float32, and the time that a smaller error costs",
+       run<accuracySuite>, true},
+      {"stability", "test that tissue stays finite and bounded whatever is done to it", run<stabilitySuite>, true},
+      {"speed",
+       "measure substeps per second by size, instruction set and connections, compared with VR05 Table 1, and the gain "
+       "from leaving features out",
        run<speedSuite>, true, true, false, true},
-      {"gw", "Georgii & Westermann's tables, and the errors of their ways", run<gwSuite>},
-      {"egve", "what do the mappings of the skin cost, and how far off are they (EGVE 3.4)?", run<egveSuite>, true},
-      {"cut", "pictures per second by length of an incision (VR05 figure 11), rate by share of springs cut",
+      {"gw", "measure the tables of Georgii & Westermann, and the errors of their methods", run<gwSuite>},
+      {"egve", "measure the time and the error of the mappings of the surface mesh (EGVE 3.4)", run<egveSuite>, true},
+      {"cut",
+       "measure pictures per second by length of an incision (VR05 figure 11), and the rate by share of springs cut",
        run<cutSuite>},
-      {"blade", "force and work of blades that tissue resists, by spacing, stiffness, angle, speed and slicing",
+      {"blade", "measure force and work of blades that tissue resists, by spacing, stiffness, angle, speed and slicing",
        run<bladeSuite>, false, true},
-      {"thread", "bending, hanging, sliding, pulling and cost of threads, beside the laws of docs/thread.md",
-       run<threadSuite>, false, true},
-      {"validate", "measured silicone rubbers and a sphere on a half space, foretold by scenes", run<validateSuite>,
-       false, true, true},
-      {"walls", "how far do thin-walled organs and a block of two materials hang, beside CalculiX's?", run<wallsSuite>,
-       false, true, false, false, false},
-      {"haptics", "simulated devices against tissue: what is felt, limit cycles, energy, by mass, delay and stiffness",
+      {"suture",
+       "measure bending, hanging, sliding, pulling and cost of sutures, compared with the laws of docs/sutures.md",
+       run<sutureSuite>, false, true},
+      {"validate", "compare scenes with measured silicone rubbers, and with a sphere on a half space",
+       run<validateSuite>, false, true, true},
+      {"walls", "measure the sag of thin-walled organs and of a block of two materials, compared with CalculiX",
+       run<wallsSuite>, false, true, false, false, false},
+      {"haptics",
+       "measure simulated devices against tissue: forces, limit cycles and energy, by mass, delay and stiffness",
        run<hapticsSuite>, false, true},
-      {"latency", "from a pose to its force and its picture; how even ticks are", run<latencySuite>},
-      {"picture", "what does a picture cost, stage by stage, and does the quick one look the same?", run<pictureSuite>},
-      {"busy", "what do threads gain beside other busy processes, which the suite starts itself?", run<busySuite>},
-      {"gpu", "work groups, ways to read neighbours, shares of this GPU's limits, large skins, read-back, memory",
+      {"latency", "measure the latency from a pose to its force and its picture, and how even ticks are",
+       run<latencySuite>},
+      {"picture", "measure the time of a picture, stage by stage, and whether the quick one looks the same",
+       run<pictureSuite>},
+      {"busy", "measure the gain of threads while other processes, which the suite starts itself, are busy",
+       run<busySuite>},
+      {"gpu",
+       "measure work groups, methods to read neighbours, shares of this GPU's limits, large surface meshes, read-back "
+       "and memory",
        run<gpuSuite>, false, true},
   };
   return all;

@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Learns to touch a target without pressing harder than 0.5 N, by the cross-entropy method, with NumPy alone.
 
-A policy is a matrix: from where the target lies, what is felt and how near it is, to where the tip goes. Of a population of
-such matrices drawn at random, those that earned most are what the next one is drawn about. Tested on targets that were not
-learned on. The same seed gives the same curve, to the bit.
+A policy is a matrix that maps the position of the target, the force and the distance to the motion of the tip. A population
+of random matrices is drawn; the best of them give the mean and spread of the next population. The test uses targets that
+were not used for learning. The same seed gives the same curve, bit by bit.
 """
 import argparse
 import sys
@@ -17,13 +17,13 @@ from viscera import gym
 
 LIMIT_N = 0.5
 FEATURES, ACTIONS = 8, 3
-ELITE = 0.2            # of the population
+ELITE = 0.2            # share of the population
 FIRST_SPREAD, LEAST_SPREAD = 1.0, 0.05
-TEST_SEED = 1_000_000  # targets that no learner sees: learners' seeds lie below
+TEST_SEED = 1_000_000  # targets that are not used for learning: seeds of learners are lower
 
 
 def features(observation):
-    """(envs, FEATURES): the way to the target in cm, level distance, force in units of the limit, whether it is felt, 1"""
+    """Returns (envs, FEATURES): vector to target [cm], horizontal distance, force over its limit, contact, proximity, 1."""
     way = 100 * (observation["goal"] - observation["poses"][:, 0, :3]).astype(float)
     level = np.linalg.norm(way[:, :2], axis=1, keepdims=True)
     force = np.linalg.norm(observation["forces"][:, 0, :3].astype(float), axis=1, keepdims=True) / LIMIT_N
@@ -31,8 +31,7 @@ def features(observation):
 
 
 def play(env, policies, seeds):
-    """Of each policy, in an environment of its own, in the episode of each seed: (policies, seeds) rewards, whether the
-    target was touched as it should be, and the largest force [N]."""
+    """Plays the episode of each seed with each policy. Returns (policies, seeds) rewards, successes and largest forces [N]."""
     rewards, done, peaks = [], [], []
     for seed in seeds:
         observation, _ = env.reset(seed=[int(seed)] * len(policies))
@@ -50,7 +49,7 @@ def play(env, policies, seeds):
 
 
 def tested(policy, episodes, threads):
-    """Share of new targets that are touched, that were never pressed above the limit, and the largest force [N]."""
+    """Returns the share of new targets touched without exceeding the force limit, and the largest force [N]."""
     env = gym.make_vec("touch", episodes, limit_n=LIMIT_N, threads=threads)
     observation, _ = env.reset(seed=TEST_SEED)
     won, peak, alive = np.zeros(episodes, bool), np.zeros(episodes), np.ones(episodes, bool)
@@ -64,7 +63,7 @@ def tested(policy, episodes, threads):
 
 
 def learn(seed, generations, population, targets, threads):
-    """The policy, and of each generation: mean reward, that of the best fifth, share of episodes that were won."""
+    """Returns the policy, and for each generation: mean reward, that of the best fifth, share of successful episodes."""
     rng = np.random.default_rng(seed)
     env = gym.make_vec("touch", population, limit_n=LIMIT_N, threads=threads)
     mean, spread = np.zeros((ACTIONS, FEATURES)), np.full((ACTIONS, FEATURES), FIRST_SPREAD)

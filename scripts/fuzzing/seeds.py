@@ -191,7 +191,7 @@ bodies:
 '''
 SCENE = BLOCK + 'styluses: [{name: left}]\n'
 RICH_SCENE = BLOCK + '''    color: [0.7, 0.2, 0.2]
-    material: {young_modulus_pa: 20000, poisson_ratio: 0.3, density_kg_per_m3: 1060, drag_per_s: 4, dashpot_ratio: 0.2}
+    material: {young_modulus_pa: 20000, poisson_ratio: 0.3, density_kg_per_m3: 1060, mass_damping_per_s: 4, stiffness_damping_ratio: 0.2}
     force_n: [0, 0, 0.01]
   - {name: ball, source: ball, ball_radius_m: 0.02, spacing_m: 0.01, position_m: [0, 0, 0.1], rotation_deg: [0, 10, 0]}
   - {name: cloth, source: sheet, structure: surface, box_size_m: [0.1, 0.1, 0.1], spacing_m: 0.02, thickness_m: 0.001}
@@ -207,7 +207,7 @@ cameras: [{name: eye, position_m: [0, -0.2, 0.05], target_m: [0, 0, 0], width_px
 obstacles: [{name: floor, shape: plane, position_m: [0, 0, -0.1], friction: 0.3}]
 collision: {bodies: true, friction: 0.2}
 environment: {gravity_m_per_s2: [0, 0, -9.81]}
-solver: {tick_hz: 60, integrator: leapfrog, dt_fraction: 0.8, governor: true, iterations: 20}
+solver: {tick_hz: 60, integrator: leapfrog, dt_fraction: 0.8, stability_monitor: true, iterations: 20}
 '''
 IMPLICIT_SCENE = BLOCK + 'solver: {integrator: pd, substeps: 2, iterations: 5, threads: 2}\n'
 STROKES_TEXT = '''strokes:
@@ -224,7 +224,7 @@ ANCHORED_TEXT = '''strokes:
 
 RECORDED_TEXT = '''tick_hz: 60
 ticks: 3
-hands_anew: [1, 3]
+input_reset: [1, 3]
 strokes:
   - stylus: left
     samples: |

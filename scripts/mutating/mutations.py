@@ -1,6 +1,6 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The edits of docs/paper_errors.md, row by row, for scripts/mutate: in `file` the text `old`, which stands there once,
+"""The edits of docs/papers.md, row by row, for scripts/mutate: in `file` the text `old`, which stands there once,
 becomes `new`; then the tests `tests` of `program` must fail."""
 
 from collections import namedtuple
@@ -46,7 +46,7 @@ MUTATIONS = [
              "features.compensated = isCompensated(scene.solver, dt_s);",
              "features.compensated = dt_s < 0 && scene.solver.compensated;", "test_solver",
              "*Integrate.ShortSubstepsLoseNoDigitsOfU*"),
-    Mutation("whole_first_kick", "src/solver/ticks/ticks.cpp", "restarted_ ? 0.5 * dt_s :", "restarted_ ? dt_s :", "test_solver",
+    Mutation("whole_first_kick", "src/solver/ticks/tissue_stepper.cpp", "restarted_ ? 0.5 * dt_s :", "restarted_ ? dt_s :", "test_solver",
              INTEGRATE),
     Mutation("no_stable_limit", "src/solver/tissue/substeps.cpp", "if (dt_s < limit_s) return;", "return;", "test_solver",
              "Substeps.ExplicitIntegratorsRefuse*"),
@@ -70,8 +70,8 @@ MUTATIONS = [
     Mutation("pose_jumps", "src/tools/motion_packing.cpp",
              "substep(motions[i], configs[i], static_cast<double>(s) / substeps, static_cast<double>(s + 1) / substeps);",
              "substep(motions[i], configs[i], s > 0 ? 1 : 0, 1);", "test_tools", "Interpolation.*"),
-    Mutation("never_held_back", "src/tools/hands.cpp", "motion.held_back = length > limits_.max_travel_m;",
-             "motion.held_back = false;", "test_tools", "HeldBack.*"),
+    Mutation("never_speed_limited", "src/tools/tools.cpp", "motion.speed_limited = length > limits_.max_travel_m;",
+             "motion.speed_limited = false;", "test_tools", "SpeedLimited.*"),
     Mutation("no_sweep", TOUCH, "nearestOnSegment(xyz(motion.from), xyz(motion.to), x);", "xyz(motion.to);",
              "test_solver", "*PaperErrors.ProbeThatPassesANode*"),
     Mutation("no_direction", TOUCH, "normalize(depth2 > 1e-12f * radius * radius ? out_of : fallback);",

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// depth.frag - nothing but depths.   Owner: render/tissue_painter.h
+// depth.frag - depths alone.   Owner: render/tissue_painter.h
 void main() {}

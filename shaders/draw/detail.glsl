@@ -1,15 +1,16 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// detail.glsl - what lies on the triangles of a skin beyond its vertices: colour, normal map and roughness (docs/detail.md).
-// Texture coordinates are affine functions of the rest position, one per triangle of the uncut skin (TextureChart), so that a
-// cut changes none of them. The tangent frame is that of the triangle as it is now.   Owner: render/detail_textures.h
+// detail.glsl - adds textures to the colours of vertices: colour, normal map and roughness (docs/surface.md).
+// Texture coordinates are affine functions of the rest position, one per triangle of the uncut mesh (TextureChart), so
+// that a cut changes none of them. The tangent frame is that of the deformed triangle.   Owner:
+// render/detail_textures.h
 layout(binding = kUnitCharts) uniform samplerBuffer charts;              // 3 texels each: u, v, (material, 0, 0, 0)
 layout(binding = kUnitMaterials) uniform samplerBuffer materials;        // 3 texels each, see DetailTextures
 layout(binding = kUnitColors) uniform sampler2DArray skin_colors;
 layout(binding = kUnitReliefs) uniform sampler2DArray skin_reliefs;      // xyz normal, w roughness
 
-/// A coordinate as the pictures, which repeat, shall see it: as it is, mirrored, or held within their texels.
+/// Returns a coordinate for repeating textures: as it is, mirrored, or clamped to texel centres.
 float wrapped(float x, float mode, float half_texel) {
   if (mode == 0.0) return x;
   float within = mode == 1.0 ? abs(mod(x - 1.0, 2.0) - 1.0) : x;
@@ -22,8 +23,8 @@ vec4 picture(sampler2DArray of, float layer, vec2 uv, vec2 modes, vec2 per_x, ve
   return textureGrad(of, vec3(at, layer), per_x, per_y);
 }
 
-/// The normal of a normal map about n, the outward normal. Tangents follow from how position and coordinates change from
-/// pixel to pixel: exact for the triangle as it is deformed, without anything stored.
+/// Returns the normal of a normal map about n, the outward normal. Tangents are computed from how position and
+/// coordinates change from pixel to pixel: exact for the deformed triangle, without stored tangents.
 vec3 reliefNormal(vec3 n, vec3 relief, vec3 position_x, vec3 position_y, vec2 uv_x, vec2 uv_y) {
   float area = uv_x.x * uv_y.y - uv_x.y * uv_y.x;
   float side = area < 0.0 ? -1.0 : 1.0;
@@ -36,7 +37,7 @@ vec3 reliefNormal(vec3 n, vec3 relief, vec3 position_x, vec3 position_y, vec2 uv
   return normalize(relief.x * t + relief.y * b + relief.z * n);
 }
 
-/// Puts what the fragment's triangle has upon the finish that vertices gave it. n is the outward normal.
+/// Adds the textures of the fragment's triangle to the material of its vertices. n is the outward normal.
 void addDetail(uint chart, vec3 rest, vec3 rest_x, vec3 rest_y, vec3 position_x, vec3 position_y, inout vec3 albedo, inout vec3 n,
                inout float roughness) {
   if (chart == kNoTextureChart) return;
@@ -53,9 +54,9 @@ void addDetail(uint chart, vec3 rest, vec3 rest_x, vec3 rest_y, vec3 position_x,
   }
   if (layers.y < 0.0) return;
   vec4 relief = picture(skin_reliefs, layers.y, uv, modes.zw, uv_x, uv_y);
-  vec3 bent = relief.xyz * (255.0 / 127.5) - (128.0 / 127.5);  // 128 is 0: what is flat is exactly so
-  float straight = clamp(length(bent) / 0.985, 0.1, 1.0);  // texels of 8 bits are up to so much too short
+  vec3 bent = relief.xyz * (255.0 / 127.5) - (128.0 / 127.5);  // 128 is 0: flat texels are exactly flat
+  float straight = clamp(length(bent) / 0.985, 0.1, 1.0);  // 8-bit texels are up to this much too short
   n = reliefNormal(n, vec3(layers.z * bent.xy, bent.z), position_x, position_y, uv_x, uv_y);
-  // What is too fine for the pixel is not lost: normals that differ within it are roughness (Toksvig).
+  // Normals that differ within a pixel become roughness (Toksvig).
   roughness = sqrt(sqrt(min(pow(max(roughness, 0.0) * relief.w, 4.0) + 0.5 * (1.0 - straight), 1.0)));
 }

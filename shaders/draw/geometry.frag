@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// geometry.frag - how far along the optical axis what is seen lies, and what it is.   Owners: render/renderer.h, render/obstacle_painter.h
-// ROUND: of a sphere or a capsule, whose triangles are drawn a little around it; pixels beside it are dropped.
+// geometry.frag - depth along the optical axis, and label.   Owners: render/renderer.h, render/obstacle_painter.h
+// ROUND: of a sphere or a capsule, drawn with triangles a little larger than it; pixels outside it are discarded.
 #include "layout.h"
 #include "tissue_code.glsl"
 
-uniform uint label;  // of a tool or an obstacle; 0: tissue, whose vertices tell
+uniform uint label;  // of a tool or an obstacle; 0: tissue, with labels in its vertices
 in vec3 position_m;
 in vec3 normal;
 in vec4 color;
@@ -15,21 +15,22 @@ layout(location = 1) out uint image_label;
 
 #ifdef ROUND
 uniform mat4 clip_from_optical;
-uniform vec4 first_end;  // xyz m, of the middle line, optical frame; w radius [m]
+uniform vec4 first_end;  // xyz m, of the centre line, optical frame; w radius [m]
 uniform vec4 last_end;   // xyz m
-const float kBehindSlope = 2.0, kBehind = 16.0 / 16777216.0;  // as obstacles are drawn: tissue that lies on one is seen
+const float kBehindSlope = 2.0, kBehind = 16.0 / 16777216.0;  // as obstacles are drawn: tissue in contact with one is
+                                                              // shown
 const float kMissed = 1e30;
 
-// Where the ray t * way, from the camera, first meets a sphere: t, or kMissed.
+// Returns where the ray t * way, from the camera, first meets a sphere: t, or kMissed.
 float sphereAt(vec3 way, vec3 centre_m, float radius_m) {
   float middle = dot(way, centre_m) / dot(way, way);
-  vec3 off_m = centre_m - middle * way;  // not by the difference of squares: the rim is where those cancel
+  vec3 off_m = centre_m - middle * way;  // a difference of squares would cancel at the rim
   float rest = radius_m * radius_m - dot(off_m, off_m);
   float t = middle - sqrt(max(rest, 0.0) / dot(way, way));
   return rest >= 0.0 && t > 0.0 ? t : kMissed;
 }
 
-// The same for the wall of the cylinder between the ends.
+// Returns the same for the wall of the cylinder between the ends.
 float wallAt(vec3 way, vec3 from_m, vec3 along_m, float radius_m) {
   float length2 = dot(along_m, along_m);
   if (length2 == 0.0) return kMissed;

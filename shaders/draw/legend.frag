@@ -6,19 +6,20 @@
 #include "strain_scale.glsl"
 
 in vec2 at;
-uniform vec4 digits;  // of the number at the end of the scale: 0..9, 10: a point, 11: nothing
+uniform vec4 digits;  // of the number at the end of the scale: 0..9, 10: a point, 11: empty
 layout(location = 0) out vec4 image;
 
 const float kTextHeight = 0.09;  // of the rectangle
 const uint kSegments[10] = uint[10](63u, 6u, 91u, 79u, 102u, 109u, 125u, 7u, 127u, 111u);  // bits: top, then clockwise, the middle one last
 
-/// Is a place in a line of 0.16 width around the segment a-b?
+/// Returns whether a place is in a line of 0.16 width around the segment a-b.
 bool on(vec2 p, vec2 a, vec2 b) {
   vec2 ab = b - a;
   return length(p - a - clamp(dot(p - a, ab) / dot(ab, ab), 0.0, 1.0) * ab) < 0.08;
 }
 
-/// Seven segments. @param p  (0, 0) left upper corner of the digit, (1, 2) right lower one
+/// Returns whether a place is in a digit of seven segments. @param p  (0, 0) upper left corner of the digit, (1, 2)
+/// lower right one
 bool isInk(vec2 p, int digit) {
   const vec2 a = vec2(0.2, 0.2), b = vec2(0.8, 0.2), c = vec2(0.8, 1.0), d = vec2(0.8, 1.8), e = vec2(0.2, 1.8), f = vec2(0.2, 1.0);
   if (digit == 10) return length(p - e) < 0.15;

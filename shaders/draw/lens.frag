@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// lens.frag - a picture as a lens with distortion shows it, of the one that a pinhole sees.   Owner: render/lens.h
-// GEOMETRY: depths and labels. A pixel has the label of the nearest of the pinhole's, and its depth, or where one surface is
-// around, that of the plane there.
+// lens.frag - the image of a lens with distortion, from that of a pinhole.   Owner: render/lens.h
+// GEOMETRY: depths and labels. A pixel has the label of the nearest pinhole pixel, and its depth or, where the
+// neighbours are of one surface, the depth of the plane there.
 #include "layout.h"
 #include "layout/seen.h"
 
@@ -11,7 +11,7 @@ layout(binding = kUnitSights) uniform sampler2D sights;
 #ifdef GEOMETRY
 layout(binding = kUnitPinholeDepths) uniform sampler2D pinhole_depths;
 layout(binding = kUnitPinholeLabels) uniform usampler2D pinhole_labels;
-uniform float steepest;  // see seen_parts.frag
+uniform float steepest;  // see pixel_classes.frag
 layout(location = 0) out float depth_m;
 layout(location = 1) out uint image_label;
 #else
@@ -26,7 +26,7 @@ void main() {
   depth_m = texelFetch(pinhole_depths, nearest, 0).r;
   image_label = texelFetch(pinhole_labels, nearest, 0).r;
   if (image_label == 0u) return;
-  float least = 1.0 / depth_m, most = least, mean = 0.0;  // of 1 / depth [1/m], which a plane changes evenly
+  float least = 1.0 / depth_m, most = least, mean = 0.0;  // of 1 / depth [1/m], which is linear on a plane
   bool one = true;
   for (int i = 0; i < 4; ++i) {
     ivec2 at = first + ivec2(i & 1, i >> 1);

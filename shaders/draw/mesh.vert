@@ -11,17 +11,17 @@ layout(location = 0) in vec3 mesh_position_m;
 layout(location = 1) in vec3 mesh_normal;
 layout(location = 2) in vec4 mesh_color;
 #ifdef REST
-layout(location = 3) in vec4 mesh_rest;  // xyz m at rest, w depth below the skin [m]
+layout(location = 3) in vec4 mesh_rest;  // xyz m at rest, w depth below the surface [m]
 out vec4 rest;
 #endif
 #ifdef GRAIN
 layout(binding = kUnitGrain) uniform sampler3D grain_texture;  // see grain.glsl
 out float patches;
-const float kPatchPeriod_m = 0.048;  // of the texture, for patches of some 6 mm: wider than triangles are
+const float kPatchPeriod_m = 0.048;  // of the texture, for patches of some 6 mm: larger than triangles
 #endif
 uniform mat4 optical_from_mesh;
 uniform mat4 clip_from_optical;
-invariant gl_Position;  // a pass for depths alone must meet the same
+invariant gl_Position;  // a depth-only pass must give the same
 out vec3 position_m;
 out vec3 normal;
 out vec4 color;

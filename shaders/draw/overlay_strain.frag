@@ -1,7 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// overlay_strain.frag - a surface in the colours of a scale, that a lamp at the eye models.   Owner: render/overlay_painter.h
+// overlay_strain.frag - a surface in the colours of a scale, shaded by a lamp at the eye.   Owner:
+// render/overlay_painter.h
 #include "shading.glsl"
 
 in vec3 position_m;

@@ -7,16 +7,17 @@ const vec3 kToKey = vec3(-0.5000, -0.6124, -0.6124);  // unit
 const vec3 kKeyLight = vec3(1.42, 1.36, 1.30);
 const vec3 kSkyLight = vec3(0.24, 0.25, 0.28);
 const vec3 kGroundLight = vec3(0.06, 0.045, 0.045);
-const vec3 kBesideLens_m = vec3(0.0015, -0.0040, 0.0);  // where light at the lens comes from
-const float kCavityFill = 0.5;                          // share of the fill light that is left where nothing else shines
-const float kMostNearness = 16.0;                       // of light at the lens, over that at the distance it is set for
+const vec3 kBesideLens_m = vec3(0.0015, -0.0040, 0.0);  // position of the lamp at the lens
+const float kCavityFill = 0.5;                          // share of the fill light where no other light reaches
+const float kMostNearness = 16.0;                       // largest light at the lens, over that at the distance that it
+                                                        // is set for
 
 #ifdef LENS_LIGHT         // some camera has it
 uniform int lens_lights;  // 1: the key light is at the lens; 0: it is the lamp
 uniform vec2 lens_light;  // x distance at which it is as bright as the lamp [m], y tangent of half its cone
 #endif
 
-/// What shines on a place.
+/// Light at a place.
 struct Light {
   vec3 to_key;  // unit
   vec3 key;
@@ -32,48 +33,48 @@ Light lightAt(vec3 position_m) {
     float share = exp2(-aside * aside) * min(lens_light.x * lens_light.x / away2, kMostNearness);
     light.to_key = -way_m * inversesqrt(away2);
     light.key *= share;
-    light.fill = kCavityFill * share;  // it comes from what is lit around
+    light.fill = kCavityFill * share;  // light reflected by lit tissue around
   }
 #endif
   return light;
 }
 
-/// Unit normal of the flat triangle that a fragment is of, on the side that is seen.
+/// Returns the unit normal of the fragment's flat triangle, on the visible side.
 vec3 flatNormal(vec3 position_m) {
   vec3 normal = normalize(cross(dFdx(position_m), dFdy(position_m)));
   return dot(normal, position_m) < 0.0 ? normal : -normal;
 }
 
-/// Unit normal of a fragment, or of its flat triangle where the mesh has none (torn borders, one-node sheets).
-/// Either way it is the normal of the side that is seen.
+/// Returns the unit normal of a fragment, or of its flat triangle where the mesh has none (torn borders, one-node
+/// sheets), on the visible side.
 vec3 seenNormal(vec3 mesh_normal, vec3 position_m, bool front) {
   if (dot(mesh_normal, mesh_normal) > 0.01) return normalize(front ? mesh_normal : -mesh_normal);
   return flatNormal(position_m);
 }
 
-/// Light from all around a direction: bright above, dim below.
+/// Returns ambient light from a direction: bright from above, dim from below.
 vec3 fill(vec3 direction) { return mix(kGroundLight, kSkyLight, 0.5 - 0.5 * direction.y); }
 
-/// Diffuse light that bends around the terminator by `wrap` per colour, as in tissue that red light wanders through.
+/// Returns diffuse light that extends past the terminator by `wrap` per colour, as in tissue that scatters red light.
 vec3 wrappedDiffuse(float n_l, vec3 wrap) {
   vec3 lit = max((n_l + wrap) / (1.0 + wrap), 0.0);
   return lit / (1.0 + 0.5 * wrap);
 }
 
-/// Share of light that a smooth film reflects at an angle (Schlick).
+/// Returns the share of light that a smooth film reflects at an angle (Schlick).
 float fresnel(float cosine, float straight) {
   float rest = 1.0 - cosine, rest2 = rest * rest;
   return straight + (1.0 - straight) * rest2 * rest2 * rest;
 }
 
-/// GGX distribution over 4, times pi: brightness of a lamp's highlight for a reflectance of 1.
+/// Returns the GGX distribution over 4, times pi: brightness of a lamp's highlight for a reflectance of 1.
 float highlight(float n_h, float roughness) {
   float a = roughness * roughness, a2 = a * a;
   float d = n_h * n_h * (a2 - 1.0) + 1.0;
   return 0.25 * a2 / (d * d);
 }
 
-/// Bends values above a knee so that highlights keep their shape instead of clipping.
+/// Compresses values above a knee, so that highlights keep their shape and do not clip.
 vec3 shoulder(vec3 light) {
   const float knee = 0.75;
   vec3 over = max(light - knee, 0.0) / (1.0 - knee);

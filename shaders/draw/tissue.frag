@@ -1,10 +1,13 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// tissue.frag - wet, slightly translucent tissue; a back face is the raw inside, except of a sheet.   Owner: render/tissue_painter.h
-// Colour's alpha tells them apart (surface/skins/part_colors.h): a sheet, the wall of a wound, or skin; and the body.
-// REST: vertices know their place at rest. GRAIN: variation from place to place, layers of walls (grain.glsl).
-// DETAIL: textures (detail.glsl). FILM, WALL_GRAIN (grain.glsl), CONTACTS (tissue_light.glsl), LENS_LIGHT (shading.glsl): looks.
+// tissue.frag - wet, slightly translucent tissue; a back face is the raw inside, except of a sheet.   Owner:
+// render/tissue_painter.h
+// Colour's alpha (surface/skins/part_colors.h) says whether it is a sheet, the wall of a wound, or the surface; and the
+// body.
+// REST: vertices have their rest position. GRAIN: variation from place to place, layers of walls (grain.glsl). DETAIL:
+// textures (detail.glsl).
+// FILM, WALL_GRAIN (grain.glsl), CONTACTS (tissue_light.glsl), LENS_LIGHT (shading.glsl): features of appearance.
 #include "layout.h"
 #include "shading.glsl"
 #include "tissue_code.glsl"
@@ -17,20 +20,20 @@
 in float patches;
 #endif
 #ifdef DETAIL
-layout(binding = kUnitShownCharts) uniform usamplerBuffer shown_charts;  // of every triangle that is drawn
-uniform int first_chart;  // of this part of them
+layout(binding = kUnitShownCharts) uniform usamplerBuffer shown_charts;  // of every drawn triangle
+uniform int first_chart;  // of this run of them
 #endif
 
 in vec3 position_m;
 in vec3 normal;
 in vec4 color;
 #ifdef REST
-in vec4 rest;  // xyz place at rest [m], w depth below the skin [m]
+in vec4 rest;  // xyz place at rest [m], w depth below the surface [m]
 #endif
 layout(location = 0) out vec4 image;
 
 void main() {
-  bool wall = isWall(color.a);  // of a wound: few, large triangles, whose smooth normals may look away
+  bool wall = isWall(color.a);  // of a wound: few, large triangles, with smooth normals that may face away
   vec3 albedo = color.rgb, outward = normal;
   float roughness = kRoughness, shade = 1.0;
 #ifdef REST

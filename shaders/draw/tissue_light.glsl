@@ -1,28 +1,29 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// tissue_light.glsl - the light that comes from wet, slightly translucent tissue, with the shadows of tools.
+// tissue_light.glsl - light reflected by wet, slightly translucent tissue, with the shadows of tools.
 uniform int shafts;  // tools that cast a shadow
 uniform vec4 shaft_tips[kMaxStyluses];  // xyz m; w radius of a ball at the tip [m]
 uniform vec4 shaft_ends[kMaxStyluses];  // xyz m; w radius of the shaft [m]
 #ifdef CONTACTS         // some camera shows contact shadows
-uniform int contacts;   // as shafts, or 0: they do not darken what they touch
-uniform float contact;  // by how much they do
+uniform int contacts;   // as shafts, or 0: no contact shadows
+uniform float contact;  // strength of contact shadows
 #endif
 
 const vec3 kWrap = vec3(0.42, 0.14, 0.10);         // red light travels furthest
 const vec3 kGrazingTint = vec3(0.50, 0.28, 0.30);  // deeper where the line of sight passes through more tissue
 const vec3 kRawTint = vec3(0.36, 0.13, 0.13);      // of the inside, on top of the tissue's own colour
 const float kFilm = 0.035;                         // reflectance of the fluid film, seen straight on
-const float kRoughness = 0.25;                     // of tissue of which nothing else is said
-const float kSmoothest = 0.08;                     // a lamp is no point
+const float kRoughness = 0.25;                     // of tissue without a roughness of its own
+const float kSmoothest = 0.08;                     // a lamp is not a point
 const float kLampSize = 0.10;                      // of the key lamp, seen from the tissue [rad]: softness of shadows
 const float kDeepest = 0.25;                       // share of the key light that reaches a full shadow
 
-/// Radius of a shaft, which is pointed, at a share of its length [m].
+/// Returns the radius of a shaft, which is pointed, at a share of its length [m].
 float shaftRadius(vec4 end, float along) { return end.w * min(0.25 + 3.0 * along, 1.0); }
 
-/// Share of the key light that passes a tool: the gap between the ray to the lamp and the shaft or the ball at its tip.
+/// Returns the share of the key light that passes a tool, by the gap between the ray to the lamp and the shaft or the
+/// ball at its tip.
 float passing(vec3 position_m, vec3 to_key, vec4 tip, vec4 end) {
   vec3 shaft = end.xyz - tip.xyz, from_tip = position_m - tip.xyz;
   float shaft_key = dot(shaft, to_key), from_key = dot(from_tip, to_key);
@@ -35,21 +36,22 @@ float passing(vec3 position_m, vec3 to_key, vec4 tip, vec4 end) {
   return mix(kDeepest, 1.0, smoothstep(-1.0, 1.0, nearest));
 }
 
-/// Share of a place's sky that a ball leaves open. @param away_m  from its middle to the place
+/// Returns the share of a place's sky that a ball leaves open. @param away_m  from its centre to the place
 float openBeside(vec3 away_m, float radius_m, vec3 n) {
   float away2 = max(dot(away_m, away_m), 1e-12);
   float facing = max(-dot(away_m, n), 0.0) * inversesqrt(away2);
   return 1.0 - min(facing * radius_m * radius_m / away2, 1.0);
 }
 
-/// The same of a tool: of the ball at its tip, and of the one within its shaft that is nearest.
+/// Returns the same of a tool: of the ball at its tip, and of the nearest one within its shaft.
 float openBesideTool(vec3 position_m, vec3 n, vec4 tip, vec4 end) {
   vec3 shaft = end.xyz - tip.xyz, from_tip = position_m - tip.xyz;
   float along = clamp(dot(from_tip, shaft) / max(dot(shaft, shaft), 1e-12), 0.0, 1.0);
   return openBeside(from_tip, tip.w, n) * openBeside(from_tip - along * shaft, shaftRadius(end, along), n);
 }
 
-/// @param n  unit normal of the side that is seen   @param shade  how much light reaches the place   @param skin  it is no raw inside
+/// Returns the light of a place. @param n  unit normal of the visible side   @param shade  share of light that reaches
+/// the place   @param skin  it is not the raw inside
 vec3 tissueLight(vec3 position_m, vec3 n, vec3 albedo, float roughness, float shade, bool skin) {
   vec3 to_eye = -normalize(position_m);
   float n_v = clamp(dot(n, to_eye), 0.0, 1.0);

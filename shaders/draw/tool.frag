@@ -10,10 +10,10 @@ in vec3 normal;
 in vec4 color;
 layout(location = 0) out vec4 image;
 
-const float kSolid = 0.99;  // least alpha of what is solid: between vertices 1 may come out a little smaller
+const float kSolid = 0.99;  // least alpha of solid parts: interpolation of 1 may give a little less
 
-/// What metal mirrors: the fill light with a dark horizon, by which its roundness is seen.
-vec3 surroundings(vec3 direction) { return fill(direction) * (1.0 - smoothstep(-0.6, 0.7, direction.y)); }
+/// Returns what metal reflects: the fill light with a dark horizon, which shows its roundness.
+vec3 environment(vec3 direction) { return fill(direction) * (1.0 - smoothstep(-0.6, 0.7, direction.y)); }
 
 void main() {
   vec3 n = seenNormal(normal, position_m, gl_FrontFacing);
@@ -23,7 +23,7 @@ void main() {
   float n_h = max(dot(n, normalize(light.to_key + to_eye)), 0.0);
 
   vec3 diffuse = 0.55 * color.rgb * (light.key * max(dot(n, light.to_key), 0.0) + light.fill * fill(n));
-  vec3 gloss = color.rgb * (0.8 * light.key * highlight(n_h, 0.40) + 1.6 * light.fill * surroundings(reflect(-to_eye, n)));
+  vec3 gloss = color.rgb * (0.8 * light.key * highlight(n_h, 0.40) + 1.6 * light.fill * environment(reflect(-to_eye, n)));
   float rim = (1.0 - n_v) * (1.0 - n_v);
   image = vec4(shoulder(diffuse + gloss), color.a < kSolid ? color.a * (0.08 + 0.92 * rim) : 1.0);
 }

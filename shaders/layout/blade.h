@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // clang-format off
-// How far a blade reaches: of shaders/solver/tools/blade.glsl and of who looks for what is near one.
+// Reach of a blade, shared by shaders/solver/tools/blade.glsl and the code that searches for what is near a blade.
 #ifndef VISCERA_LAYOUT_BLADE_H
 #define VISCERA_LAYOUT_BLADE_H
 #include "viscera/layout/types.h"
@@ -10,8 +10,8 @@
 namespace viscera::layout {
 #endif
 
-const float kOverlap = 1e-3f;  // of the tip's way: a sweep begins that much before the end of the last one, whatever is rounded
-const float kLongest = 8.0f;   // rest lengths of a diagonal: a spring with an end farther from the blade is not cut
+const float kOverlap = 1e-3f;  // overlap of sweeps, as a share of the tip's path: a sweep begins this far before the end of the last, against rounding
+const float kLongest = 8.0f;   // reach of a blade, in rest lengths of a diagonal: a spring with an end farther from the blade is not cut
 
 #ifdef __cplusplus
 }  // namespace viscera::layout

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // clang-format off
-// What kernels know of the nodes that the skin of a lattice follows.
+// What kernels know of the nodes that the surface mesh of a lattice follows.
 #ifndef VISCERA_LAYOUT_SURFACE_NODE_H
 #define VISCERA_LAYOUT_SURFACE_NODE_H
 #include "viscera/layout/types.h"
@@ -10,7 +10,7 @@
 namespace viscera::layout {
 #endif
 
-// A node whose approximate normal some vertex follows.
+// A node with an approximate normal that at least one vertex follows.
 struct SurfaceNode {
   uint slot;
   float normal_x, normal_y, normal_z;  // at rest, unit

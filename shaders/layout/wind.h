@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // clang-format off
-// What wind acts on.
+// Triangles that wind acts on.
 #ifndef VISCERA_LAYOUT_WIND_H
 #define VISCERA_LAYOUT_WIND_H
 #include "viscera/layout/links.h"
@@ -13,7 +13,7 @@ namespace viscera::layout {
 // A triangle (a, b, c) of a network's surface as node a sees it: the other corners, and the springs of its edges ab, bc, ca.
 struct WindTriangle {
   uint b, c;
-  uint springs[3];  // kNoSpring where no spring runs along the edge
+  uint springs[3];  // kNoSpring where there is no spring along the edge
   uint pad;
 };
 

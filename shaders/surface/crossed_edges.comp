@@ -1,11 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// crossed_edges.comp - which edges of networks' skins a blade has crossed, as a list for split_edges.comp in any order.
+// crossed_edges.comp - lists the edges of networks' meshes that a blade has crossed, for split_edges.comp, in any
+// order.
 // Owner: surface/network_surface.h
-// in  split_edges[count], spring_cut[springs]     in, out  crossed_edges[4 + count], (0, 1, 1, 0) at first
+// in  split_edges[count], spring_cut[springs]     in, out  crossed_edges[4 + count], (0, 1, 1, 0) initially
 #include "layout.h"
-layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
+layout(local_size_x = GROUP_SIZE) in;  // globalIndex() needs it
 #include "solver/tissue/lattice.glsl"
 
 uniform uint count;

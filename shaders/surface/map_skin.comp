@@ -1,16 +1,18 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// map_skin.comp - where the nodes carry the vertices and normals of the skin (EGVE 3.2 to 3.6; in cells that are tissue in part, where
-// the cell's corners carry them).
-// Owner: surface/surface.h   physics.md 4, mappings.md
-// in  skin[count], nodes[slots], displacement[slots] m, node_normals[slots], stale_bricks[bricks]     out  positions[3 * count] m, normals[count] packed
-// Features: MIXED (some vertices belong to networks: network_skin.comp places them), and which bindings there are beside those with
-// the constant basis: CURVED (kInterpolatedBit), IN_CELL, ONE_NODE, ALONG_NORMAL; NORMALS with any that asks for approximate normals.
+// map_skin.comp - vertices and normals of surface meshes from the nodes (EGVE 3.2 to 3.6; in partly filled cells from
+// the cell's corners).
+// Owner: surface/surface.h   physics.md 4, surface.md
+// in  skin[count], nodes[slots], displacement[slots] m, node_normals[slots], stale_bricks[bricks]
+// out  positions[3 * count] m, normals[count] packed
+// Features: MIXED (some vertices belong to networks: network_skin.comp places them), and which bindings there are in
+// addition to those with the constant basis: CURVED (kInterpolatedBit), IN_CELL, ONE_NODE, ALONG_NORMAL; NORMALS with
+// any that needs approximate normals.
 // BRANCHES: where a branch that is not taken costs nothing (compiled as C++; software rasterisers run both sides).
 #include "layout.h"
 #ifndef __cplusplus
-layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
+layout(local_size_x = GROUP_SIZE) in;  // globalIndex() needs it
 #endif
 #include "solver/tissue/lattice.glsl"
 #include "pack.glsl"
@@ -18,7 +20,7 @@ layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for i
 
 #ifndef __cplusplus
 uniform uint first_item, count;  // of vertices
-uniform uint followed_revision;  // what moved no later is in place; 0: nothing is
+uniform uint followed_revision;  // vertices that have not moved after it are up to date; 0: none are
 layout(std430, binding = kBindStaleBricks) readonly buffer StaleBricksBuffer { uint stale_bricks[]; };
 layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementBuffer { vec4 displacement[]; };
 #ifdef IN_CELL
@@ -32,14 +34,15 @@ layout(std430, binding = kBindSkinPositions) writeonly buffer PositionsBuffer { 
 layout(std430, binding = kBindSkinNormals) writeonly buffer NormalsBuffer { uint normals[]; };
 #endif
 
-/// Direction of an axial spring at rest. Edges 0-1 and 2-0 of every binding are axial (model/body/skin_anchor.h).
+/// Returns the direction of an axial spring at rest. Edges 0-1 and 2-0 of every binding are axial
+/// (model/body/skin_anchor.h).
 vec3 axialDirection(uint spring) {
   vec3 axis = vec3(0.0f);
   axis[spring >> 1] = (spring & 1u) == 0u ? 1.0f : -1.0f;
   return axis;
 }
 
-/// A node moved, or one that its approximate normal depends on.
+/// Returns whether a node has moved, or one that its approximate normal depends on.
 bool isStale(uint slot) { return stale_bricks[slot >> 6] > followed_revision; }
 
 void put(uint vertex, vec3 position, vec3 normal) {
@@ -50,7 +53,8 @@ void put(uint vertex, vec3 position, vec3 normal) {
 }
 
 #if defined(CURVED) && defined(BRANCHES)
-/// What main() comes to where normals are trusted, to the bit, without the constant basis. @return false: not so, or edges collapsed
+/// Maps a vertex where normals are trusted, without the constant basis; the result is that of main() to the bit.
+/// @return false: normals are not trusted, or edges collapsed
 bool mapCurved(uint vertex, SkinBinding s, vec3 u0, vec3 edge1, vec3 edge2) {
   vec4 n0 = node_normals[s.slot0], n1 = node_normals[s.slot1], n2 = node_normals[s.slot2];
   Basis curved;
@@ -67,7 +71,7 @@ bool mapCurved(uint vertex, SkinBinding s, vec3 u0, vec3 edge1, vec3 edge2) {
 #endif
 
 #ifdef ALONG_NORMAL
-/// A vertex lies along the approximate normal (EGVE 3.5); where that is not clear, its offset turns with the triangle.
+/// Maps a vertex along the approximate normal (EGVE 3.5); where that is unclear, its offset turns with the triangle.
 void mapAlongNormal(uint vertex, SkinBinding s, vec3 reference, vec3 edge1, vec3 edge2, vec3 rest1, vec3 rest2) {
   vec4 n0 = node_normals[s.slot0], n1 = node_normals[s.slot1], n2 = node_normals[s.slot2];
   float trust = min(n0.w, min(n1.w, n2.w));
@@ -84,13 +88,14 @@ void mapAlongNormal(uint vertex, SkinBinding s, vec3 reference, vec3 edge1, vec3
 #endif
 
 #ifdef IN_CELL
-/// Corner c of the cell that holds a vertex.
+/// Returns corner c of a vertex's cell.
 uint cellCorner(SkinBinding s, uint c) {
   uint own = (s.springs >> kCornerShift) & 7u;
   return neighborSlot(s.slot0, ivec3(c & 1u, (c >> 1) & 1u, (c >> 2) & 1u) - ivec3(own & 1u, (own >> 1) & 1u, (own >> 2) & 1u));
 }
 
-/// Has a spring of one of its corners been cut? Then the triangle holds the vertex, on its own side of the cut.
+/// Returns whether a spring at one of its corners has been cut. Then the triangle carries the vertex, on its own side
+/// of the cut.
 bool isCellCut(SkinBinding s) {
   bool cut = false;
   for (uint c = 0u; c < 8u; ++c) cut = cut || (nodes[cellCorner(s, c)].lo & kSeveredBit) != 0u;
@@ -103,7 +108,7 @@ bool isCellStale(SkinBinding s) {
   return stale;
 }
 
-/// A vertex goes where the eight corners carry its place in the cell; its normal as a plane does that goes with it.
+/// Maps a vertex by the eight corners of its cell; its normal as that of a plane that deforms with them.
 void mapInCell(uint vertex, SkinBinding s, float spacing, vec3 rest1, vec3 rest2) {
   Basis rest = triangleBasis(rest1, rest2, rest1, rest2);
   uint own = (s.springs >> kCornerShift) & 7u;
@@ -124,7 +129,7 @@ void mapInCell(uint vertex, SkinBinding s, float spacing, vec3 rest1, vec3 rest2
   vec3 normal = inSpace(rest, xyz(s.normal_constant)), carried = normal;
   vec3 sizes = abs(a) + abs(b) + abs(c);
   float size = (sizes.x + sizes.y) + sizes.z;
-  if (size > kShortest && size < kLongest) {  // so that products neither under- nor overflow
+  if (size > kShortest && size < kLongest) {  // so that products neither underflow nor overflow
     a /= size;
     b /= size;
     c /= size;
@@ -136,7 +141,8 @@ void mapInCell(uint vertex, SkinBinding s, float spacing, vec3 rest1, vec3 rest2
 #endif
 
 #ifdef ONE_NODE
-/// A vertex goes with its node and keeps its offset (EGVE 3.2). Without a clear normal of the node the vertex's turns with the triangle.
+/// Maps a vertex that moves with its node and keeps its offset (EGVE 3.2). Without a clear normal of the node the
+/// vertex's normal turns with the triangle.
 void mapByNode(uint vertex, SkinBinding s, float spacing, vec3 rest1, vec3 rest2) {
   vec3 u0 = xyz(displacement[s.slot0]);
   vec4 approximate = node_normals[s.slot0];

@@ -1,14 +1,14 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// network_skin.comp - where the nodes of networks carry the vertices and normals of their skins, one to one (EGVE 3.2).
+// network_skin.comp - vertices and normals of networks' meshes from their nodes, one to one (EGVE 3.2).
 // Owner: surface/network_surface.h   physics.md 4
 // in  ring_vertices[count], rings[], displacement[slots] m, rest[slots] m, alive[triangles], stale_bricks[bricks]
 // out  positions[3 * vertices] m, normals[vertices] packed
 // A normal is the mean of the whole triangles around the vertex, weighted by area; without one, the normal at rest.
 #include "layout.h"
 #ifndef __cplusplus
-layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
+layout(local_size_x = GROUP_SIZE) in;  // globalIndex() needs it
 #endif
 #include "solver/tissue/lattice.glsl"
 #include "pack.glsl"
@@ -28,7 +28,7 @@ vec3 ringNormal(RingVertex v) {
     sum += isWhole(t) ? normal : vec3(0.0f);  // a branch around the cross product costs llvmpipe three times as much
   }
   vec3 normal = direction(sum, xyz(v.rest_normal));
-  return dot(normal, normal) < 2.0f ? normal : xyz(v.rest_normal);  // of a sum that is not a number
+  return dot(normal, normal) < 2.0f ? normal : xyz(v.rest_normal);  // if the sum is not a number
 }
 
 void main() {

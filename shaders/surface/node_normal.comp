@@ -1,21 +1,22 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// node_normal.comp - approximate normals of the nodes that the skin is bound to: at rest those of VR05 eq 5, and in motion turned as
-// the tissue is, by the gradient that a node's axial neighbours give. With SUMMED eq 5 in motion too, as the paper has it: that one
-// is turned by mere stretch, where neighbours are not the same on all sides (mappings.md).
+// node_normal.comp - approximate normals of the nodes that surface meshes are bound to: at rest those of VR05 eq 5, in
+// motion turned with the tissue, by the gradient from a node's axial neighbours. With SUMMED eq 5 in motion too, as in
+// the paper: pure stretch turns that one where neighbours are not the same on all sides (surface.md).
 // Owner: surface/surface.h   physics.md 4
-// in  surface_nodes[count], displacement[slots] m, nodes[slots], stale_bricks[bricks]     out  node_normals[slots] xyz unit, w trust 0..1
+// in  surface_nodes[count], displacement[slots] m, nodes[slots], stale_bricks[bricks]
+// out  node_normals[slots] xyz unit, w trust 0..1
 #include "layout.h"
 #ifndef __cplusplus
-layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
+layout(local_size_x = GROUP_SIZE) in;  // globalIndex() needs it
 #endif
 #include "solver/tissue/lattice.glsl"
 #include "skin_basis.glsl"
 
 #ifndef __cplusplus
 uniform uint first_item, count;  // of surface nodes
-uniform uint followed_revision;  // what moved no later is in place; 0: nothing is
+uniform uint followed_revision;  // nodes that have not moved after it are up to date; 0: none are
 layout(std430, binding = kBindStaleBricks) readonly buffer StaleBricksBuffer { uint stale_bricks[]; };
 layout(std430, binding = kBindSurfaceNodes) readonly buffer SurfaceNodesBuffer { SurfaceNode surface_nodes[]; };
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
@@ -24,7 +25,8 @@ layout(std430, binding = kBindNodeNormals) writeonly buffer NodeNormalsBuffer { 
 #endif
 
 #ifndef SUMMED
-/// What displacement gains along an axis in a spacing, by the neighbours that there are. A node that was not cut has one at least.
+/// Returns the derivative of displacement along an axis, times the spacing, from the neighbours that exist. A node that
+/// was not cut has at least one.
 vec3 slopeAlong(uint slot, NodeBits bits, uint spring, ivec3 offset, vec3 here) {
   bool ahead = springCount(bits, spring) != 0u, behind = springCount(bits, spring + 1u) != 0u;
   vec3 from = behind ? xyz(displacement[neighborSlot(slot, -offset)]) : here;
@@ -39,7 +41,7 @@ void main() {
   uint slot = node.slot;
   if (followed_revision != 0u && stale_bricks[slot >> 6] <= followed_revision) return;
   NodeBits bits = nodes[slot];
-  // A cut takes neighbours away and would turn the normal towards the wound at once, so it is not trusted after one.
+  // A cut removes neighbours, which turns the normal towards the wound at once, so it is not trusted after one.
   bool severed = (bits.lo & kSeveredBit) != 0u;
   float spacing = bodies[bricks[slot >> 6].body].origin_spacing.w;
   vec3 here = xyz(displacement[slot]);
@@ -59,11 +61,11 @@ void main() {
   vec3 sizes = abs(a) + abs(b) + abs(c);
   float size = (sizes.x + sizes.y) + sizes.z;
   vec3 sum = vec3(0.0f);
-  if (size > kShortest && size < kLongest) {  // so that products neither under- nor overflow
+  if (size > kShortest && size < kLongest) {  // so that products neither underflow nor overflow
     a /= size;
     b /= size;
     c /= size;
-    // Stretch turns a plane's normal one way and a fibre along it the other: between them is what the tissue turned by.
+    // Stretch turns a plane's normal one way and a fibre along it the opposite way: their sum turns with the tissue.
     sum = direction(node.normal_x * cross(b, c) + node.normal_y * cross(c, a) + node.normal_z * cross(a, b), vec3(0.0f)) +
           direction(node.normal_x * a + node.normal_y * b + node.normal_z * c, vec3(0.0f));
   }

@@ -1,24 +1,27 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// overlay_colors.comp - the strain of a skin's vertices, from that of the nodes that they are bound to, as colours.
-// PALE: the skin's own colours, paler where it is pressed.   Owners: surface/overlay/node_overlay.h, surface/overlay/pale_skin.h
+// overlay_colors.comp - colours of vertices by the strain of the nodes that they are bound to.
+// PALE: the surface's own colours, paler where it is pressed.   Owners: surface/overlay/node_overlay.h,
+// surface/overlay/blanching.h
 // in  skin[count], overlay_nodes[slots]     out  strain_colors[count] RGBA8
 #include "layout.h"
-layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
+layout(local_size_x = GROUP_SIZE) in;  // globalIndex() needs it
 #include "solver/tissue/lattice.glsl"
 #include "strain_scale.glsl"
 #include "tissue_code.glsl"
 
 uniform uint count;
 #ifdef PALE
-uniform vec4 body_blanching[kMaxBodies];  // x how pale
+uniform vec4 body_blanching[kMaxBodies];  // x strength
 layout(std430, binding = kBindSkinColors) readonly buffer SkinColorsBuffer { uint skin_colors[]; };
 const vec3 kPale = vec3(0.90, 0.80, 0.70);  // sRGB: tissue without its blood
-const float kPressed = 0.03;                // mean shortening of springs at which no blood is left: E = 20 kPa under 4 kPa, at which
-                                            // capillaries close, is a fifth shorter one way, a sixth of which is the mean of all ways
+const float kPressed = 0.03;                // mean shortening of springs without blood: tissue of E = 20 kPa under 4
+                                            // kPa, at which capillaries close, is shortened by a fifth along one axis;
+                                            // the mean over all directions is a sixth of that
 
-/// @param alpha  tells walls of wounds, which bleed, from skin (tissue_code.glsl)
+/// Returns a paler colour. @param alpha  distinguishes walls of wounds, which bleed, from the surface
+/// (tissue_code.glsl)
 vec3 blanched(vec3 color, float alpha, float share, float strain) {
   return isWall(alpha) ? color : mix(color, kPale, share * smoothstep(0.0, kPressed, -strain));
 }

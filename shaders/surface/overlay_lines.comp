@@ -5,7 +5,7 @@
 // in  overlay_lines[count], nodes[slots], spring_cut[springs]     out  overlay_indices[2 * count]
 // Feature: NETWORK (some body is one).
 #include "layout.h"
-layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
+layout(local_size_x = GROUP_SIZE) in;  // globalIndex() needs it
 #include "solver/tissue/lattice.glsl"
 
 uniform uint count;

@@ -1,12 +1,14 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// overlay_nodes.comp - where nodes are, and how far their springs are strained.   Owner: surface/overlay/node_strains.h
-// in  nodes[count], displacement[count] m; of networks link_starts[count + 1], links[], rest[count] m, spring_cut[springs]
-// out overlay_nodes[count] xyz m, w root mean square of (L - l0) / l0 over the whole springs of the node; 0 without any
+// overlay_nodes.comp - positions of nodes, and strain of their springs.   Owner: surface/overlay/node_strains.h
+// in  nodes[count], displacement[count] m; of networks link_starts[count + 1], links[], rest[count] m,
+// spring_cut[springs]
+// out overlay_nodes[count] xyz m, w root mean square of (L - l0) / l0 over the intact springs of the node; 0 without
+// any
 // Features: NETWORK (some body is one), SIGNED (w is the mean of these strains: below 0 where tissue is pressed).
 #include "layout.h"
-layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
+layout(local_size_x = GROUP_SIZE) in;  // globalIndex() needs it
 #include "solver/tissue/lattice.glsl"
 
 uniform uint count;  // of slots
@@ -25,7 +27,7 @@ layout(std430, binding = kBindSpringCut) readonly buffer SpringCutBuffer { float
 layout(std430, binding = kBindOverlayLinkStarts) readonly buffer LinkStartsBuffer { uint link_starts[]; };
 layout(std430, binding = kBindOverlayLinks) readonly buffer LinksBuffer { OverlayLink links[]; };
 
-/// Sum of the strains, or of their squares, and how many.
+/// Returns the sum of the strains, or of their squares, and their number.
 vec2 networkStrain(uint slot) {
   vec2 sum = vec2(0.0);
   for (uint i = link_starts[slot]; i < link_starts[slot + 1u]; ++i) {
@@ -39,7 +41,7 @@ vec2 networkStrain(uint slot) {
 }
 #endif
 
-/// The same of a node of a lattice.
+/// Returns the same for a node of a lattice.
 vec2 latticeStrain(uint slot) {
   NodeBits bits = nodes[slot];
   float spacing = bodies[bodyAt(slot)].origin_spacing.w;

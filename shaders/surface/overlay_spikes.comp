@@ -4,7 +4,7 @@
 // overlay_spikes.comp - a line at every node of a list: its normal, or the force on its body.   Owner: surface/overlay/node_overlay.h
 // in  overlay_spikes[count], overlay_nodes[slots] m, node_normals[slots], normals[vertices] packed     out  overlay_ends[2 * count] m
 #include "layout.h"
-layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
+layout(local_size_x = GROUP_SIZE) in;  // globalIndex() needs it
 #include "solver/tissue/lattice.glsl"
 #include "pack.glsl"
 
@@ -17,7 +17,7 @@ layout(std430, binding = kBindOverlayEnds) writeonly buffer OverlayEndsBuffer { 
 layout(std430, binding = kBindNodeNormals) readonly buffer NodeNormalsBuffer { vec4 node_normals[]; };
 layout(std430, binding = kBindSkinNormals) readonly buffer NormalsBuffer { uint normals[]; };
 
-/// Shorter where there is less trust in it.
+/// Returns the normal of a node, shorter where it is less trusted.
 vec3 normalAt(OverlaySpike spike) {
   if (spike.vertex != 0u) return unpackNormal(normals[spike.vertex - 1u]);
   return xyz(node_normals[spike.slot]) * node_normals[spike.slot].w;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Unit normals as three signed 10-bit fractions in a uint, x in the low bits (GL_INT_2_10_10_10_REV). Never kept in a
-// float: drivers may flush or quieten its bits. Twin of surface/skins/normal_packing.cpp.
+// float: drivers may flush or quieten its bits. Must agree with surface/skins/normal_packing.cpp.
 const float kPackedOne = 511.0f;
 
 uint packNormal(vec3 normal) {

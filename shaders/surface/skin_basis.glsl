@@ -1,8 +1,9 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Orthonormal bases that carry skin vertices (EGVE eqs 6 and 8, corrected as in physics.md 4). Every function returns
-// finite unit vectors for any finite input: nodes may lie on one line or in one point. Twin of model/body/skin_basis.h.
+// Orthonormal bases that carry vertices of surface meshes (EGVE eqs 6 and 8, corrected as in physics.md 4). Every
+// function returns finite unit vectors for any finite input: nodes may be on one line or in one point. Must agree with
+// model/body/skin_basis.h.
 const float kShortest = 1e-30f;  // shorter vectors have no direction; far below any length that occurs
 const float kLongest = 1e30f;    // longer ones would overflow when squared
 const float kLeastSine = 1e-4f;  // edges closer to parallel give no normal: rounding would be 1e-3 of it
@@ -11,15 +12,15 @@ struct Basis {
   vec3 t, n, b;
 };
 
-/// v scaled to length 1; `otherwise` where v has no direction.
+/// Returns v scaled to length 1; `otherwise` where v has no direction.
 vec3 direction(vec3 v, vec3 otherwise) {
   float size = max(abs(v.x), max(abs(v.y), abs(v.z)));
   if (!(size > kShortest && size < kLongest)) return otherwise;
-  vec3 scaled = v / size;  // neither under- nor overflows when squared
+  vec3 scaled = v / size;  // neither underflows nor overflows when squared
   return scaled * inversesqrt(dot(scaled, scaled));
 }
 
-/// A unit vector at right angles to the unit vector `axis`, as near as can be to `wanted`, or else to `second`;
+/// Returns the unit vector at right angles to the unit vector `axis` that is nearest to `wanted`, or else to `second`;
 /// wanted and second are unit vectors at right angles to each other.
 vec3 rightAngleTo(vec3 axis, vec3 wanted, vec3 second) {
   vec3 first_try = wanted - dot(wanted, axis) * axis;
@@ -27,8 +28,8 @@ vec3 rightAngleTo(vec3 axis, vec3 wanted, vec3 second) {
   return direction(second - dot(second, axis) * axis, second);
 }
 
-/// Basis of a lattice triangle from its edges 0-1 and 0-2; rest1 and rest2 are their unit directions at rest, at right
-/// angles. Where the nodes are collinear the normal stays as near as it can to the rest normal.
+/// Returns the basis of a lattice triangle from its edges 0-1 and 0-2; rest1 and rest2 are their unit directions at
+/// rest, at right angles. Where the nodes are collinear the normal is the nearest one to the rest normal.
 Basis triangleBasis(vec3 edge1, vec3 edge2, vec3 rest1, vec3 rest2) {
   Basis basis;
   basis.t = direction(edge1, rest1);
@@ -39,7 +40,7 @@ Basis triangleBasis(vec3 edge1, vec3 edge2, vec3 rest1, vec3 rest2) {
   return basis;
 }
 
-/// Basis around an averaged approximate normal, of any length, with the tangent of its triangle.
+/// Returns the basis around an averaged approximate normal, of any length, with the tangent of its triangle.
 Basis interpolatedBasis(vec3 average_normal, Basis triangle) {
   Basis basis;
   basis.n = direction(average_normal, triangle.n);
@@ -49,7 +50,7 @@ Basis interpolatedBasis(vec3 average_normal, Basis triangle) {
   return basis;
 }
 
-/// The vector with the given coordinates in a basis: the sum of EGVE eq 9.
+/// Returns the vector with the given coordinates in a basis: the sum of EGVE eq 9.
 vec3 inSpace(Basis basis, vec3 coordinates) {
   return coordinates.x * basis.t + coordinates.y * basis.n + coordinates.z * basis.b;
 }

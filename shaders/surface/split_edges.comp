@@ -1,22 +1,22 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// split_edges.comp - the two vertices that appear where a blade crossed an edge of a network's skin: one on either side,
-// each carried by the node on its side as if the piece between them were still there.   Owner: surface/network_surface.h
+// split_edges.comp - the two vertices of an edge of a network's mesh that a blade has crossed: one on either side, each
+// carried by the node on its side as if the piece between them were still there.   Owner: surface/network_surface.h
 // in  split_edges[count], spring_cut[springs], ring_vertices[], rings[], displacement[slots] m, rest[slots] m
-// in, out  positions[3 * vertices] m, normals[vertices] packed: those of the nodes are in place
-// A whole edge has both in its middle; they are not seen, so they are placed once. From then on the kernel runs over the
-// crossed edges alone (crossed_edges.comp): work follows the length of the cut.
+// in, out  positions[3 * vertices] m, normals[vertices] packed: those of the nodes must be up to date
+// An intact edge has both in its middle; they are not visible, so they are placed once. After that the kernel runs over
+// the crossed edges alone (crossed_edges.comp): work is proportional to the length of the cut.
 #include "layout.h"
 #ifndef __cplusplus
-layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
+layout(local_size_x = GROUP_SIZE) in;  // globalIndex() needs it
 #endif
 #include "solver/tissue/lattice.glsl"
 #include "skin_basis.glsl"
 #include "ring.glsl"
 
 #ifndef __cplusplus
-uniform uint placed;  // the vertices of whole edges are where they belong: only crossed ones
+uniform uint placed;  // vertices of intact edges are placed already: only crossed ones
 layout(std430, binding = kBindSplitEdges) readonly buffer SplitEdgesBuffer { SplitEdge split_edges[]; };
 layout(std430, binding = kBindSpringCut) readonly buffer SpringCutBuffer { float spring_cut[]; };
 layout(std430, binding = kBindCrossedEdges) readonly buffer CrossedEdgesBuffer { uint crossed_edges[]; };
@@ -24,9 +24,9 @@ layout(std430, binding = kBindSkinPositions) writeonly buffer PositionsBuffer { 
 layout(std430, binding = kBindSkinNormals) buffer NormalsBuffer { uint normals[]; };
 #endif
 
-const float kAsNear = 1e-5f;  // cosines closer than this are one: rounding shall not choose between two triangles
+const float kAsNear = 1e-5f;  // cosines closer than this are equal: rounding must not choose between two triangles
 
-/// The rest offset d as the triangle carries it that is next to it: turned as this is, but not stretched.
+/// Returns the rest offset d turned like the nearest triangle, but not stretched.
 vec3 turned(RingVertex v, vec3 d) {
   float nearest = -2.0f;
   uint best = v.ring_end;

@@ -1,16 +1,16 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// split_triangles.comp - what is shown of the triangles of a network's skin whose edges a blade has crossed.
-// Owner: surface/network_surface.h   Twin of appendShown (surface/surface.h).
+// split_triangles.comp - shown pieces of a network's triangles that a blade has crossed.
+// Owner: surface/network_surface.h   Must agree with appendShown (surface/visible_triangles.h).
 // in  triangles[3 * triangles], split_triangles[count], spring_cut[springs], nodes[slots]
 // out  alive[triangles], live[3 * (triangles + 2 count)]
-// With one edge crossed the cut ends inside: the triangle stays. With two, the corner between them is parted from the
-// other two; with three, every corner from every other, and the piece in the middle, which hangs on no node, is left out.
-// So is a corner whose node hangs on nothing, and a triangle at a node that was erased (kErasedShare).
+// With one edge crossed the cut ends inside: the triangle stays. With two, the corner between them is separated from
+// the other two. With three, every corner is separated, and the piece in the middle, without a node, is left out. So is
+// a corner with a node without springs, and a triangle at a node that was erased (kErasedShare).
 #include "layout.h"
 #ifndef __cplusplus
-layout(local_size_x = GROUP_SIZE) in;  // before globalIndex(), which asks for it
+layout(local_size_x = GROUP_SIZE) in;  // globalIndex() needs it
 #endif
 #include "solver/tissue/lattice.glsl"
 
@@ -27,7 +27,7 @@ layout(std430, binding = kBindSkinLive) writeonly buffer LiveBuffer { uint live[
 
 float cutOf(uint spring) { return spring == kNoSpring ? 0.0 : spring_cut[spring]; }
 
-/// The corner, where it still hangs on something.
+/// Returns the corner, if its node still has springs.
 uint cornerOf(SplitTriangle t, uint corner) {
   return (nodes[t.slots[corner]].lo & kValenceMask) != 0u ? kShownCorner << corner : 0u;
 }
@@ -38,11 +38,11 @@ uint shownOf(SplitTriangle t) {
   uint cuts = uint(cut01 != 0.0f) + uint(cut12 != 0.0f) + uint(cut20 != 0.0f);
   if (cuts < 2u) return kShownWhole;
   if (cuts == 3u) return cornerOf(t, 0u) | cornerOf(t, 1u) | cornerOf(t, 2u);
-  uint corner = cut12 == 0.0f ? 0u : cut20 == 0.0f ? 1u : 2u;  // the one across the whole edge
+  uint corner = cut12 == 0.0f ? 0u : cut20 == 0.0f ? 1u : 2u;  // the one opposite the intact edge
   return cornerOf(t, corner) | kShownRest << corner;
 }
 
-/// Writes one of the up to three triangles that are drawn instead of a split one.
+/// Writes one of up to three triangles that are drawn in place of a split one.
 void show(uint entry, uint index, SplitTriangle t, uint a, uint b, uint c) {
   uint first = entry == 0u ? 3u * t.triangle : 3u * (triangle_count + 2u * index + entry - 1u);
   live[first] = a;
@@ -60,7 +60,8 @@ void main() {
   if (shown == kShownWhole) show(entry++, index, t, corners[0], corners[1], corners[2]);
   for (uint i = 0u; i < 3u; ++i) {
     uint j = (i + 1u) % 3u, k = (i + 2u) % 3u;
-    uint behind_j = t.vertices[2u * i + 1u], behind_k = t.vertices[2u * k];  // of the edges to j and to k, at their ends
+    uint behind_j = t.vertices[2u * i + 1u], behind_k = t.vertices[2u * k];  // of the edges to j and to k, at their
+                                                                             // ends
     if ((shown & kShownCorner << i) != 0u) {
       show(entry++, index, t, corners[i], t.vertices[2u * i], t.vertices[2u * k + 1u]);
     }

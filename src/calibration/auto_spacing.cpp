@@ -14,23 +14,23 @@
 #include "solver/tissue/substeps.h"
 #include "viscera/gpu/context.h"
 #include "viscera/model/scene/scene.h"
-#include "viscera/solver/governor.h"
 #include "viscera/solver/material.h"
+#include "viscera/solver/stability_monitor.h"
 
 namespace viscera {
 namespace {
 
 /// Share of the clock that steps may take. Tools, measurements and hand-over of the surface take the rest of a tick.
 constexpr double kShareOfSteps = 0.8;
-// Beside a software rasteriser, in processors:
+// Load next to a software rasteriser, in processors:
 constexpr double kPictures = 0.7;   ///< 10 pictures a second of kPixels (`viscera bench picture`)
-constexpr double kViewer = 0.5;     ///< rviz, whose own pictures are drawn the same way
+constexpr double kViewer = 0.5;     ///< rviz, which draws its own images by the same rasteriser
 constexpr double kPixels = 307200;  ///< 640 x 480
 constexpr double kLeastShare = 0.25;
-/// Nodes of the lattice that the stable substep is taken from; it is in proportion to the spacing.
+/// Nodes of the lattice from which the stable substep is taken; it is in proportion to the spacing.
 constexpr size_t kRuleNodes = 4000;
 
-/// Substeps that the solver will have, as the spacing decides.
+/// Number of substeps that the solver will have, by spacing.
 class SubstepRule {
  public:
   SubstepRule(const UndividedBodies& bodies, const Model& others, const Scene& scene, const gpu::Context* context)
@@ -46,8 +46,8 @@ class SubstepRule {
 
   double sampleSpacing_m() const { return spacing_m_; }
 
-  /// Per second, while the tissue is strained: that is when a hand is in it. Of measured substeps, those of tissue as
-  /// strained as they are taken for.
+  /// Returns substeps per second while the tissue is strained, as it is when a tool touches it. For measured substeps,
+  /// of tissue with the stretch that they are planned for.
   double perSecond(double spacing_m) const {
     const double most = mostPerSecond(spacing_m);
     const double dt_safe_s = std::min(per_m_.safe_s * spacing_m, others_.safe_s);
@@ -57,11 +57,11 @@ class SubstepRule {
     return std::min(most, config_.tick_hz * std::ceil(1 / (config_.tick_hz * dt_s)));
   }
 
-  /// Finest spacing that the solver does not refuse: max_substeps, or substeps that are given and must be stable.
+  /// Returns the finest spacing that the solver accepts, by max_substeps, or by given substeps that must be stable.
   double finest_m(const SolverConfig& asked) const {
     constexpr double kClear = 1 + 1e-6;
     if (asked.substeps == 0) {
-      const double fine_m = 1e-2 * spacing_m_;  // so many substeps that rounding up to whole ones does not count
+      const double fine_m = 1e-2 * spacing_m_;  // with so many substeps, rounding up to whole ones is negligible
       return fine_m * mostPerSecond(fine_m) / (asked.tick_hz * asked.max_substeps);
     }
     const double xi = largestDashpot(sample_);
@@ -69,7 +69,7 @@ class SubstepRule {
   }
 
  private:
-  /// Longest stable substeps: as proven, and as measured (infinite where it is not).
+  /// Longest stable substeps: proven, and measured (infinite where not measured).
   struct Stable {
     explicit Stable(double safe) : safe_s(safe) {}
     double safe_s, limit_s = std::numeric_limits<double>::infinity();
@@ -95,17 +95,17 @@ class SubstepRule {
 std::string reason(const SpacingChoice& choice) {
   switch (choice.bound) {
     case SpacingBound::kSpeed:
-      return "the finest that leaves time for all else";
+      return "the finest that leaves time for everything else";
     case SpacingBound::kNodes:
-      return "more nodes take too long to prepare, the machine could step more";
+      return "more nodes would take too long to prepare, although the machine could step them";
     case SpacingBound::kSolver:
-      return "the finest that solver.max_substeps or solver.substeps allows, the machine could step more";
+      return "the finest that solver.max_substeps or solver.substeps allows, although the machine could step more";
     case SpacingBound::kMemory:
-      return "the finest that fits in memory, the machine could step more";
+      return "the finest that fits in memory, although the machine could step more";
     case SpacingBound::kTooSlow:
-      return "as coarse as tissue can be, and this machine is still too slow for it";
+      return "as coarse as tissue can be, but this machine is still too slow for it";
     case SpacingBound::kWalls:
-      return "as coarse as the thinnest wall allows without holes, and this machine is too slow for it; thicker walls "
+      return "as coarse as the thinnest wall allows without holes, but this machine is too slow for it; thicker walls "
              "(phantom_wall_scale) allow coarser ones";
   }
   return "";

@@ -12,26 +12,27 @@
 #include "viscera/gpu/context.h"
 #include "viscera/model/scene/scene.h"
 #include "viscera/solver/material.h"
-#include "viscera/tools/hands.h"
+#include "viscera/tools/tools.h"
 
 namespace viscera {
 namespace {
 
-/// Nodes of the smaller lattice; the larger one has half its spacing. A GPU is busy with a launch alone below some
-/// 200,000 nodes.
+/// Nodes of the smaller lattice; the larger one has half its spacing. Below some 200,000 nodes a GPU's time is that of
+/// a launch.
 constexpr size_t kSmallOnCpu = 4000, kSmallOnGpu = 60000;
-constexpr double kGrowth = 8;                                 ///< of the nodes from one to the other
-constexpr int kExplicitSubsteps = 20, kImplicitSubsteps = 4;  ///< per tick: one round of measurements among so many
-constexpr TimedTicks kTicks{5, 198, 0.15};  ///< per lattice; watched longer than a hiccup of the machine
-constexpr double kUndisturbed = 0.1;  ///< quantile of the ticks that counts: the speed is kept, the disturbance passes
-constexpr double kPatience_s = 1;     ///< a larger lattice that would take longer is not measured
+constexpr double kGrowth = 8;                                 ///< ratio of their nodes
+constexpr int kExplicitSubsteps = 20, kImplicitSubsteps = 4;  ///< per tick: one round of measurements per so many
+constexpr TimedTicks kTicks{5, 198, 0.15};  ///< per lattice; longer than a short disturbance of the machine
+constexpr double kUndisturbed = 0.1;        ///< quantile of the ticks that counts: it is free of short disturbances
+constexpr double kPatience_s = 1;           ///< a larger lattice that would take longer is not measured
 constexpr double kTouch = 0.9;  ///< of a probe's radius from the tissue's topmost node: it touches and hardly dents
 
 int substepsPerTick(const SolverConfig& solver) {
   return traitsOf(solver.integrator).is_explicit ? kExplicitSubsteps : kImplicitSubsteps;
 }
 
-/// The same work per substep, in ticks of a fixed number of them; tissue that neither falls nor falls asleep.
+/// Returns a scene with the same work per substep, in ticks with a fixed number of substeps, where tissue neither falls
+/// nor sleeps.
 Scene measuredScene(Scene scene, const Model& model) {
   SolverConfig& solver = scene.solver;
   solver.substeps = 0;
@@ -52,7 +53,7 @@ Vector3d topmost(const Lattice& lattice) {
   return top;
 }
 
-/// All styluses at the top of the first body, doing what they do with no button pressed.
+/// Returns samples of all styluses at the top of the first body, with no button pressed.
 StylusSamples touching(const Model& model, const Scene& scene) {
   StylusSamples samples;
   const Vector3d top = topmost(model.bodies.at(0).lattice);

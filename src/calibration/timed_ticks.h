@@ -11,25 +11,25 @@
 
 namespace viscera {
 
-/// Makes ticks as long as so many substeps of the proven limit.
+/// Sets the tick to the length of so many substeps of the proven limit.
 void fitTick(SolverConfig& solver, const Model& model, int substeps);
 
-/// A tick, until its measurements are on the host. @return substeps done
+/// Makes a tick and waits until its measurements are on the host. @return substeps done
 double stepAndWait(Solver& solver, const ToolMotions& motions);
 
 constexpr int kWarmUpTicks = 2;  ///< not timed: the first compiles and allocates
 
-/// Ticks until so many are timed and so much time has passed.
+/// How many ticks are timed: until `least` of them and `watch_s` seconds are reached, `most` at most.
 struct TimedTicks {
   int least, most;
   double watch_s;
 };
-/// Clock time per substep of every timed tick [s]. @param motions  of the next tick
+/// Returns the clock time per substep of every timed tick [s]. @param motions  of the next tick
 std::vector<double> substepTimes(Solver& solver, const std::function<ToolMotions()>& motions, const TimedTicks& ticks);
 
-/// Middle value, the upper of two. @param values  not empty
+/// Returns the middle value, the upper of two. @param values  not empty
 double median(std::vector<double> values);
-/// Value below which a share of the values lies. @param values  not empty   @param share  0..1
+/// Returns the value below which a share of the values is. @param values  not empty   @param share  0..1
 double percentile(std::vector<double> values, double share);
 
 }  // namespace viscera

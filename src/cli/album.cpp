@@ -21,12 +21,12 @@ Album::Album(const std::string& folder, const Scene& scene, const Strokes& strok
   if (folder_.empty()) return;
   std::error_code error;
   std::filesystem::create_directories(pictures_ == Pictures::kNone ? folder_ : folder_ + "/frames", error);
-  if (error) throw Error(folder_ + ": cannot be made into a folder for pictures: " + error.message());
+  if (error) throw Error(folder_ + ": cannot create this folder for pictures: " + error.message());
   if (pictures_ == Pictures::kNone) return;
   for (const Mark& mark : strokes.marks) {
     const double tick = std::max(1.0, std::round(mark.time_s * scene.solver.tick_hz));
     if (tick > static_cast<double>(ticks)) {
-      std::cout << "mark '" << mark.name << "' lies after the end: no picture\n";
+      std::cout << "mark '" << mark.name << "' is after the end of the run: no picture\n";
       continue;
     }
     marks_.emplace(static_cast<uint64_t>(tick), mark.name);
@@ -43,8 +43,8 @@ Album::~Album() {
   if (writer_.joinable()) writer_.join();
 }
 
-Wants Album::wants(const Session& session) const {
-  Wants out;
+FrameRequest Album::wants(const Session& session) const {
+  FrameRequest out;
   if (folder_.empty()) return out;
   const bool marked = marks_.count(session.tick() + 1) > 0;
   out.surface = session.tick() + 1 == ticks_;
@@ -119,7 +119,7 @@ void Album::writeOut(const ImageFrame& image) const {
     writeFile(image, folder_ + "/" + mark->second + "_" + camera);
 }
 
-/// @param stem  of the path, without what says of which kind the file is
+/// Writes an image. @param stem  path without the suffix for the kind of file
 void Album::writeFile(const ImageFrame& image, const std::string& stem) {
   switch (image.kind) {
     case PictureKind::kDepth:

@@ -16,33 +16,34 @@
 
 namespace viscera::cli {
 
-/// Where pictures go: a numbered series per camera, and a named one for every mark of the strokes; and the skin at the
-/// end. A thread of its own packs and writes the pictures.
+/// Writes the images of a run: a numbered series per camera, and a named image for every mark of the strokes; also the
+/// final surface mesh. A separate thread compresses and writes the images.
 class Album {
  public:
-  /// What is shown of a run.
+  /// Which images of a run are written.
   enum class Pictures {
     kAll,
-    kLive,  ///< the series may have gaps where drawing falls behind
-    kNone,  ///< only the skin at the end
+    kLive,  ///< the series may have gaps if drawing falls behind
+    kNone,  ///< none, only the final surface mesh
   };
-  /// What is taken beside what cameras see.
+  /// Images that are written in addition to colour.
   struct Kinds {
-    bool depth = false;   ///< as .npy: float32, m along the optical axis, NaN where nothing is
-    bool labels = false;  ///< as grey PNG (layout/picture_labels.h)
+    bool depth = false;   ///< whether to write depth as .npy: float32, m along the optical axis, NaN: nothing
+    bool labels = false;  ///< whether to write labels as grey PNG (layout/picture_labels.h)
   };
-  /// @param folder  empty: neither pictures nor skin   @throws Error  the folder cannot be made
+  /// @param folder  empty: neither images nor surface mesh   @throws Error  the folder cannot be created
   Album(const std::string& folder, const Scene& scene, const Strokes& strokes, uint64_t ticks, Pictures pictures,
         const Kinds& kinds);
   ~Album();
   Album(const Album&) = delete;
   Album& operator=(const Album&) = delete;
 
-  /// What the session's next step should show.
-  Wants wants(const Session& session) const;
-  /// Waits only where more pictures wait to be written than kWaiting. @throws ImageError  of an earlier picture
+  /// Returns the outputs that the session's next step should produce.
+  FrameRequest wants(const Session& session) const;
+  /// Adds the images of a frame. Blocks only if more than kWaiting images wait to be written.
+  /// @throws ImageError  for an earlier image
   void add(Frame&& frame);
-  /// Waits until all are written. @throws ImageError; Error  the skin cannot be written
+  /// Waits until all images are written. @throws ImageError; Error  the surface mesh cannot be written
   void finish();
 
  private:
@@ -58,7 +59,7 @@ class Album {
   uint64_t ticks_;
   Kinds kinds_;
   std::unique_ptr<SurfaceFrame> surface_;
-  std::multimap<uint64_t, std::string> marks_;  ///< tick -> names
+  std::multimap<uint64_t, std::string> marks_;  ///< names by tick
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<ImageFrame> waiting_;

@@ -15,8 +15,8 @@ int bench(char** arguments) {
   const std::filesystem::path program =
       std::filesystem::read_symlink("/proc/self/exe").replace_filename("viscera-bench");
   execv(program.c_str(), arguments);
-  const std::string how = errno == ENOENT ? ": it is the target viscera-bench of the build" : "";
-  throw Error(program.string() + " cannot be started, " + std::strerror(errno) + how);
+  const std::string how = errno == ENOENT ? "; build the target viscera-bench" : "";
+  throw Error(program.string() + " cannot be started: " + std::strerror(errno) + how);
 }
 
 }  // namespace viscera::cli

@@ -19,7 +19,7 @@ size_t cellCount(const Lattice& lattice) {
       std::count_if(lattice.cell_labels.begin(), lattice.cell_labels.end(), [](uint16_t label) { return label != 0; }));
 }
 
-/// Prints what a scene's bodies came to, and how thick their walls are in cells.
+/// Prints the bodies of a scene, and the thickness of their walls in cells.
 void checkScene(const RunOptions& options) {
   const Scene scene = withChosenSpacing(sceneOf(options).scene, nullptr, consoleProgress());
   const Model model = buildModel(scene, consoleProgress());
@@ -28,7 +28,7 @@ void checkScene(const RunOptions& options) {
     if (body.hasCells()) std::cout << ", spacing " << body.lattice.spacing_m * 1e3 << " mm";
     std::cout << '\n';
     if (body.material.walls == Walls::kRows)
-      std::cout << "  material.walls: rows: in " << wallCells(body).size() << " of " << cellCount(body.lattice)
+      std::cout << "  material.walls: rows: used in " << wallCells(body).size() << " of " << cellCount(body.lattice)
                 << " cells\n";
     const std::optional<WallThickness> thickness = wallThickness(body);
     if (thickness)
@@ -50,7 +50,7 @@ int check(int device, const RunOptions& options) {
   }
   std::cout << "renderer: " << context.renderer() << "\nOpenGL:   " << context.version() << '\n';
   if (context.isSoftware())
-    std::cout << "note:     software rasteriser: everything works, at a fraction of a GPU's speed\n";
+    std::cout << "note:     software rasteriser: everything works, but much slower than on a GPU\n";
   return 0;
 }
 

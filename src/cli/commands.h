@@ -14,84 +14,89 @@ namespace viscera::cli {
 
 struct RunOptions {
   std::string scene;
-  std::string mesh;     ///< empty: what the scene says
-  std::string strokes;  ///< empty: nothing touches the tissue
-  std::string task;     ///< file of a task that is judged, or the name of a shipped one; empty: none
+  std::string mesh;     ///< mesh file; empty: the scene's
+  std::string strokes;  ///< strokes file; empty: nothing touches the tissue
+  std::string task;     ///< file or shipped name of a task to judge; empty: none
   std::optional<double> seconds;
-  std::string out;                        ///< empty: no pictures, no metrics.json
-  bool no_view = false;                   ///< without OpenGL: on the processor, no pictures
-  bool live = false;                      ///< pictures may be left out where drawing falls behind, but for marks
-  bool depth = false;                     ///< depths are taken with every picture
-  bool labels = false;                    ///< labels are
-  std::string save, resume;               ///< files of a saved state; empty: none
-  std::string record;                     ///< file in which all of it is recorded; empty: none
-  double save_every_s = 0;                ///< simulated; 0: at the end only
-  std::optional<ExportOptions> exported;  ///< into `out`/export
+  std::string out;                        ///< output folder; empty: no images, no metrics.json
+  bool no_view = false;                   ///< whether to run without OpenGL: on the CPU, without images
+  bool live = false;                      ///< whether to skip images if drawing falls behind, except those of marks
+  bool depth = false;                     ///< whether to write depth with every image
+  bool labels = false;                    ///< whether to write labels with every image
+  std::string save, resume;               ///< files of saved states; empty: none
+  std::string record;                     ///< file of a recording; empty: none
+  double save_every_s = 0;                ///< simulated time between saved states [s]; 0: at the end only
+  std::optional<ExportOptions> exported;  ///< options of the export into `out`/export
   Overrides overrides;
 };
-/// `viscera check`: EGL devices, which is taken, why others were not; with a scene, its bodies and their walls.
+/// Runs `viscera check`: lists EGL devices, the chosen one, and why others were not chosen; for a scene, its bodies and
+/// walls.
 int check(int device, const RunOptions& options);
 
-/// `viscera run`: a session without ROS.
+/// Runs `viscera run`: a session without ROS.
 int run(const RunOptions& options);
 
-/// `viscera task`: a session in the scene of options.task, judged; docs/lessons/tasks.md.
+/// Runs `viscera task`: a judged session in the scene of options.task; docs/lessons/tasks.md.
 int task(RunOptions options);
 
 struct ReplayOptions {
   std::string file;
-  double from_s = 0;  ///< steps after this are looked at
+  double from_s = 0;  ///< time from which steps are shown [s]
   std::optional<double> until_s;
-  double speed = 0;  ///< of the clock; 0: as fast as can be
-  std::string out;   ///< empty: no pictures, no tables
-  std::string save;  ///< file for the state at the end; empty: none
+  double speed = 0;  ///< speed relative to the clock; 0: as fast as possible
+  std::string out;   ///< output folder; empty: no images, no tables
+  std::string save;  ///< file of the final state; empty: none
   bool no_view = false, depth = false, labels = false;
-  Overrides overrides;  ///< of keys that change no state
+  Overrides overrides;  ///< overrides of keys that do not affect the state
 };
-/// `viscera replay`: a recorded session again. @return 1 if its states are not those that were recorded
+/// Runs `viscera replay`: repeats a recorded session. @return 1 if its states differ from the recorded ones
 int replay(const ReplayOptions& options);
 
-/// `viscera bench`: runs the program viscera-bench that stands beside this one. @param arguments  of the command line,
-/// from "bench" on, ended by null   @throws Error  it is not there   @return only if it could not be started
+/// Runs `viscera bench`: starts the program viscera-bench in the folder of this one.
+/// @param arguments  command line from "bench" on, null-terminated
+/// @throws Error  it does not exist   @return only if it could not be started
 int bench(char** arguments);
 
-/// `viscera settle`: the static state of a scene, and what it took.
+/// Runs `viscera settle`: computes the static state of a scene, and prints the effort.
 int settle(const RunOptions& options);
 
 struct SweepOptions {
-  std::string plan;  ///< file (sweep_plan.h)
+  std::string plan;  ///< file of the plan (sweep_plan.h)
   std::string out;
-  int jobs = 0;             ///< sessions side by side; 0: as many as the machine has threads
-  int tries = 2;            ///< failures after which a run is given up
-  int run_limit_s = 86400;  ///< a run that takes longer is killed, and has failed; 0: no limit
+  int jobs = 0;             ///< number of concurrent sessions; 0: number of hardware threads
+  int tries = 2;            ///< number of failures after which a run is given up
+  int run_limit_s = 86400;  ///< time limit of a run [s], after which it is killed and has failed; 0: no limit
   bool retry = false;
-  int slurm = 0;       ///< > 0: submit a job array of so many workers instead
-  std::string sbatch;  ///< more options for sbatch, as one would write them in a shell
+  int slurm = 0;       ///< number of workers; > 0: submits a job array of workers instead
+  std::string sbatch;  ///< further options for sbatch, in shell syntax
 };
-/// `viscera sweep`: many sessions, by any number of processes that share a folder. @return 1 if some were given up
+/// Runs `viscera sweep`: many sessions, by any number of processes that share a folder. @return 1 if some were given up
 int sweep(const SweepOptions& options);
 
-/// `viscera fit`: a scene with another organ, as a file that one can edit.
+/// Runs `viscera fit`: writes a scene with another organ, as an editable file.
 int fit(const RunOptions& options);
 
-/// `viscera anchor`: anchored strokes as absolute ones.
+/// Runs `viscera anchor`: converts anchored strokes to absolute ones.
 int anchor(const RunOptions& options);
+
+/// Runs `viscera upgrade`: renames the keys of scene, strokes, task and sweep files to those of this version, in place.
+int upgrade(const std::vector<std::string>& files);
 
 struct ImportOptions {
   std::string scan;
-  LabelOptions labels;     ///< with what the file cannot say
-  bool by_window = false;  ///< tissue is what lies within `window`, not labels
+  LabelOptions labels;     ///< options for what the file does not specify
+  bool by_window = false;  ///< whether `window` selects tissue, instead of labels
   WindowOptions window;
-  double spacing_m = 0;            ///< 0: the largest organ gets some 20,000 nodes
-  bool one_body = false;           ///< all labels are parts of one body
-  std::vector<std::string> rigid;  ///< numbers or names of labels that are held in space
-  bool list = false;               ///< says what is in the scan, and writes nothing
+  double spacing_m = 0;            ///< lattice spacing [m]; 0: about 20,000 nodes in the largest organ
+  bool one_body = false;           ///< whether all labels are parts of one body
+  std::vector<std::string> rigid;  ///< numbers or names of labels that are fixed in space
+  bool list = false;               ///< whether to list the contents of the scan and write nothing
   bool no_previews = false;
-  bool smooth = false;  ///< a label map that was made finer is read as it was before
-  std::string grey;     ///< scan that labels were drawn on, for previews; empty: not known
+  bool smooth = false;  ///< whether to undo the upsampling of a label map
+  std::string grey;     ///< scan on which the labels were drawn, for previews; empty: not known
   std::string out;
 };
-/// `viscera import`: organs of a scan as meshes and a scene of them.
+/// Runs `viscera import`: converts organs of a scan to meshes and a scene.
 int import(const ImportOptions& options);
 
 }  // namespace viscera::cli

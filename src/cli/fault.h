@@ -18,13 +18,13 @@
 
 namespace viscera::cli {
 
-/// A command line that is not understood. Its exit status is CLI11's own number, above 100.
+/// Error for an invalid command line. Its exit status is CLI11's own number, above 100.
 struct CommandLineError : Error {
   CommandLineError(const std::string& what, int its_status) : Error(what), status(its_status) {}
   int status;
 };
 
-/// Says why the program gives up, in one line. @return its exit status
+/// Prints the reason for giving up, in one line. @return exit status
 inline int giveUp(const std::exception& error) {
   std::fflush(stdout);
   std::cout.flush();
@@ -37,7 +37,7 @@ inline std::vector<const CLI::App*> commandsOf(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App*) { return true; });
 }
 
-/// Names that an unknown command or option may have been meant for, as a part of an error; empty: none is unknown.
+/// Returns names that an unknown command or option may have meant, as part of an error message; empty if all are known.
 inline std::string nearestTo(const CLI::App& app, int argc, char** argv) {
   constexpr size_t kNamed = 3;
   const CLI::App* at = &app;
@@ -67,7 +67,7 @@ inline std::string nearestTo(const CLI::App& app, int argc, char** argv) {
   return "; nearest to '" + unknown + "' are " + out;
 }
 
-/// Reads the command line. @return the exit status where that was all, as after --help   @throws CommandLineError
+/// Reads the command line. @return the exit status if the program is done, as after --help   @throws CommandLineError
 inline std::optional<int> parse(CLI::App& app, int argc, char** argv) {
   try {
     app.parse(argc, argv);

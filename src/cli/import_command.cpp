@@ -32,37 +32,38 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kNodes = 20000;     ///< that the largest body gets, about
-constexpr double kLeastNodes = 500;  ///< that a smaller one gets: its spacing shrinks before it has fewer
-constexpr double kHeld = 0.2;  ///< of a surface's vertices, from behind: of pointed organs' length it would be little
-constexpr double kFieldOfViewDeg = 28;  ///< of the camera, from the top of a picture to its bottom
-constexpr double kUsualLength = 0.1;    ///< [m] of organs that tools have their usual sizes for
-constexpr double kLeastSpacing = 1e-5;  ///< [m] that a scene accepts
-constexpr double kCm3 = 1e6;            ///< in a cubic metre
+constexpr double kNodes = 20000;     ///< approximate number of nodes of the largest body
+constexpr double kLeastNodes = 500;  ///< least number of nodes of a smaller one; its spacing is reduced to reach it
+constexpr double kHeld = 0.2;  ///< share of a surface's vertices that is fixed, from behind: a share of the length of a
+                               ///< pointed organ would fix little
+constexpr double kFieldOfViewDeg = 28;  ///< vertical field of view of the camera
+constexpr double kUsualLength = 0.1;    ///< size of organs for which tools have their usual sizes [m]
+constexpr double kLeastSpacing = 1e-5;  ///< least spacing that a scene accepts [m]
+constexpr double kCm3 = 1e6;            ///< per cubic metre
 
 /// A body of the scene.
 struct Organ {
   std::string name, file, title;
-  std::string source, held;  ///< lines of the scene; empty: its mesh file, a plane
+  std::string source, held;  ///< YAML lines of the scene; empty: its mesh file, a plane
   TriangleMesh mesh;
-  std::vector<bool> is_held;  ///< [triangles of the mesh] all of it, or about so
+  std::vector<bool> is_held;  ///< [triangles of the mesh]; all or almost all may be fixed
   Eigen::AlignedBox3d box_m;
   double volume_m3 = 0, spacing_m = 0;
-  double held_m = 0;  ///< x, behind which it is held
+  double held_m = 0;  ///< x behind which it is fixed [m]
   bool is_rigid = false;
-  size_t skin_faces = 0;                 ///< that are drawn; 0: all
-  const TissuePreset* tissue = nullptr;  ///< null: no preset has the label's name
+  size_t skin_faces = 0;                 ///< number of faces that are drawn; 0: all
+  const TissuePreset* tissue = nullptr;  ///< preset of the tissue; null: no preset has the label's name
 };
 
 void printNotes(const std::vector<std::string>& notes) {
   for (const std::string& note : notes) std::cout << "note: " << oneLine(note) << '\n';
 }
 
-/// A name that is plain in file names, YAML and topics, and that no other has.
+/// Returns a unique name that is valid in file names, YAML and topics.
 std::string plainName(const LabelName& label, const std::vector<Organ>& others) {
   std::string name;
   for (const char c : label.name) name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-  constexpr size_t kLongest = 60;  // bytes
+  constexpr size_t kLongest = 60;  // limit in bytes
   name.resize(std::min(name.size(), kLongest));
   const auto taken = [&] {
     return std::any_of(others.begin(), others.end(), [&](const Organ& o) { return o.name == name; });
@@ -82,7 +83,7 @@ Eigen::AlignedBox3d boxOf(const std::vector<Organ>& organs) {
   return all;
 }
 
-/// Of tools and of hands' ways.
+/// Returns the scale of tools and motions.
 double sizeOf(const Eigen::AlignedBox3d& all) {
   return std::cbrt(all.sizes().prod()) / kUsualLength;
 }
@@ -95,7 +96,7 @@ double heldOf(const TriangleMesh& mesh) {
   return *held;
 }
 
-/// Which triangles of a mesh reach behind x.
+/// Returns which triangles of a mesh reach behind x.
 std::vector<bool> behind(const TriangleMesh& mesh, double x_m) {
   std::vector<bool> out;
   for (const auto& t : mesh.triangles)
@@ -103,7 +104,7 @@ std::vector<bool> behind(const TriangleMesh& mesh, double x_m) {
   return out;
 }
 
-/// All organs as one, with their borders in it.
+/// Joins all organs into one, including their common borders.
 Organ joined(const std::vector<Organ>& organs) {
   Organ whole;
   whole.name = "organs";
@@ -121,18 +122,18 @@ Organ joined(const std::vector<Organ>& organs) {
   return whole;
 }
 
-/// A label whose pieces are a voxel or two thick loses volume to the smoothness of its surface.
+/// Notes the volume that smoothing removes from a label with pieces one or two voxels thick.
 void noteLostVolume(const Organ& organ, double voxels_m3, std::vector<std::string>& notes) {
-  constexpr double kMostLost = 0.05;  // share: of a tube of three voxels it is less
+  constexpr double kMostLost = 0.05;  // share; less for a tube of three voxels
   if (organ.volume_m3 >= (1 - kMostLost) * voxels_m3) return;
   TextOut out;
   out.precision(3);
   out << organ.name << ": its surface encloses " << organ.volume_m3 * kCm3 << " of the " << voxels_m3 * kCm3
-      << " cm3 of its voxels: pieces that are one or two voxels thick are rounded off";
+      << " cm3 of its voxels; pieces that are one or two voxels thick are rounded off";
   notes.push_back(out.str());
 }
 
-/// [labels] volume of their voxels.
+/// Returns [labels] the volume of their voxels.
 std::vector<double> voxelVolumes(const LabelVolume& map) {
   std::vector<size_t> count(map.names.size());
   for (const uint8_t label : map.labels) ++count[label];
@@ -148,7 +149,7 @@ std::vector<Organ> organsOf(const ReadScan& read, const ImportOptions& options, 
   if (!options.one_body && count > layout::kMaxBodies)
     throw SceneError(options.scan + ": " + std::to_string(count) + " labels; accepted: a scene has at most " +
                      std::to_string(layout::kMaxBodies) +
-                     " bodies, of labels that --labels chooses; a grey scan needs --window LOW,HIGH");
+                     " bodies. Choose labels with --labels; a grey scan needs --window LOW,HIGH");
   const SurfaceNet net = netOf(read, options.window);
   const std::vector<bool> rigid = rigidLabels(map.names, options);
   std::vector<bool> there(map.names.size(), true);
@@ -163,9 +164,9 @@ std::vector<Organ> organsOf(const ReadScan& read, const ImportOptions& options, 
     organ.file = organ.name + ".ply";
     organ.is_rigid = rigid[n];
     organ.mesh = labelSurfaces(net, map.names, {static_cast<uint8_t>(n)});
-    if (organ.mesh.triangles.empty()) {  // which a scene cannot have
+    if (organ.mesh.triangles.empty()) {  // a scene cannot have an empty mesh
       there[n] = false;
-      notes.push_back(organ.title + " is left out: other labels have all its voxels");
+      notes.push_back(organ.title + " is left out: all its voxels belong to other labels");
       continue;
     }
     organ.volume_m3 = signedVolume(organ.mesh);
@@ -190,14 +191,14 @@ std::vector<Organ> organsOf(const ReadScan& read, const ImportOptions& options, 
     if (organ.spacing_m < voxel_m)
       notes.push_back(organ.name + ": a spacing of " + numberText(organ.spacing_m) +
                       " m is finer than its voxels, of up to " + numberText(voxel_m) +
-                      " m: there is no more in the scan");
-    if (organ.is_rigid) organ.held_m = organ.box_m.max().x() + organ.spacing_m;  // all of it
+                      " m; the scan has no more detail");
+    if (organ.is_rigid) organ.held_m = organ.box_m.max().x() + organ.spacing_m;  // all of it is fixed
     if (organ.held.empty()) organ.is_held = behind(organ.mesh, organ.held_m + organ.spacing_m);
   }
   return organs;
 }
 
-/// Skins that are too fine to be drawn and to follow tissue live are simplified by the scene, each by the same share.
+/// Simplifies surfaces that are too fine for drawing and skinning in real time, each by the same share.
 void chooseSkins(std::vector<Organ>& organs, std::vector<std::string>& notes) {
   constexpr size_t kMostFaces = 400000, kLeastFaces = 2000;
   size_t faces = 0;
@@ -209,7 +210,7 @@ void chooseSkins(std::vector<Organ>& organs, std::vector<std::string>& notes) {
     organ.skin_faces = std::max(own, std::min(kLeastFaces, organ.mesh.triangles.size()));
   }
   notes.push_back("the surfaces have " + std::to_string(faces) + " triangles, of which about " +
-                  std::to_string(kMostFaces) + " are drawn: bodies[].skin_faces of the scene");
+                  std::to_string(kMostFaces) + " are drawn (bodies[].skin_faces of the scene)");
 }
 
 void writeFile(const fs::path& path, const std::string& bytes) {
@@ -232,8 +233,8 @@ std::string plyOf(const TriangleMesh& mesh) {
   return out.str();
 }
 
-/// Meshes stay where the scan has them; bodies are moved so that the middle of all is the scene's origin. Without
-/// gravity: the scan shows organs as their weight left them.
+/// Returns the YAML text of the scene. Meshes keep the coordinates of the scan; bodies are moved so that their common
+/// centre is the origin. There is no gravity, since the scan shows organs deformed by their weight.
 std::string sceneOf(const std::vector<Organ>& organs, const std::string& scan) {
   const Eigen::AlignedBox3d all = boxOf(organs);
   static const std::vector<std::string> kColors = {"[0.62, 0.22, 0.2]",  "[0.76, 0.5, 0.38]", "[0.72, 0.3, 0.36]",
@@ -266,7 +267,7 @@ std::string sceneOf(const std::vector<Organ>& organs, const std::string& scan) {
         << "}, grab: {radius_m: " << stylus.grab.radius_m << "}, cut: {blade_length_m: " << stylus.cut.blade_length_m
         << "}, shaft_length_m: " << stylus.shaft_length_m << "}\n";
   }
-  // From before, somewhat from the organ's left and from above.
+  // From the front, slightly from the organ's left and from above.
   const double half = kFieldOfViewDeg / 2 * M_PI / 180;
   const double distance = 0.5 * all.sizes().norm() / std::sin(half);
   out << "cameras:\n  - {name: camera, position_m: [" << listText(distance * Vector3d(1, 0.35, 0.3).normalized())
@@ -304,7 +305,7 @@ void writeScene(const Draft& draft, const std::vector<Organ>& organs, const std:
 int import(const ImportOptions& asked) {
   ImportOptions options = asked;
   if (std::isnan(options.spacing_m))
-    throw Error("--spacing is a number, 0.00001 .. 10; found nan");  // passes CLI::Range
+    throw Error("--spacing must be a number, 0.00001 .. 10; found nan");  // CLI::Range accepts NaN
   std::vector<std::string> notes;
   options.labels.notes = &notes;
   if (options.list) {
@@ -337,11 +338,11 @@ int import(const ImportOptions& asked) {
   for (const Organ& organ : organs) {
     std::cout << organ.name << ": " << organ.title << ", " << organ.volume_m3 * kCm3 << " cm3, "
               << organ.mesh.triangles.size() << " triangles, spacing " << organ.spacing_m << " m, "
-              << (organ.tissue ? std::string("tissue ") + organ.tissue->name : "no tissue of its name: 10000 Pa")
+              << (organ.tissue ? std::string("tissue ") + organ.tissue->name : "no known tissue of this name: 10000 Pa")
               << '\n';
   }
   const std::string out = oneLine(options.out);
-  std::cout << took << (options.no_previews ? "" : "; look at " + out + "/preview") << "\nplay it: viscera run " << out
+  std::cout << took << (options.no_previews ? "" : "; look at " + out + "/preview") << "\nrun it: viscera run " << out
             << "/scene.yaml --strokes " << out << "/strokes.yaml --out " << out << "/played\n";
   return 0;
 }

@@ -11,7 +11,7 @@ namespace viscera {
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the header says little-endian");
 
 void writeNpy(const std::string& path, int width, int height, const std::vector<float>& values) {
-  constexpr size_t kLead = 10, kAlignment = 64;  // of the format: magic, version, length; where values begin
+  constexpr size_t kLead = 10, kAlignment = 64;  // bytes of magic, version and length; alignment of the values
   std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (" + std::to_string(height) + ", " +
                        std::to_string(width) + "), }";
   header.append(kAlignment - (kLead + header.size() + 1) % kAlignment, ' ');

@@ -7,8 +7,9 @@
 
 namespace viscera {
 
-/// Writes an array [height, width] of float32 as NumPy's numpy.load() reads it (format 1.0), replacing the file if
-/// there is one. @param values  [width * height], row by row   @throws ImageError
+/// Writes an array [height, width] of float32 in NumPy's format 1.0, which numpy.load() reads. Replaces an existing
+/// file.
+/// @param values  [width * height], row by row   @throws ImageError
 void writeNpy(const std::string& path, int width, int height, const std::vector<float>& values);
 
 }  // namespace viscera

@@ -20,7 +20,7 @@ void write(const std::string& path, int width, int height, const std::vector<uin
   image.height = static_cast<png_uint_32>(height);
   image.format = grey ? PNG_FORMAT_GRAY : PNG_FORMAT_RGB;
   image.flags =
-      PNG_IMAGE_FLAG_FAST;  // several times faster, somewhat larger: pictures are taken while tissue is stepped
+      PNG_IMAGE_FLAG_FAST;  // several times faster, slightly larger: images are written while the simulation runs
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
   std::string packed(size, '\0');
   if (!png_image_write_to_memory(&image, packed.data(), &size, 0, bytes.data(), 0, nullptr))

@@ -12,20 +12,20 @@
 
 namespace viscera {
 
-/// An image file that cannot be written. Names the file and what the system said.
+/// Error for an image file that cannot be written. Names the file and the system's error.
 struct ImageError : Error {
   using Error::Error;
 };
 
-/// Writes a whole file (math/out_file.h). @throws ImageError
+/// Writes a file atomically (math/out_file.h). @throws ImageError
 void writeImageFile(const std::string& path, FileKind kind, std::string_view bytes);
 
-/// Writes an 8-bit sRGB image, replacing the file if there is one.
+/// Writes an 8-bit sRGB image. Replaces an existing file.
 /// @param rgb  [3 * width * height], rows from the top
 /// @throws ImageError
 void writePng(const std::string& path, int width, int height, const std::vector<uint8_t>& rgb);
 
-/// The same of one value per pixel, as grey. @param values  [width * height], rows from the top
+/// Writes one value per pixel as grey. @param values  [width * height], rows from the top
 void writeGreyPng(const std::string& path, int width, int height, const std::vector<uint8_t>& values);
 
 }  // namespace viscera

@@ -14,7 +14,7 @@
 #include "cli/task_run.h"
 #include "math/out_file.h"
 #include "session/session_replay.h"
-#include "tasks/hand_log.h"
+#include "tasks/tool_log.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 #include "viscera/math/state_hash.h"
@@ -26,8 +26,8 @@ namespace {
 using ReplayJson = nlohmann::ordered_json;
 using ReplayClock = std::chrono::steady_clock;
 
-/// What is made of a recording: its sessions, and pictures and tables of them. Of each piece without a leap of the
-/// state there is a folder, the first in that which was named.
+/// Results of a replay: its sessions, their images and tables. Each piece without a jump of the state has a folder, the
+/// first one the given folder.
 class Replayed {
  public:
   explicit Replayed(const ReplayOptions& options) : options_(options) {}
@@ -43,7 +43,7 @@ class Replayed {
     tasks_ = std::make_unique<TaskRun>(*session_, reportFolder(), !options_.no_view);
     return *session_;
   }
-  Wants wants(const Session& session) {
+  FrameRequest wants(const Session& session) {
     if (!hands_) hands_.emplace(*session_);
     if (!options_.out.empty() && !album_) {
       ++pieces_;
@@ -52,7 +52,7 @@ class Replayed {
       album_ = std::make_unique<Album>(folder_, session.scene(), Strokes{}, UINT64_MAX, pictures,
                                        Album::Kinds{options_.depth, options_.labels});
     }
-    return album_ ? album_->wants(session) : Wants{};
+    return album_ ? album_->wants(session) : FrameRequest{};
   }
   void stepped(Frame&& frame, double at_s) {
     if (album_) album_->add(std::move(frame));
@@ -61,14 +61,14 @@ class Replayed {
                                     std::chrono::duration_cast<ReplayClock::duration>(
                                         std::chrono::duration<double>((at_s - options_.from_s) / options_.speed)));
   }
-  /// Pictures and tables of what was looked at since the last leap; measures are kept.
+  /// Writes images and tables since the last jump; measures are kept.
   void endPiece() {
     if (!session_ || !hands_) return;
     Frame last = session_->drain();
     measures_.push_back(hands_->rows().metrics());
     if (album_) {
       album_->add(std::move(last));
-      Wants skin;
+      FrameRequest skin;
       skin.surface = skin.every_image = true;
       Frame shown;
       static_cast<Pictures&>(shown) = session_->show(skin);
@@ -79,7 +79,7 @@ class Replayed {
     album_.reset();
     hands_.reset();
   }
-  /// The same, and the tasks of the session.
+  /// Ends the piece and the tasks of the session.
   void end() {
     endPiece();
     if (tasks_)
@@ -99,7 +99,7 @@ class Replayed {
   const ReplayOptions& options_;
   std::unique_ptr<gpu::Context> context_;
   std::unique_ptr<Session> session_;
-  std::optional<HandLog> hands_;
+  std::optional<ToolLog> hands_;
   std::unique_ptr<TaskRun> tasks_;
   std::unique_ptr<Album> album_;
   std::string folder_;
@@ -112,15 +112,15 @@ void tell(const SessionReplay& replay) {
   std::cout << "recorded: " << replay.duration_s() << " s\n";
   for (const SessionReplay::Part& part : replay.parts())
     std::cout << "from " << part.from_s << " s to " << part.to_s << " s: stepped by " << part.scene.stepped_by << '\n';
-  if (!replay.damage().empty()) std::cerr << "viscera: " << replay.damage() << "; replayed up to there\n";
+  if (!replay.damage().empty()) std::cerr << "viscera: " << replay.damage() << "; it is replayed up to that point\n";
 }
 
 std::string differenceText(const SessionReplay::Difference& it) {
   std::string out = "states differ first at tick " + std::to_string(it.tick) + " of scene " +
                     std::to_string(it.part + 1) + ": recorded " + StateHash::text(it.recorded_hash) + ", replayed " +
                     StateHash::text(it.replayed_hash) + "; at tick " + std::to_string(it.last_same_tick) +
-                    " they were the same";
-  if (it.measured_tick) out += "; what is measured differs first at tick " + std::to_string(*it.measured_tick);
+                    " they were equal";
+  if (it.measured_tick) out += "; measurements differ first at tick " + std::to_string(*it.measured_tick);
   return out;
 }
 
@@ -148,8 +148,7 @@ int replay(const ReplayOptions& options) {
   const double until_s = options.until_s.value_or(recording.duration_s());
   if (until_s < options.from_s) throw Error("--until must not be before --from");
   if (options.no_view && (options.depth || options.labels))
-    throw Error(std::string(options.depth ? "--depth" : "--labels") +
-                ": comes with pictures, and there are none: leave out --no-view");
+    throw Error(std::string(options.depth ? "--depth" : "--labels") + ": needs pictures; remove --no-view");
   std::vector<Output> outputs = outputsIn(options.out);
   outputs.push_back({"--save", options.save, FileKind::kState});
   requireOutputs(outputs);

@@ -20,7 +20,7 @@
 #include "model/fracture/toughness.h"
 #include "model/scene/tool_kinds.h"
 #include "session/session_recorder.h"
-#include "tasks/hand_log.h"
+#include "tasks/tool_log.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
 #include "viscera/session/session.h"
@@ -64,47 +64,48 @@ Album::Pictures picturesOf(const RunOptions& options) {
   return options.live ? Album::Pictures::kLive : Album::Pictures::kAll;
 }
 
-/// @throws Error  it was saved after the end of this run, or Session::restore()
+/// Restores a state. @throws Error  it was saved after the end of this run, or an error of Session::restore()
 void resume(Session& session, const std::string& file, uint64_t ticks) {
   session.restore(file);
   const double at_s = static_cast<double>(session.tick()) * session.tick_s();
   if (session.tick() > ticks) {
-    throw Error(file + ": was saved after " + numberText(at_s) + " s, and the run ends at " +
-                numberText(static_cast<double>(ticks) * session.tick_s()) + " s: give it a later end by --seconds");
+    throw Error(file + ": was saved after " + numberText(at_s) + " s, but the run ends at " +
+                numberText(static_cast<double>(ticks) * session.tick_s()) + " s; give a later end with --seconds");
   }
   std::cout << "resumed after " << at_s << " s, tick " << session.tick() << '\n';
 }
 
-/// Waits for the skin of the last tick, where it is asked for; pictures that come with it are the album's.
+/// Exports a state. Waits for the surface mesh of the last tick if it is exported; images in the same frame go to the
+/// album.
 void exportNow(Session& session, Exporter& exporter, Album& album) {
   if (!exporter.ofSkin()) return exporter.add(session, {});
-  album.add(session.drain());  // so that there is room
-  Wants wants;
+  album.add(session.drain());  // makes room for the next frame
+  FrameRequest wants;
   wants.surface = wants.every_image = true;
   Frame frame;
   static_cast<Pictures&>(frame) = session.show(wants);
-  if (!frame.surface) throw Error("--export: the skin of tick " + std::to_string(session.tick()) + " did not come");
+  if (!frame.surface) throw Error("--export: the skin of tick " + std::to_string(session.tick()) + " is missing");
   exporter.add(session, *frame.surface);
   album.add(std::move(frame));
 }
 
-/// Ticks between two savings; 0: none.
+/// Returns the number of ticks between two saved states; 0: none.
 uint64_t saveTicks(double every_s, double tick_s) {
   return every_s > 0 ? std::max<uint64_t>(1, static_cast<uint64_t>(std::llround(every_s / tick_s))) : 0;
 }
 
-/// Where the whole of a recording was replayed: does it end as the recorded simulation did?
+/// Checks, after a replay of a whole recording, that it ends in the recorded state.
 void compareWithRecording(const Strokes& strokes, uint64_t ticks, Json& metrics) {
   const std::string& recorded = strokes.recorded.state_hash;
   if (recorded.empty() || ticks != strokes.ticks) return;
   const std::string replayed = metrics["state_hash"];
   metrics["recorded_hash_met"] = replayed == recorded;
   if (replayed == recorded) return;
-  std::cerr << "viscera: " << strokes.file << " was recorded to state hash " << recorded << ", this run ends at "
-            << replayed << ": another scene, other overrides, or another machine\n";
+  std::cerr << "viscera: " << strokes.file << " was recorded with state hash " << recorded
+            << ", but this run ends with " << replayed << "; the scene, the overrides or the machine differ\n";
 }
 
-/// Null: none was asked for.
+/// Starts the task. Returns null if there is none.
 std::unique_ptr<TaskRun> beginTask(Session& session, const RunOptions& options) {
   if (options.task.empty()) return nullptr;
   auto out = std::make_unique<TaskRun>(session, options.out.empty() ? "" : options.out + "/report", !options.no_view);
@@ -112,7 +113,7 @@ std::unique_ptr<TaskRun> beginTask(Session& session, const RunOptions& options) 
   return out;
 }
 
-/// Says which hands of the strokes a device could not lead there.
+/// Prints which styluses of the strokes are outside the workspace of a device.
 void sayFarHands(const Strokes& strokes, const Scene& scene) {
   for (const StylusConfig& stylus : scene.styluses) {
     double farthest_m = 0;
@@ -125,28 +126,28 @@ void sayFarHands(const Strokes& strokes, const Scene& scene) {
     if (farthest_m > stylus.workspace_m)
       std::cout << strokes.file << ": stylus '" << stylus.name << "' goes " << numberText(farthest_m)
                 << " m from the tissue frame, beyond its workspace_m of " << numberText(stylus.workspace_m)
-                << " m: a device's pose there is refused\n";
+                << " m; poses of a device there would be refused\n";
   }
 }
 
-/// @throws Error  an option asks for files of which this run has none
+/// Checks the options. @throws Error  an option requests files that this run does not have
 void requireSomethingToWrite(const RunOptions& options, const Session& session, uint64_t ticks) {
   const Scene& scene = session.scene();
   const bool pictures = !options.no_view && !scene.cameras.empty();
   if ((options.depth || options.labels) && !pictures)
-    throw Error(std::string(options.depth ? "--depth" : "--labels") + ": comes with pictures, and there are none: " +
-                (options.no_view ? "leave out --no-view" : "the scene has no cameras"));
+    throw Error(std::string(options.depth ? "--depth" : "--labels") + ": needs pictures; " +
+                (options.no_view ? "remove --no-view" : "the scene has no cameras"));
   if (!options.exported) return;
   const std::vector<Body>& bodies = session.model().bodies;
   const auto isNetwork = [](const Body& body) { return body.network.has_value(); };
-  if (options.exported->source == ExportSource::kThreads && scene.threads.empty())
-    throw Error("--export threads: the scene has none");
+  if (options.exported->source == ExportSource::kSutures && scene.sutures.empty())
+    throw Error("--export sutures: the scene has no sutures");
   if (options.exported->source == ExportSource::kNetwork && std::none_of(bodies.begin(), bodies.end(), isNetwork))
-    throw Error("--export network: the scene has none: no body has structure explicit or surface");
+    throw Error("--export network: no body has structure explicit or surface");
   const double run_s = static_cast<double>(ticks) * session.tick_s();
   if (options.exported->every_s > run_s + session.tick_s() / 2)
     throw Error("--every " + numberText(options.exported->every_s) + " s is longer than the run, " + numberText(run_s) +
-                " s: nothing would be exported");
+                " s; nothing would be exported");
 }
 
 std::vector<Output> outputsOf(const RunOptions& options) {
@@ -156,14 +157,14 @@ std::vector<Output> outputsOf(const RunOptions& options) {
   return out;
 }
 
-/// @throws Error  not all of it was written
+/// Ends a recording. @throws Error  it is not complete
 void finish(SessionRecorder& recorder) {
   recorder.leave();
   recorder.finish();
   if (!recorder.fault().empty()) throw Error(recorder.fault());
 }
 
-/// What is to be known of a session before its first step.
+/// Prints notes on a session before its first step.
 void printNotes(const Session& session, const std::vector<std::string>& stroke_notes) {
   for (const Body& body : session.model().bodies) {
     for (const std::string& note : body.notes) std::cout << body.name << ": " << oneLine(note) << '\n';
@@ -193,7 +194,7 @@ int run(const RunOptions& options) {
   const auto made =
       context ? std::make_unique<Session>(scene, *context, progress) : std::make_unique<Session>(scene, progress);
   Session& session = *made;
-  requireOutputs(outputs);  // by now all is known that is read
+  requireOutputs(outputs);  // all inputs are known at this point
   requireSomethingToWrite(options, session, ticks);
   const std::vector<std::string> stroke_notes = resolveAnchors(strokes, session.model(), scene.fit);
   sayFarHands(strokes, scene);
@@ -202,7 +203,7 @@ int run(const RunOptions& options) {
   Album album(options.out, session.scene(), strokes, ticks, picturesOf(options), {options.depth, options.labels});
   printRecording(strokes);
   if (!options.resume.empty()) resume(session, options.resume, ticks);
-  std::optional<HandLog> hands;
+  std::optional<ToolLog> hands;
   if (!options.strokes.empty()) hands.emplace(session);
   std::optional<SessionRecorder> recorder;
   if (!options.record.empty()) recorder.emplace(options.record).follow(session);
@@ -213,7 +214,7 @@ int run(const RunOptions& options) {
   const Clock::time_point start = Clock::now();
   for (uint64_t t = session.tick(); t < ticks; ++t) {
     const double time_s = static_cast<double>(t + 1) * session.tick_s();
-    if (strokes.handsAnew(t + 1)) session.forgetHands();
+    if (strokes.inputReset(t + 1)) session.resetInput();
     album.add(session.step(strokes.at(time_s, scene.styluses), album.wants(session)));
     progress("simulating", static_cast<double>(t + 1) / static_cast<double>(ticks));
     if (exporter && exporter->isDue(t + 1)) exportNow(session, *exporter, album);
@@ -230,7 +231,7 @@ int run(const RunOptions& options) {
 
   Json metrics = metricsOf(session, stats, context ? context->renderer() : "none", wall_s);
   compareWithRecording(strokes, ticks, metrics);
-  if (hands) metrics["hands"] = hands->rows().metrics();
+  if (hands) metrics["tools"] = hands->rows().metrics();
   if (task) metrics["tasks"] = task->finish();
   if (!options.out.empty()) {
     if (hands) writeHands(hands->rows(), options.out);

@@ -20,14 +20,14 @@ namespace fs = std::filesystem;
 constexpr const char* kListName = "/.viscera_run";
 constexpr const char* kListHead = "# files of the last run into this folder; the next run removes them";
 
-/// The file itself, whatever its name; none that is there: where it will be.
+/// Returns the canonical path of a file; of one that does not exist, its future path.
 fs::path placeOf(const std::string& path) {
   std::error_code error;
   const fs::path place = fs::weakly_canonical(fs::absolute(path, error), error);
   return error ? fs::path(path).lexically_normal() : place;
 }
 
-/// Listed names lead nowhere else. @param name  as a list has it
+/// Returns whether a listed name is within the folder. @param name  name from a list
 bool isWithin(const std::string& name) {
   const fs::path path(name);
   return !name.empty() && path.is_relative() &&
@@ -39,7 +39,7 @@ bool isWithin(const std::string& name) {
 std::vector<Output> outputsIn(const std::string& folder) {
   if (folder.empty()) return {};
   return {{"--out", folder + "/metrics.json", FileKind::kJson},
-          {"--out", folder + "/hands.csv", FileKind::kText},
+          {"--out", folder + "/tools.csv", FileKind::kText},
           {"--out", folder + "/kinematics.txt", FileKind::kText},
           {"--out", folder + "/surface.ply", FileKind::kPly}};
 }
@@ -51,7 +51,7 @@ void requireOutputs(const std::vector<Output>& outputs) {
     for (size_t j = 0; j < i; ++j) {
       if (outputs[j].path.empty() || placeOf(outputs[j].path) != placeOf(outputs[i].path)) continue;
       throw Error(outputs[j].option + " and " + outputs[i].option + " both write " + outputs[i].path +
-                  ": name two files");
+                  "; give each its own file");
     }
   }
 }
@@ -60,7 +60,7 @@ RunFolder::RunFolder(const std::string& folder) : folder_(folder) {
   if (folder_.empty()) return;
   std::error_code error;
   fs::create_directories(folder_, error);
-  if (error) throw Error(folder_ + ": cannot be made into a folder for pictures: " + error.message());
+  if (error) throw Error(folder_ + ": cannot create this folder for pictures: " + error.message());
   clear();
   std::ofstream file(folder_ + kListName, std::ios::trunc);
   file << kListHead << '\n';
@@ -77,7 +77,8 @@ void RunFolder::clear() const {
   std::ifstream file(folder_ + kListName);
   std::string line;
   if (!std::getline(file, line)) return;
-  if (line != kListHead) throw Error(folder_ + kListName + ": is no list of a run's files; name another --out");
+  if (line != kListHead)
+    throw Error(folder_ + kListName + ": is not a list of the files of a run; choose another --out");
   size_t removed = 0;
   std::set<fs::path> folders;
   while (std::getline(file, line)) {
@@ -85,17 +86,17 @@ void RunFolder::clear() const {
     std::error_code error;
     if (!isWithin(line) || !fs::is_regular_file(fs::symlink_status(path, error)) || isRead(path.string())) continue;
     if (!fs::remove(path, error))
-      throw Error(path.string() + ": is of an older run and cannot be removed: " + error.message());
+      throw Error(path.string() + ": belongs to an older run and cannot be removed: " + error.message());
     ++removed;
     for (fs::path up = fs::path(line).parent_path(); !up.empty(); up = up.parent_path()) folders.insert(up);
   }
-  for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) {  // those within others first
+  for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) {  // nested folders first
     std::error_code error;
-    fs::remove(fs::path(folder_) / *folder, error);  // unless something is left in it
+    fs::remove(fs::path(folder_) / *folder, error);  // fails if it is not empty
   }
   if (removed > 0)
-    std::cout << folder_ << ": replaces an older run, of which " << removed << (removed == 1 ? " file" : " files")
-              << " went\n";
+    std::cout << folder_ << ": replaces an older run; removed " << removed << (removed == 1 ? " file" : " files")
+              << " of it\n";
 }
 
 void RunFolder::list(const std::string& path, FileKind kind) {

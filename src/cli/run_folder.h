@@ -11,25 +11,25 @@
 
 namespace viscera::cli {
 
-/// File that a command was asked to write.
+/// A requested output file of a command.
 struct Output {
-  std::string option, path;  ///< path empty: it was not asked for
+  std::string option, path;  ///< option and path; empty path: not requested
   FileKind kind;
 };
 
-/// Returns the files of fixed names in the folder of a run. @param folder  empty: none
+/// Returns the files with fixed names in the folder of a run. @param folder  empty: none
 std::vector<Output> outputsIn(const std::string& folder);
 
-/// Checks all files that a command will write, before it computes anything for them.
+/// Checks all files that a command will write, before any computation.
 /// @throws Error  two of them are one file, or one may not be written (requireReplaceable)
 void requireOutputs(const std::vector<Output>& outputs);
 
-/// Folder of `--out`, which lists what a run writes into it, so that the next one can take all of that away. Files that
+/// The folder of `--out`. It lists what a run writes into it, so that the next run can remove these files. Files that
 /// no run wrote, and saved states and recordings, stay.
 class RunFolder {
  public:
-  /// Makes the folder, removes the files of the run before, and says so. @param folder  empty: none is written
-  /// @throws Error  it cannot be made, or a file in it cannot be removed
+  /// Creates the folder, removes the files of the previous run, and reports that. @param folder  empty: none is written
+  /// @throws Error  it cannot be created, or a file in it cannot be removed
   explicit RunFolder(const std::string& folder);
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;

@@ -52,8 +52,8 @@ nlohmann::ordered_json toJson(const RunMetrics& metrics) {
   out["max_speed_m_per_s"] = metrics.extremes.max_speed_m_per_s;
   out["nonfinite"] = metrics.extremes.nonfinite;
   out["nodes_crowded"] = metrics.extremes.crowded;
-  out["governor_trips"] = metrics.extremes.governor_trips;
-  out["ticks_held_back"] = metrics.extremes.held_back;
+  out["roll_backs"] = metrics.extremes.roll_backs;
+  out["ticks_speed_limited"] = metrics.extremes.speed_limited;
   out["peak_force_n"] = metrics.extremes.peak_force_n;
   for (const FactGroup& group : metrics.facts) out[group.name] = toJson(group.facts);
   out["images"] = metrics.images;

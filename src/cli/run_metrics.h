@@ -10,14 +10,14 @@
 
 namespace viscera::cli {
 
-/// What `viscera run` says at its end, whatever did the work.
+/// The final report of `viscera run`, on any backend.
 struct RunMetrics {
   std::string scene;
   const Model& model;
   uint64_t springs_cut = 0, substeps = 0, state_hash = 0;
-  uint64_t images = 0, images_skipped = 0;  ///< drawn; overtaken before they were
+  uint64_t images = 0, images_skipped = 0;  ///< numbers of images that were drawn and skipped
   double dt_s = 0, dt_safe_s = 0, dt_limit_s = 0, simulated_s = 0, wall_s = 0;
-  FactGroups facts = {};  ///< of what lives in the tissue
+  FactGroups facts = {};  ///< facts of processes in the tissue
   Extremes extremes = {};
   std::string backend = {}, renderer = {};
   std::string stepped_by = {};  ///< Session::backendNote()

@@ -21,16 +21,16 @@ void requireStyluses(const Strokes& strokes, const Scene& scene, const std::stri
       names += (names.empty() ? "" : ", ") + stylus.name;
     }
     if (!known)
-      throw StrokesError(file + ": stylus '" + stroke.stylus +
-                         "' is not one of the scene's: " + (names.empty() ? "it has none" : names));
+      throw StrokesError(file + ": stylus '" + stroke.stylus + "' does not exist in the scene; it has " +
+                         (names.empty() ? "no styluses" : names));
   }
 }
 
 }  // namespace
 
 RunPlan planRun(const RunOptions& options) {
-  if (options.seconds && std::isnan(*options.seconds))  // passes CLI::Range
-    throw Error("--seconds is a number, 0 .. 86400; found nan");
+  if (options.seconds && std::isnan(*options.seconds))  // CLI::Range accepts NaN
+    throw Error("--seconds must be a number, 0 .. 86400; found nan");
   RunPlan plan{sceneOf(options).scene, {}, 0};
   if (!options.strokes.empty()) {
     plan.strokes = loadStrokes(options.strokes);
@@ -47,14 +47,14 @@ std::unique_ptr<gpu::Context> contextFor(bool no_view, const Scene& scene) {
   try {
     return std::make_unique<gpu::Context>(scene.solver.device);
   } catch (const GpuError& error) {
-    const char* const way_out = no_view ? "; solver.backend: cpu or auto does without, on the processor"
-                                        : "; --no-view does without, on the processor and without pictures";
+    const char* const way_out = no_view ? "; solver.backend: cpu or auto works without OpenGL, on the CPU"
+                                        : "; --no-view works without OpenGL, on the CPU and without pictures";
     throw GpuError(error.what() + std::string(way_out));
   }
 }
 
-void writeHands(const HandRows& hands, const std::string& folder) {
-  hands.write(folder + "/hands.csv");
+void writeHands(const ToolRows& hands, const std::string& folder) {
+  hands.write(folder + "/tools.csv");
   hands.writeJigsaws(folder + "/kinematics.txt");
 }
 

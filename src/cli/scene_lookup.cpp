@@ -10,17 +10,17 @@
 #include "math/shipped_files.h"
 #include "viscera/math/error.h"
 
-/// config/ of the source tree that this program was built from.
+/// The config/ folder of the source tree from which this program was built.
 extern const char* const kSourceConfig;
 
 namespace viscera::cli {
 
 namespace {
 
-/// Returns the end of an error: what the name could have been.
+/// Returns the end of an error message: names that may have been meant.
 std::string shippedOnes(const std::string& name, const std::string& kind) {
   const std::vector<std::string> names = shippedNames(kind, kSourceConfig);
-  return names.empty() ? "" : "; shipped are " + nearestFirstText(name, names);
+  return names.empty() ? "" : "; shipped: " + nearestFirstText(name, names);
 }
 
 }  // namespace

@@ -10,13 +10,13 @@
 
 namespace viscera::cli {
 
-/// The file itself, or the shipped scene of that name. @throws SceneError naming where it was looked for
+/// Returns the path of a scene: a file, or a shipped scene of that name. @throws SceneError  names the searched places
 std::string findScene(const std::string& name);
-/// The same of a task. @throws Error
+/// Returns the path of a task likewise. @throws Error
 std::string findTask(const std::string& name);
-/// The scene that options choose, fitted to the mesh where they name one. @throws SceneError
+/// Loads the scene of the options, fitted to the mesh if they name one. @throws SceneError
 FittedScene sceneOf(const RunOptions& options);
-/// Reports preparation on standard error: one line per stage, refreshed where it is a terminal.
+/// Returns a callback that reports preparation on standard error: one line per stage, refreshed on a terminal.
 Progress consoleProgress();
 
 }  // namespace viscera::cli

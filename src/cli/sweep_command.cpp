@@ -31,9 +31,9 @@ namespace viscera::cli {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLookAgain{500};  // at runs that others have
+constexpr std::chrono::milliseconds kLookAgain{500};  // period of checking runs that others have claimed
 
-/// The last line of a file that is not empty.
+/// Returns the last line of a file that is not empty.
 std::string lastLine(const std::string& path) {
   std::ifstream file(path);
   std::string last;
@@ -49,11 +49,11 @@ std::string shellQuoted(const std::string& word) {
   return out + "'";
 }
 
-/// A pipe that a program holds open while it runs.
+/// A pipe that a program keeps open while it runs.
 class LifeLine {
  public:
   LifeLine() {
-    if (pipe2(ends_, O_CLOEXEC) != 0) throw Error("a session cannot be started: no file is left");
+    if (pipe2(ends_, O_CLOEXEC) != 0) throw Error("a session cannot be started: no more files can be opened");
   }
   ~LifeLine() {
     close(ends_[0]);
@@ -61,16 +61,16 @@ class LifeLine {
   }
   LifeLine(const LifeLine&) = delete;
   LifeLine& operator=(const LifeLine&) = delete;
-  int held() const { return ends_[1]; }  ///< what the program inherits
-  /// From now on the program alone holds it.
+  int held() const { return ends_[1]; }  ///< end of the pipe that the program inherits
+  /// Closes this process's end, so that only the program keeps the pipe open.
   void letGo() {
     if (ends_[1] >= 0) close(ends_[1]);
     ends_[1] = -1;
   }
-  /// Waits for the program's end. @param limit_s  0: for ever   @return false: it has not ended by then
+  /// Waits for the program's end. @param limit_s  0: no limit   @return false: it has not ended in time
   bool endsWithin(int limit_s) const {
     using std::chrono::milliseconds;
-    constexpr milliseconds kLongestWait{3'600'000};  // of one call
+    constexpr milliseconds kLongestWait{3'600'000};  // limit of one call
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(limit_s);
     for (;;) {
       const auto left = std::chrono::ceil<milliseconds>(end - std::chrono::steady_clock::now());
@@ -84,9 +84,9 @@ class LifeLine {
   int ends_[2];
 };
 
-/// Runs a program until it ends or its time is over. It does not outlive the thread that calls.
-/// @param inherited  a file that it has open too   @param limit_s  0: none
-/// @return its wait status; nothing: it was killed, as its time was over
+/// Runs a program until it ends or its time is over. It does not outlive the calling thread.
+/// @param inherited  file descriptor that it inherits   @param limit_s  0: none
+/// @return its wait status; nothing: it was killed because its time was over
 std::optional<int> runToEnd(const std::string& program, const std::vector<std::string>& arguments,
                             const std::string& out, const std::string& err, int inherited, int limit_s) {
   std::vector<char*> argv = {const_cast<char*>(program.c_str())};
@@ -94,8 +94,8 @@ std::optional<int> runToEnd(const std::string& program, const std::vector<std::s
   argv.push_back(nullptr);
   LifeLine life;
   const pid_t parent = getpid(), child = fork();
-  if (child < 0) throw Error("a session cannot be started: no process is left");
-  if (child == 0) {  // between fork and exec: system calls alone
+  if (child < 0) throw Error("a session cannot be started: no more processes can be created");
+  if (child == 0) {  // only system calls are allowed between fork and exec
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(127);
     for (const int kept : {inherited, life.held()}) fcntl(kept, F_SETFD, 0);
@@ -113,9 +113,9 @@ std::optional<int> runToEnd(const std::string& program, const std::vector<std::s
   return ended ? std::optional<int>(status) : std::nullopt;
 }
 
-/// How a program ended that gave no result, as one says it. @param ended  of runToEnd()
+/// Returns a text on how a program without a result ended. @param ended  result of runToEnd()
 std::string howItFailed(const std::optional<int>& ended, int limit_s, const std::string& last_line) {
-  if (!ended) return "over its " + std::to_string(limit_s) + " s (--run-limit-s): killed";
+  if (!ended) return "killed after " + std::to_string(limit_s) + " s (--run-limit-s)";
   return (WIFSIGNALED(*ended) ? "ended by signal " + std::to_string(WTERMSIG(*ended))
                               : "exit status " + std::to_string(WEXITSTATUS(*ended))) +
          ": " + last_line;
@@ -126,10 +126,10 @@ class Sweep {
   Sweep(const SweepOptions& options, const SweepPlan& plan)
       : options_(options), plan_(plan), folder_(options.out, plan, options.tries) {
     program_ = std::filesystem::read_symlink("/proc/self/exe").string();
-    if (options.retry) folder_.forgetFailures();
+    if (options.retry) folder_.clearFailures();
   }
 
-  /// @return runs that were given up
+  /// Runs the sweep. @return number of runs that were given up
   size_t run() {
     std::vector<std::thread> threads;
     for (int i = 0; i < options_.jobs; ++i) threads.emplace_back([this] { work(); });
@@ -143,7 +143,7 @@ class Sweep {
   }
 
  private:
-  /// Takes runs that are free, until none is open. What others have is looked at again: they may die.
+  /// Claims and runs free runs until none is open. Runs of other processes are checked again, since those may die.
   void work() {
     try {
       while (!stop_) {
@@ -169,7 +169,7 @@ class Sweep {
   void make(size_t run, const SweepFolder::Claim& claim) {
     const std::string place = folder_.runFolder(run);
     std::vector<std::string> arguments = plan_.arguments(run);
-    // Sessions side by side: a thread each. The state hash does not depend on it.
+    // Concurrent sessions use one CPU thread each. The state hash does not depend on it.
     if (options_.jobs > 1 && !plan_.sets("solver.threads"))
       arguments.insert(arguments.end(), {"--set", "solver.threads=1"});
     if (plan_.keep) arguments.insert(arguments.end(), {"--out", place + "/out"});
@@ -195,13 +195,13 @@ class Sweep {
   std::mutex mutex_;
   std::exception_ptr fault_;
   std::atomic<bool> stop_{false};
-  bool printed_reason_ = false;  ///< of the first failure; all are in the folder
+  bool printed_reason_ = false;  ///< whether the first failure was printed; all are in the folder
 };
 
-/// What a job of Slurm's array does: as much of the sweep as is left. One that is put back into the queue goes on.
+/// Submits a job array of Slurm. Each job works on the remaining runs; a requeued job continues.
 void submit(const SweepOptions& options) {
   const auto absolute = [](const std::string& path) { return shellQuoted(std::filesystem::absolute(path).string()); };
-  const char* launcher = std::getenv("VISCERA_LAUNCHER");  // of a bundle, which finds the libraries of each machine
+  const char* launcher = std::getenv("VISCERA_LAUNCHER");  // of a bundle: finds the libraries of each machine
   const std::string program = launcher ? launcher : std::filesystem::read_symlink("/proc/self/exe").string();
   const std::string script = options.out + "/slurm.sh", jobs = options.jobs > 0 ? std::to_string(options.jobs) : "";
   TextOut text;
@@ -213,7 +213,7 @@ void submit(const SweepOptions& options) {
   writeFile(script, FileKind::kText, text.str());
   const int status = std::system(("sbatch " + options.sbatch + " " + absolute(script)).c_str());
   if (WIFEXITED(status) && WEXITSTATUS(status) == 127)
-    throw Error("sbatch is not there: Slurm's command that submits jobs; " + script + " is what it would be given");
+    throw Error("sbatch, the command of Slurm that submits jobs, was not found; its script is in " + script);
   if (status != 0) throw Error("sbatch refused " + script);
 }
 
@@ -225,7 +225,7 @@ int sweep(const SweepOptions& given) {
   const SweepPlan plan = readSweepPlan(options.plan);
   if (options.slurm > 0) {
     const SweepFolder folder(options.out, plan, options.tries);
-    if (options.retry) folder.forgetFailures();
+    if (options.retry) folder.clearFailures();
     submit(given);
     return 0;
   }

@@ -39,14 +39,14 @@ bool exists(const std::string& path) {
   return fs::exists(path, error);
 }
 
-/// What a result says of a metric, as text; empty: nothing.
+/// Returns the value of a metric in a result as text; empty if there is none.
 std::string told(const Json& result, const std::string& name) {
   const auto found = result.find(name);
   if (found == result.end()) return "";
   return found->is_string() ? found->get<std::string>() : found->dump();
 }
 
-/// What runs are told of, in the order in which they tell it.
+/// Returns the names of the metrics, in the order of the results.
 std::vector<std::string> metricsOf(const std::vector<Json>& results) {
   std::vector<std::string> out;
   for (const Json& result : results) {
@@ -78,7 +78,7 @@ SweepFolder::SweepFolder(std::string folder, const SweepPlan& plan, int tries)
   const std::string file = folder_ + "/plan.txt", text = plan.text();
   if (!exists(file)) writeFile(file, FileKind::kText, text);
   if (readWhole(file) != text)
-    throw Error(folder_ + " holds the runs of another plan (plan.txt differs): take another --out");
+    throw Error(folder_ + " contains the runs of another plan (plan.txt differs); choose another --out");
 }
 
 std::string SweepFolder::runFolder(size_t run) const {
@@ -107,7 +107,7 @@ std::optional<SweepFolder::Claim> SweepFolder::claim(size_t run) const {
   if (claim.file_ < 0) throw Error(path + ": " + std::strerror(errno));
   if (flock(claim.file_, LOCK_EX | LOCK_NB) != 0) {
     if (errno == EWOULDBLOCK) return {};
-    throw Error(path + " cannot be locked, " + std::strerror(errno) + ": --out must be on a file system with locks");
+    throw Error(path + " cannot be locked: " + std::strerror(errno) + "; --out must be on a file system with locks");
   }
   if (state(run) != State::kOpen) return {};
   return claim;
@@ -123,7 +123,7 @@ void SweepFolder::keepFailure(size_t run, const std::string& line) const {
   if (!file) throw Error(runFolder(run) + "/failures.txt: cannot be written");
 }
 
-void SweepFolder::forgetFailures() const {
+void SweepFolder::clearFailures() const {
   std::error_code error;
   for (size_t run = 0; run < plan_.runs.size(); ++run) fs::remove(runFolder(run) + "/failures.txt", error);
 }

@@ -10,23 +10,23 @@
 
 namespace viscera::cli {
 
-/// Where a sweep's results are, shared by any number of processes on machines that see one file system with locks:
+/// The results of a sweep, shared by any number of processes on machines with a common file system that supports locks:
 ///   plan.txt             the runs, so that another plan is not mixed in
 ///   runs/000042/lock     locked while a process, or the session that it started, works on the run
-///   runs/000042/result.json, failures.txt   how it ended: at most one result, a line per failure
+///   runs/000042/result.json, failures.txt   outcome: at most one result, a line per failure
 ///   results.csv          all of them in one table
-/// What a process leaves behind that is killed is a lock without a holder, and no result: the run is done again.
+/// A killed process leaves a lock without a holder, and no result: the run is repeated.
 class SweepFolder {
  public:
   enum class State { kOpen, kDone, kGivenUp };
-  /// A run that is this process's while it lives.
+  /// A run that this process owns while the object exists.
   class Claim {
    public:
     Claim(Claim&& other) noexcept;
     Claim(const Claim&) = delete;
     Claim& operator=(const Claim&) = delete;
     ~Claim();
-    int file() const { return file_; }  ///< closed when a program is started; one that inherits it holds the run too
+    int file() const { return file_; }  ///< closed when a program starts; one that inherits it also owns the run
 
    private:
     friend class SweepFolder;
@@ -34,19 +34,19 @@ class SweepFolder {
     int file_;
   };
 
-  /// @param tries  failures after which a run is given up, > 0   @throws Error  another plan's, or not to be written
+  /// @param tries  failures after which a run is given up, > 0   @throws Error  of another plan, or not writable
   SweepFolder(std::string folder, const SweepPlan& plan, int tries);
 
   State state(size_t run) const;
-  /// @return nothing if it is taken or it is not open
+  /// Claims a run. @return nothing if it is taken or not open
   std::optional<Claim> claim(size_t run) const;
-  std::string runFolder(size_t run) const;  ///< there once the run was claimed
+  std::string runFolder(size_t run) const;  ///< exists after the run was claimed
   void keepResult(size_t run, const std::string& json) const;
   void keepFailure(size_t run, const std::string& line) const;
-  void forgetFailures() const;  ///< of all runs: they are tried again
-  /// A line per run: its keys, how it ended, and what `viscera run` said of it.
+  void clearFailures() const;  ///< removes the failures of all runs, so that they are tried again
+  /// Returns a line per run: its keys, its outcome, and the output of `viscera run`.
   SweepTable table() const;
-  void writeTable() const;  ///< to results.csv
+  void writeTable() const;  ///< writes results.csv
 
  private:
   std::vector<std::string> failuresOf(size_t run) const;

@@ -27,23 +27,23 @@ class PlanFile {
     } catch (const YAML::Exception& error) {
       throw SceneError(yamlFault(file_, error, text));
     }
-    if (!root_.IsMap()) fail(root_, "a plan is a map of " + std::string(kKeys));
+    if (!root_.IsMap()) fail(root_, "a plan must be a map with keys out of " + std::string(kKeys));
     for (const auto& entry : root_) {
       const std::string key = entry.first.Scalar();
       static const std::vector<std::string> known = {"scene", "mesh", "strokes", "seconds", "view",
                                                      "keep",  "set",  "grid",    "list"};
       if (std::find(known.begin(), known.end(), key) == known.end())
-        fail(entry.first, "unknown key '" + key + "'; known: " + nearestFirstText(key, known));
+        fail(entry.first, "unknown key '" + key + "'; accepted here: " + nearestFirstText(key, known));
     }
   }
 
   std::string scalar(const char* key) const {
     const YAML::Node node = root_[key];
     if (!node) return "";
-    if (!node.IsScalar() || node.Scalar().empty()) fail(node, std::string("'") + key + "' is one value");
+    if (!node.IsScalar() || node.Scalar().empty()) fail(node, std::string("'") + key + "' must be a single value");
     return node.Scalar();
   }
-  /// A file beside the plan, or as the command line takes it.
+  /// Returns the path of a file relative to the plan, or as on the command line.
   std::string path(const char* key) const {
     const std::string given = scalar(key);
     const auto beside = std::filesystem::path(file_).parent_path() / given;
@@ -53,7 +53,7 @@ class PlanFile {
   bool flag(const char* key) const {
     const std::string given = scalar(key);
     if (given != "" && given != "true" && given != "false")
-      fail(root_[key], std::string("'") + key + "' is true or false; found '" + given + "'");
+      fail(root_[key], std::string("'") + key + "' must be true or false; found '" + given + "'");
     return given == "true";
   }
   KeyValues set() const { return root_["set"] ? keyValues(root_["set"], "'set'") : KeyValues{}; }
@@ -61,7 +61,7 @@ class PlanFile {
   std::vector<KeyValues> list() const {
     const YAML::Node node = root_["list"];
     if (!node) return {{}};
-    if (!node.IsSequence() || node.size() == 0) fail(node, "'list' is a list of maps of scene keys, one per run");
+    if (!node.IsSequence() || node.size() == 0) fail(node, "'list' must be a list of maps of scene keys, one per run");
     std::vector<KeyValues> out;
     for (const YAML::Node& run : node) out.push_back(keyValues(run, "an entry of 'list'"));
     return out;
@@ -70,17 +70,17 @@ class PlanFile {
     std::vector<std::pair<std::string, std::vector<std::string>>> out;
     const YAML::Node node = root_["grid"];
     if (!node) return out;
-    if (!node.IsMap()) fail(node, "'grid' is a map of scene keys, each with a list of values");
+    if (!node.IsMap()) fail(node, "'grid' must be a map of scene keys, each with a list of values");
     for (const auto& entry : node) {
       const std::string key = entry.first.Scalar();
       if (!entry.second.IsSequence() || entry.second.size() == 0)
-        fail(entry.second.IsDefined() ? entry.second : entry.first, "'grid: " + key + "' is a list of values");
+        fail(entry.second.IsDefined() ? entry.second : entry.first, "'grid: " + key + "' must be a list of values");
       out.push_back({key, {}});
       for (const YAML::Node& value : entry.second) out.back().second.push_back(valueText(value));
     }
     return out;
   }
-  /// Of each key of the scene, where it comes first.
+  /// Returns the line of the first occurrence of each scene key.
   std::map<std::string, int> lines() const {
     std::map<std::string, int> out;
     const auto add = [&](const YAML::Node& map) {
@@ -106,7 +106,7 @@ class PlanFile {
     return out.c_str();
   }
   KeyValues keyValues(const YAML::Node& map, const std::string& what) const {
-    if (!map.IsMap()) fail(map, what + " is a map of scene keys, as in {solver.tick_hz: 500}");
+    if (!map.IsMap()) fail(map, what + " must be a map of scene keys, as in {solver.tick_hz: 500}");
     KeyValues out;
     for (const auto& entry : map) out.push_back({entry.first.Scalar(), valueText(entry.second)});
     return out;
@@ -120,8 +120,8 @@ bool holds(const KeyValues& values, const std::string& key) {
   return std::any_of(values.begin(), values.end(), [&](const auto& value) { return value.first == key; });
 }
 
-/// Reads the scene with some of its values. @return a value is refused, here or where others are missing: the run will
-/// tell
+/// Reads the scene with some of its values.
+/// @return whether a value is refused, here or because others are missing: the run will report it
 /// @throws UnknownKeyError
 bool refusesValue(const std::string& scene, const Overrides& overrides) {
   try {
@@ -134,7 +134,7 @@ bool refusesValue(const std::string& scene, const Overrides& overrides) {
   }
 }
 
-/// Looks at every key once, in the first run that has it. @throws SceneError  no such scene, or no such key in it
+/// Checks every key once, in the first run that has it. @throws SceneError  no such scene, or no such key in it
 void requireKnownKeys(const SweepPlan& plan, const std::string& file) {
   const std::string scene = findScene(plan.scene);
   std::set<std::string> seen;
@@ -149,7 +149,7 @@ void requireKnownKeys(const SweepPlan& plan, const std::string& file) {
       overrides.push_back(key + "=" + value);
       try {
         const bool is_scalar = value.find_first_of("[{") != 0;
-        if (refusesValue(scene, overrides) && is_scalar) overrides.pop_back();  // which would hide faults of other keys
+        if (refusesValue(scene, overrides) && is_scalar) overrides.pop_back();  // it would hide errors in other keys
       } catch (const UnknownKeyError& error) {
         throw SceneError(file + ":" + std::to_string(plan.lines.at(key)) + ": " + error.what());
       }
@@ -191,7 +191,8 @@ SweepPlan readSweepPlan(const std::string& file) {
   const PlanFile from(file);
   SweepPlan plan;
   plan.scene = from.path("scene");
-  if (plan.scene.empty()) from.failAsAWhole("'scene' is missing: a scene file, or the name of a shipped scene");
+  if (plan.scene.empty())
+    from.failAsAWhole("'scene' is missing; it must be a scene file or the name of a shipped scene");
   plan.mesh = from.path("mesh");
   plan.strokes = from.path("strokes");
   plan.seconds = from.scalar("seconds");
@@ -216,7 +217,7 @@ SweepPlan readSweepPlan(const std::string& file) {
       if (std::count(plan.varied.begin(), plan.varied.end(), key) == 0) plan.varied.push_back(key);
       const auto same = [&, name = key](const auto& other) { return other.first == name; };
       if (holds(plan.set, key) || std::count_if(run.begin(), run.end(), same) > 1)
-        from.failAsAWhole("'" + key + "' has two values in one run: of 'set', 'list' and 'grid' one gives it");
+        from.failAsAWhole("'" + key + "' has two values in one run; give it in only one of 'set', 'list' and 'grid'");
     }
   }
   plan.lines = from.lines();

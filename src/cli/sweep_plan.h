@@ -10,27 +10,27 @@
 
 namespace viscera::cli {
 
-/// Scene keys and the values that they take, as --set has them.
+/// Scene keys and their values, in the syntax of --set.
 using KeyValues = std::vector<std::pair<std::string, std::string>>;
 
-/// Sessions that differ in values of their scene, as a file lists them (docs/cluster.md).
+/// Sessions that differ in values of their scene, as listed in a file (docs/cluster.md).
 struct SweepPlan {
-  std::string scene, mesh, strokes;  ///< mesh and strokes may be empty
-  std::string seconds;               ///< empty: the strokes' length, or 1
-  bool view = false;                 ///< with OpenGL, where the scene has a use for it
-  bool keep = false;                 ///< pictures, metrics.json and surface.ply of every run
-  KeyValues set;                     ///< of every run
-  std::vector<std::string> varied;   ///< keys that differ from run to run, in the order of the file
-  std::vector<KeyValues> runs;       ///< [runs] what each has of these
-  std::map<std::string, int> lines;  ///< of the file, of each key of the scene that it names
+  std::string scene, mesh, strokes;  ///< files; mesh and strokes may be empty
+  std::string seconds;               ///< duration; empty: the strokes' length, or 1
+  bool view = false;                 ///< whether to use OpenGL if the scene needs it
+  bool keep = false;                 ///< whether to keep images, metrics.json and surface.ply of every run
+  KeyValues set;                     ///< values of every run
+  std::vector<std::string> varied;   ///< keys that differ between runs, in the order of the file
+  std::vector<KeyValues> runs;       ///< [runs] values of these keys
+  std::map<std::string, int> lines;  ///< line in the file of each scene key
 
-  bool sets(const std::string& key) const;               ///< in every run, or in some
-  std::vector<std::string> arguments(size_t run) const;  ///< of `viscera`
-  std::string text() const;                              ///< that two plans share only if their runs are the same
+  bool sets(const std::string& key) const;               ///< whether any run sets the key
+  std::vector<std::string> arguments(size_t run) const;  ///< arguments of `viscera`
+  std::string text() const;                              ///< text that is equal only for plans with equal runs
 };
 
-/// @throws SceneError  file, line, key and what is accepted; of keys of the scene, those that it has no place for.
-/// Values are left to the runs
+/// Reads a plan. Values are checked by the runs.
+/// @throws SceneError  names file, line, key and what is accepted; also for keys that the scene does not have
 SweepPlan readSweepPlan(const std::string& file);
 
 }  // namespace viscera::cli

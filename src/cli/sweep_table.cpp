@@ -19,7 +19,7 @@ bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-/// Longest first, where one ends with another.
+/// Units of names; the longest suffix first.
 constexpr std::pair<const char*, const char*> kUnits[] = {{"_kg_per_m3", "kg/m3"},
                                                           {"_m_per_s2", "m/s2"},
                                                           {"_m_per_s", "m/s"},

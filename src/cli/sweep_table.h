@@ -7,19 +7,19 @@
 
 namespace viscera::cli {
 
-/// The runs of a sweep in lines and columns.
+/// The results of a sweep as a table.
 struct SweepTable {
   struct Column {
     std::string name;
-    std::vector<std::string> cells;  ///< [runs] empty: the run has none
+    std::vector<std::string> cells;  ///< [runs] values; empty: the run has none
   };
   std::vector<Column> columns;
 };
 
-/// A line of names, a line of units, empty where there is none, and a line per run (RFC 4180).
+/// Returns a line of names, a line of units, which may be empty, and a line per run (RFC 4180).
 std::string csvText(const SweepTable& table);
 
-/// The unit that a name ends with, as in max_speed_m_per_s: "m/s"; empty where it has none.
+/// Returns the unit at the end of a name: "m/s" for max_speed_m_per_s; empty if there is none.
 std::string unitOf(const std::string& name);
 
 }  // namespace viscera::cli

@@ -22,13 +22,13 @@ TaskRun::TaskRun(Session& session, std::string folder, bool pictures)
 
 void TaskRun::begin(const TaskConfig& task) {
   for (const std::string& note : taskNotes(task)) std::cout << "task " << task.name << ": " << note << '\n';
-  session_.noteTask(task.name, task.yaml);
+  session_.recordTask(task.name, task.yaml);
   takePicture("at the start", "start");
 }
 
 void TaskRun::takePicture(const std::string& caption, const std::string& name) {
   if (!pictures_) return;
-  Wants wants;
+  FrameRequest wants;
   wants.every_image = true;
   wants.cameras = {true};
   for (ImageFrame& image : session_.show(wants).images) {
@@ -40,7 +40,7 @@ void TaskRun::takePicture(const std::string& caption, const std::string& name) {
 }
 
 nlohmann::ordered_json TaskRun::finish() {
-  watch_.giveUp("it ended before the goal was reached");
+  watch_.giveUp("the run ended before the goal was reached");
   nlohmann::ordered_json out = nlohmann::ordered_json::array();
   if (!ended_.empty()) takePicture("at the end", "end");
   for (const TaskResult& result : ended_) {

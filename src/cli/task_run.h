@@ -14,13 +14,12 @@ namespace viscera::cli {
 /// Judges the tasks of a session and writes their reports.
 class TaskRun {
  public:
-  /// @param session  must outlive this   @param folder  of reports; empty: none   @param pictures  they have some, of
-  /// the first camera
+  /// @param session  must outlive this object   @param folder  folder of reports; empty: none
+  /// @param pictures  whether reports have images, of the first camera
   TaskRun(Session& session, std::string folder, bool pictures);
-  /// A task begins with the coming step. @throws TaskError
+  /// Starts a task with the next step. @throws TaskError
   void begin(const TaskConfig& task);
-  /// Of a session whose last tick was waited for: what is not decided has failed. @returns a map of each task that
-  /// ended
+  /// Ends the tasks after the session's last tick; undecided ones have failed. @returns a map of each task that ended
   /// @throws Error  a report cannot be written
   nlohmann::ordered_json finish();
 

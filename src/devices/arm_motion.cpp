@@ -9,7 +9,7 @@ namespace viscera {
 
 namespace {
 
-constexpr double kPeakOverMean = 15.0 / 8;  // of the speed along the path
+constexpr double kPeakOverMean = 15.0 / 8;  // ratio of the speeds along the path
 constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
 
 double shareOfWay(double s) {
@@ -37,19 +37,19 @@ ArmMotion::ArmMotion(const ArmConfig& config)
 
 std::optional<std::string> ArmMotion::command(const std::string& text) {
   if (text == "enable" || text == "resume") {
-    if (text == "resume" && state_ == State::kDisabled) return "'resume' needs an arm that is enabled";
+    if (text == "resume" && state_ == State::kDisabled) return "'resume' needs an enabled arm";
     state_ = State::kEnabled;
   } else if (text == "disable") {
     state_ = State::kDisabled;
   } else if (text == "pause") {
-    if (state_ == State::kDisabled) return "'pause' needs an arm that is enabled";
+    if (state_ == State::kDisabled) return "'pause' needs an enabled arm";
     state_ = State::kPaused;
   } else if (text == "home") {
     homed_ = true;
   } else if (text == "unhome") {
     homed_ = false;
   } else {
-    return "'" + text + "' is none of enable, disable, pause, resume, home, unhome";
+    return "'" + text + "' is not one of enable, disable, pause, resume, home, unhome";
   }
   if (state_ != State::kEnabled) {
     stop();
@@ -71,7 +71,7 @@ void ArmMotion::stop() {
 }
 
 void ArmMotion::Way::begin(double least_s) {
-  // a goal that is there already takes a moment too: who waits for the end sees a beginning
+  // a goal that is already reached takes a moment too: a client that waits for the end must see a beginning
   *this = {std::max(kPeakOverMean * least_s, 1e-3), 0};
 }
 

@@ -9,46 +9,47 @@
 
 namespace viscera {
 
-/// Where a CRTK arm is told to be, and in which state it is. Times are the caller's; nothing here knows ROS.
+/// Setpoint and state of a CRTK arm. The caller supplies times; this class does not depend on ROS.
 ///
-/// A `servo` is followed at once; a `move` takes its time: along the straight line and the shortest turn with the least
-/// jerk, 10 s^3 - 15 s^4 + 6 s^5 (Flash and Hogan 1985), whose greatest speed is 15/8 of the mean. So do its jaws.
+/// A `servo` command takes effect at once. A `move` command follows the straight line and the shortest rotation with
+/// least jerk, 10 s^3 - 15 s^4 + 6 s^5 (Flash and Hogan 1985); its peak speed is 15/8 of the mean. The jaws move
+/// likewise.
 class ArmMotion {
  public:
   enum class State { kDisabled, kEnabled, kPaused };
 
   explicit ArmMotion(const ArmConfig& config);
 
-  /// enable, disable, pause, resume, home, unhome: as CRTK's state_command has them.
-  /// @returns what is wrong, if it is none of these or not possible in this state
+  /// Executes enable, disable, pause, resume, home or unhome, as in CRTK's state_command.
+  /// @returns an error if the command is unknown or not possible in this state
   std::optional<std::string> command(const std::string& text);
-  /// @returns false where the arm does not move: disabled or paused
+  /// Sets the setpoint. @returns false if the arm cannot move because it is disabled or paused
   bool servo(const Pose& setpoint);
   bool move(const Pose& goal);
-  /// Goes on so, along and about the axes of the base, for kVelocityHolds_s unless it is told again.
+  /// Sets velocities along and about the axes of the base, for kVelocityHolds_s unless the call is repeated.
   bool servoVelocity(const Vector3d& linear_m_per_s, const Vector3d& angular_rad_per_s);
   bool servoJaw(double angle_rad);
   bool moveJaw(double goal_rad);
-  /// Stops where it is, its jaws too.
+  /// Stops the arm and its jaws where they are.
   bool hold();
-  /// The time goes on by span_s.
+  /// Advances the time by span_s.
   void advance(double span_s);
 
   State state() const { return state_; }
   bool homed() const { return homed_; }
-  bool busy() const { return way_.duration_s > 0 || jaw_way_.duration_s > 0; }  ///< on its way to the goal of a move
-  bool moves() const { return busy() || velocity_left_s_ > 0; }                 ///< advance() changes something
+  bool busy() const { return way_.duration_s > 0 || jaw_way_.duration_s > 0; }  ///< whether a move is in progress
+  bool moves() const { return busy() || velocity_left_s_ > 0; }                 ///< whether the setpoint changes
   const Pose& setpoint() const { return setpoint_; }
-  const Pose& goal() const { return way_.duration_s > 0 ? goal_ : setpoint_; }  ///< of the move; else where it is
+  const Pose& goal() const { return way_.duration_s > 0 ? goal_ : setpoint_; }  ///< goal, or setpoint at rest
   double jaw_rad() const { return jaw_rad_; }
-  static constexpr double kVelocityHolds_s = 0.1;  ///< a client that streams slower than 10 Hz has ended
+  static constexpr double kVelocityHolds_s = 0.1;  ///< duration of a velocity [s]: clients stream at 10 Hz or more
 
  private:
-  /// How far a move is.
+  /// Progress of a move.
   struct Way {
-    double duration_s = 0, done_s = 0;  ///< 0: there is none
+    double duration_s = 0, done_s = 0;  ///< 0: there is no move
     void begin(double least_s);
-    /// @returns the share of the way, 1 at its end, where there is none any more
+    /// Advances the progress. @returns the share of the path; 1 at its end, which also ends the move
     double advance(double span_s);
   };
   void stop();
@@ -63,6 +64,6 @@ class ArmMotion {
   Way way_, jaw_way_;
 };
 
-const char* text(ArmMotion::State state);  ///< as CRTK names it: DISABLED, ENABLED, PAUSED
+const char* text(ArmMotion::State state);  ///< name in CRTK: DISABLED, ENABLED, PAUSED
 
 }  // namespace viscera

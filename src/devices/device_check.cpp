@@ -20,73 +20,76 @@ namespace {
 
 using Grade = Verdict::Grade;
 
-constexpr double kLowRate_hz = 30, kGoodRate_hz = 60;  ///< below: a tool that jerks; forces on stiff tissue that buzz
-constexpr double kLongGap_s = 0.05, kLongGaps = 3;     ///< beside the mean one
-constexpr double kLost_s = 0.2;                        ///< poses are stale by then, as scenes have it
+constexpr double kLowRate_hz = 30, kGoodRate_hz = 60;  ///< rates [Hz]: below the first the tool jerks, below the second
+                                                       ///< forces on stiff tissue buzz
+constexpr double kLongGap_s = 0.05, kLongGaps = 3;     ///< long gap [s], and relative to the mean one
+constexpr double kLost_s = 0.2;                        ///< time after which poses are stale in scenes [s]
 constexpr double kOldStamp_s = 0.2;
-constexpr double kTremble_m = 0.003;  ///< of a hand that is held still, RMS
-constexpr double kNorm = 0.1;         ///< of a quaternion's length, as the simulator takes them
+constexpr double kTremble_m = 0.003;  ///< tremor of a device that is held still, RMS [m]
+constexpr double kNorm = 0.1;         ///< tolerance of a quaternion's norm, as in the simulator
 constexpr double kFelt_n = 0.05;
 constexpr double kAgainst = 0.5;   ///< cosine
-constexpr double kBefore_s = 0.5;  ///< a touch: where the hand came from
+constexpr double kBefore_s = 0.5;  ///< time before a touch in which the device approaches [s]
 
-Verdict rate(const std::vector<HeardPose>& heard, double span_s) {
+Verdict rate(const std::vector<ReceivedPose>& heard, double span_s) {
   const double rate_hz = static_cast<double>(heard.size()) / span_s;
   const std::string text = "rate: " + rounded(rate_hz, 0) + " poses a second";
-  if (rate_hz < kLowRate_hz) return {Grade::kWrong, text + ", too low: the tool jerks; 100 are good"};
-  if (rate_hz < kGoodRate_hz) return {Grade::kNote, text + ", low: stiff tissue may buzz; 100 are good"};
+  if (rate_hz < kLowRate_hz) return {Grade::kWrong, text + ", too low: the tool moves in jerks; 100 or more is good"};
+  if (rate_hz < kGoodRate_hz) return {Grade::kNote, text + ", low: stiff tissue may vibrate; 100 or more is good"};
   return {Grade::kRight, text};
 }
 
-Verdict gaps(const std::vector<HeardPose>& heard, double span_s) {
+Verdict gaps(const std::vector<ReceivedPose>& heard, double span_s) {
   double longest_s = 0;
   for (size_t i = 1; i < heard.size(); ++i) longest_s = std::max(longest_s, heard[i].came_s - heard[i - 1].came_s);
   const double mean_s = span_s / static_cast<double>(heard.size());
   const std::string text = "gaps: the longest " + rounded(1e3 * longest_s, 0) + " ms";
-  if (longest_s > kLost_s) return {Grade::kWrong, text + ": the tool lets go in it; the driver or the network hangs"};
+  if (longest_s > kLost_s)
+    return {Grade::kWrong, text + ": the tool releases tissue in such a gap; the driver or the network hangs"};
   if (longest_s > std::max(kLongGap_s, kLongGaps * mean_s))
     return {Grade::kNote, text + ", jitter: the driver or the network is busy"};
   return {Grade::kRight, text};
 }
 
-Verdict stamps(const std::vector<HeardPose>& heard) {
+Verdict stamps(const std::vector<ReceivedPose>& heard) {
   if (!heard.front().stamp_s)
-    return {Grade::kNote, "stamps: messages of this type have none; poses count as they come"};
+    return {Grade::kNote, "stamps: messages of this type have none; the time of arrival is used"};
   std::set<double> different;
   std::vector<double> ages_s;
-  for (const HeardPose& it : heard) {
+  for (const ReceivedPose& it : heard) {
     different.insert(*it.stamp_s);
     ages_s.push_back(it.clock_s - *it.stamp_s);
   }
   if (different.count(0) > 0)
-    return {Grade::kWrong, "stamps: 0, which means that a pose is invalid: those are dropped", different.size() == 1};
+    return {Grade::kWrong, "stamps: 0, which marks invalid poses; they are dropped", different.size() == 1};
   if (different.size() == 1)
-    return {Grade::kWrong, "stamps: always the same: the driver hangs, poses are dropped", heard.size() > 1};
+    return {Grade::kWrong, "stamps: always the same; the driver hangs, and poses are dropped", heard.size() > 1};
   std::nth_element(ages_s.begin(), ages_s.begin() + static_cast<std::ptrdiff_t>(ages_s.size() / 2), ages_s.end());
   const double age_s = ages_s[ages_s.size() / 2];
   if (std::abs(age_s) > kOldStamp_s)
     return {Grade::kNote,
             "stamps: stale, " + rounded(age_s, 2) +
-                " s before poses come: another clock, which does no harm, or a driver that sends old ones"};
-  return {Grade::kRight, "stamps: " + rounded(1e3 * age_s, 1) + " ms old when poses come"};
+                " s old when poses arrive: another clock, which does no harm, or a driver that sends old poses"};
+  return {Grade::kRight, "stamps: " + rounded(1e3 * age_s, 1) + " ms old when poses arrive"};
 }
 
-Verdict frames(const std::vector<HeardPose>& heard, const PosePort& port) {
+Verdict frames(const std::vector<ReceivedPose>& heard, const PosePort& port) {
   if (!port.frame.empty()) return {Grade::kRight, "frames: '" + port.frame + "', as the profile says"};
   std::set<std::string> names;
-  for (const HeardPose& it : heard) names.insert(it.frame);
+  for (const ReceivedPose& it : heard) names.insert(it.frame);
   if (names.size() > 1) {
-    std::string text = "frames: they change:";
+    std::string text = "frames: poses come in several frames:";
     for (const std::string& name : names) text += " '" + name + "'";
     return {Grade::kWrong, text + "; several drivers on one topic?"};
   }
-  if (names.begin()->empty()) return {Grade::kNote, "frames: none is named: `pose.frame`, or the tissue frame"};
+  if (names.begin()->empty())
+    return {Grade::kNote, "frames: poses name no frame; `pose.frame` is used, or else the tissue frame"};
   return {Grade::kRight, "frames: '" + *names.begin() + "'"};
 }
 
-void judgeNumbers(const std::vector<HeardPose>& heard, double unit_m, std::vector<Verdict>& out) {
+void judgeNumbers(const std::vector<ReceivedPose>& heard, double unit_m, std::vector<Verdict>& out) {
   size_t bad = 0, odd = 0;
-  for (const HeardPose& it : heard) {
+  for (const ReceivedPose& it : heard) {
     const double norm = it.pose.orientation.norm();
     if (!it.pose.position_m.allFinite() || !std::isfinite(norm)) ++bad;
     if (!(std::abs(norm - 1) < kNorm)) ++odd;
@@ -97,7 +100,7 @@ void judgeNumbers(const std::vector<HeardPose>& heard, double unit_m, std::vecto
   if (odd > 0)
     out.push_back({Grade::kWrong,
                    "quaternions: the length of " + std::to_string(odd) +
-                       " is not 1: not filled in, or another order than x, y, z, w; they are dropped",
+                       " poses is not 1: not filled in, or not in the order x, y, z, w; they are dropped",
                    none_good});
   const double tremble_m = unit_m * trembleOf(heard);
   out.push_back(tremble_m > kTremble_m
@@ -116,29 +119,29 @@ bool isSame(const ButtonPort& a, const ButtonPort& b) {
 
 }  // namespace
 
-std::vector<Verdict> judgeStream(const std::vector<HeardPose>& heard, double span_s, const PosePort& port) {
-  if (heard.empty()) return {{Grade::kWrong, "no pose came: does the driver run, and is the name right?"}};
+std::vector<Verdict> judgeStream(const std::vector<ReceivedPose>& heard, double span_s, const PosePort& port) {
+  if (heard.empty()) return {{Grade::kWrong, "no pose arrived: does the driver run, and is the name right?"}};
   std::vector<Verdict> out = {rate(heard, span_s), gaps(heard, span_s), stamps(heard), frames(heard, port)};
   judgeNumbers(heard, port.unit_m, out);
   return out;
 }
 
-double trembleOf(const std::vector<HeardPose>& still) {
+double trembleOf(const std::vector<ReceivedPose>& still) {
   Vector3d mean = Vector3d::Zero();
-  for (const HeardPose& it : still) mean += it.pose.position_m / static_cast<double>(still.size());
+  for (const ReceivedPose& it : still) mean += it.pose.position_m / static_cast<double>(still.size());
   double squares = 0;
-  for (const HeardPose& it : still) squares += (it.pose.position_m - mean).squaredNorm();
+  for (const ReceivedPose& it : still) squares += (it.pose.position_m - mean).squaredNorm();
   return still.empty() ? 0 : std::sqrt(squares / static_cast<double>(still.size()));
 }
 
-std::optional<ButtonPort> pressedButton(const std::vector<HeardButton>& events, const ButtonPort& expected) {
+std::optional<ButtonPort> pressedButton(const std::vector<ReceivedButton>& events, const ButtonPort& expected) {
   struct Course {
     ButtonPort port;
     int last = 0, changes = 0;
     bool down = false, up = false;
   };
   std::map<std::tuple<int, std::string, int>, Course> courses;
-  for (const HeardButton& event : events) {
+  for (const ReceivedButton& event : events) {
     Course& course = courses[{static_cast<int>(event.port.type), event.port.topic, event.port.index}];
     course.port = event.port;
     course.up = course.up || (course.down && event.value == 0) || event.value == 2;  // CRTK: 2 is a click
@@ -155,24 +158,23 @@ std::optional<ButtonPort> pressedButton(const std::vector<HeardButton>& events, 
   return best ? std::optional<ButtonPort>(best->port) : std::nullopt;
 }
 
-Verdict judgeButton(const std::vector<HeardButton>& events, const ButtonPort& expected, const std::string& name) {
+Verdict judgeButton(const std::vector<ReceivedButton>& events, const ButtonPort& expected, const std::string& name) {
   const std::optional<ButtonPort> found = pressedButton(events, expected);
   const bool has = expected.type != ButtonType::kNone;
   if (found && isSame(*found, expected)) return {Grade::kRight, name + ": seen on " + portText(*found)};
   if (found)
-    return {Grade::kWrong, name + ": not seen " + (has ? "on " + portText(expected) : std::string("by the profile")) +
+    return {Grade::kWrong, name + ": not seen " + (has ? "on " + portText(expected) : std::string("in the profile")) +
                                ", but on " + portText(*found)};
   const bool silent = std::none_of(events.begin(), events.end(),
-                                   [&](const HeardButton& event) { return event.port.topic == expected.topic; });
+                                   [&](const ReceivedButton& event) { return event.port.topic == expected.topic; });
   return {Grade::kWrong, name + ": not seen" + (has ? " on " + portText(expected) : std::string()) +
-                             (has && silent ? ", where no message came at all" : "") +
-                             ", nor on another topic of buttons"};
+                             (has && silent ? ", where no message arrived" : "") + ", nor on another button topic"};
 }
 
-Verdict judgeForce(const std::vector<HeardForce>& forces, const std::vector<HeardPose>& heard) {
+Verdict judgeForce(const std::vector<ReceivedForce>& forces, const std::vector<ReceivedPose>& heard) {
   const auto placeAt = [&](double came_s) {
     Vector3d at = heard.empty() ? Vector3d(Vector3d::Zero()) : heard.front().pose.position_m;
-    for (const HeardPose& it : heard) {
+    for (const ReceivedPose& it : heard) {
       if (it.came_s > came_s) break;
       at = it.pose.position_m;
     }
@@ -181,7 +183,7 @@ Verdict judgeForce(const std::vector<HeardForce>& forces, const std::vector<Hear
   bool touches = false;
   double most_n = 0, begun_s = 0;
   Vector3d way = Vector3d::Zero(), strongest_n = Vector3d::Zero();
-  for (const HeardForce& force : forces) {
+  for (const ReceivedForce& force : forces) {
     const double size_n = force.force_n.norm();
     if (!std::exchange(touches, size_n >= kFelt_n) && touches) begun_s = force.came_s;
     if (size_n <= most_n) continue;
@@ -190,13 +192,13 @@ Verdict judgeForce(const std::vector<HeardForce>& forces, const std::vector<Hear
     way = placeAt(force.came_s) - placeAt(begun_s - kBefore_s);
   }
   const double cosine = strongest_n.dot(way) / std::max(most_n * way.norm(), 1e-300);
-  if (forces.empty()) return {Grade::kNote, "force: none was sent: does a simulator run with this device?"};
+  if (forces.empty()) return {Grade::kNote, "force: none was sent; does a simulator run with this device?"};
   if (most_n < kFelt_n || way.norm() == 0)
-    return {Grade::kNote, "force: " + rounded(most_n, 2) + " N at most: the tip has not gone into tissue"};
+    return {Grade::kNote, "force: " + rounded(most_n, 2) + " N at most; the tip did not enter tissue"};
   const std::string text = "force: up to " + rounded(most_n, 2) + " N, ";
-  if (cosine < -kAgainst) return {Grade::kRight, text + "against the way in, out of the tissue"};
-  if (cosine > kAgainst) return {Grade::kWrong, text + "along the way in: it would pull the hand into the tissue"};
-  return {Grade::kNote, text + "across the way in: push straight in, and again"};
+  if (cosine < -kAgainst) return {Grade::kRight, text + "against the motion, out of the tissue"};
+  if (cosine > kAgainst) return {Grade::kWrong, text + "along the motion: it would pull the device into the tissue"};
+  return {Grade::kNote, text + "across the motion: push straight in and try again"};
 }
 
 Overrides correctionsOf(const FoundMap& map, const DeviceProfile& profile) {

@@ -12,70 +12,71 @@
 
 namespace viscera {
 
-// What a person's motions tell of a device, whatever its profile says. No ROS here: who listens to the device hands
-// over what was heard.
+// Judges a device by the motions that a user makes, independently of its profile. No ROS here: the caller passes
+// recorded messages.
 
-/// A pose as the device told it.
-struct HeardPose {
-  double came_s = 0;  ///< steady clock
-  /// Of its message, ROS time; nothing where messages of its type have none. 0 means invalid.
+/// A pose as the device sent it.
+struct ReceivedPose {
+  double came_s = 0;  ///< arrival on the steady clock [s]
+  /// Stamp of its message, ROS time [s]; empty if the message type has none. 0 means invalid.
   std::optional<double> stamp_s;
-  double clock_s = 0;  ///< ROS time when it came
-  Pose pose;           ///< in the device's units and axes
+  double clock_s = 0;  ///< arrival in ROS time [s]
+  Pose pose;           ///< pose in the device's units and axes
   std::string frame;
 };
 
-/// One sentence for a person.
+/// One sentence for the user.
 struct Verdict {
   enum class Grade { kRight, kNote, kWrong };
   Grade grade = Grade::kRight;
   std::string text;
-  bool beyond_profile = false;  ///< the tool cannot follow the hand, whatever a profile says
+  bool beyond_profile = false;  ///< whether no profile can make the tool follow the device
 };
 
-/// Of a device that is held still: its rate, gaps, stamps, frames, quaternions and how much it trembles.
-/// @param span_s  for which it was listened to
-std::vector<Verdict> judgeStream(const std::vector<HeardPose>& heard, double span_s, const PosePort& port);
+/// Judges the stream of a device that is held still: rate, gaps, stamps, frames, quaternions and tremor.
+/// @param span_s  duration of the recording [s]
+std::vector<Verdict> judgeStream(const std::vector<ReceivedPose>& heard, double span_s, const PosePort& port);
 
-/// What a hand did while it was listened to: from where it was at first to where it was at last.
+/// Motion of a device during a recording, from its initial to its final pose.
 struct HandMotion {
-  Vector3d way = Vector3d::Zero();   ///< device's units and axes
-  Vector3d turn = Vector3d::Zero();  ///< [rad] about the device's axes
+  Vector3d way = Vector3d::Zero();   ///< displacement, in the device's units and axes
+  Vector3d turn = Vector3d::Zero();  ///< rotation vector [rad], in the device's axes
   Pose end;
 };
-/// @returns nothing where fewer than kFewestPoses good poses were heard
-std::optional<HandMotion> motionOf(const std::vector<HeardPose>& heard);
+/// Returns the motion. @returns nothing if fewer than kFewestPoses valid poses were recorded
+std::optional<HandMotion> motionOf(const std::vector<ReceivedPose>& heard);
 constexpr size_t kFewestPoses = 5;
 
-/// What a person is asked to do. In the tissue frame right is +x, up +z, towards the person -y.
+/// Motion that the user is prompted for. In the tissue frame right is +x, up +z, towards the user -y.
 enum class Asked { kRight, kUp, kTowards, kTurnLeft, kTiltRight, kTiltAway };
-Vector3d directionOf(Asked asked);  ///< of the way, or of the axis of the turn; tissue frame
+Vector3d directionOf(Asked asked);  ///< direction of the displacement, or rotation axis; tissue frame
 constexpr double kAskedWay_m = 0.1, kAskedTurn_rad = 0.8;
 
-/// The motions that were asked for and made; nothing where one was left out.
+/// Recorded motions; empty if the user skipped one.
 struct HandMotions {
   std::optional<HandMotion> right, up, towards, turn_left, tilt_right, tilt_away;
   std::optional<HandMotion>& of(Asked asked);
 };
 
-/// Did the hand do something that can be judged at all? @returns what is wrong, for asking again
-/// @param tremble  of a place that is held still, RMS, device's units
+/// Checks whether a motion is large enough to be judged. @returns an error, after which to prompt again
+/// @param tremble  tremor of a position that is held still, RMS, device's units
 std::optional<std::string> unclear(Asked asked, const HandMotion& motion, double tremble);
-double trembleOf(const std::vector<HeardPose>& still);
+double trembleOf(const std::vector<ReceivedPose>& still);
 
-/// What the tool does with this profile when the hand does what was asked: right, mirrored, along another axis, askew.
+/// Judges the motion of the tool under this profile: right, mirrored, along another axis, or oblique.
 /// @param base  rotation from the frame of the device's poses to the tissue frame
 Verdict judgeMotion(Asked asked, const HandMotion& motion, const DeviceProfile& profile, const Quaterniond& base);
 
-/// What all motions together say a profile should have.
+/// Keys of a profile that fit all motions.
 struct FoundMap {
   std::optional<double> unit_m;
   std::optional<std::string> axes, turn_axes;
-  std::vector<Verdict> verdicts;  ///< of units, and where no axes fit
+  std::vector<Verdict> verdicts;  ///< verdicts on units, and on motions that no axes fit
 };
 FoundMap findMap(const HandMotions& motions, const DeviceProfile& profile, const Quaterniond& base);
 
-/// Where the shaft of an upright handle points with this profile; @returns the turn of `tip` that mends it, if any
+/// Verdict on the shaft's direction for an upright handle under this profile, and the orientation of `tip` that
+/// corrects it, if any.
 struct FoundTip {
   Verdict verdict;
   std::optional<Quaterniond> orientation;
@@ -83,28 +84,28 @@ struct FoundTip {
 FoundTip findTip(const Pose& upright, const DeviceProfile& profile, const Quaterniond& base);
 
 /// A value of a button.
-struct HeardButton {
+struct ReceivedButton {
   ButtonPort port;
   int value = 0;
 };
-/// The button that went down and up again in these events, in their order; where several did, the one that changed
-/// least often, and `expected` before all others.
-std::optional<ButtonPort> pressedButton(const std::vector<HeardButton>& events, const ButtonPort& expected);
-Verdict judgeButton(const std::vector<HeardButton>& events, const ButtonPort& expected, const std::string& name);
+/// Returns the button that was pressed and released in these events, which are in order. If there are several:
+/// `expected` if it is one of them, otherwise the one with the fewest changes.
+std::optional<ButtonPort> pressedButton(const std::vector<ReceivedButton>& events, const ButtonPort& expected);
+Verdict judgeButton(const std::vector<ReceivedButton>& events, const ButtonPort& expected, const std::string& name);
 
-/// Did a force that a simulator sent oppose the hand as it went in? Both in the device's axes.
-struct HeardForce {
+/// A force that a simulator sent, in the device's axes.
+struct ReceivedForce {
   double came_s = 0;
   Vector3d force_n = Vector3d::Zero();
 };
-Verdict judgeForce(const std::vector<HeardForce>& forces, const std::vector<HeardPose>& heard);
+Verdict judgeForce(const std::vector<ReceivedForce>& forces, const std::vector<ReceivedPose>& heard);
 
-/// A profile with what was found, as text of a file: the keys of `yaml` and over them `overrides`.
-/// @param about  lines of a comment at its head
-/// @throws DeviceError  what comes out is no profile
+/// Returns a profile with the corrections as YAML text: the keys of `yaml`, overridden by `overrides`.
+/// @param about  lines of the comment at its beginning
+/// @throws DeviceError  the result is not a valid profile
 std::string correctedProfile(const std::string& yaml, const Overrides& overrides,
                              const std::vector<std::string>& about);
-/// The overrides that make `profile` what was found.
+/// Returns the overrides that correct `profile`.
 Overrides correctionsOf(const FoundMap& map, const DeviceProfile& profile);
 
 }  // namespace viscera

@@ -8,35 +8,35 @@
 
 namespace viscera {
 
-/// From what a device says to where the tool's tip is, and back: units, axes, tip, scale, clutch (docs/devices.md).
+/// Maps the pose of a device to that of the tool's tip, and back: units, axes, tip, scale, clutch (docs/devices.md).
 ///
 /// A pose (p, q) of the device becomes (s (A u p + B q r) + o, B q R) in the frame of its base: u metres per unit, A
-/// and B the rotations of `axes` and `turn_axes`, (r, R) the tip, s the scale, and o what clutching has added.
+/// and B the rotations of `axes` and `turn_axes`, (r, R) the tip, s the scale, and o the offset of the clutch.
 class DeviceMap {
  public:
   explicit DeviceMap(const DeviceProfile& device);
 
-  /// What a pose of the device says, before it is known to be a good one.
+  /// Result for a pose of the device that is not yet accepted.
   struct Place {
-    Pose tip;                              ///< in the frame of the device's base
-    Vector3d offset_m = Vector3d::Zero();  ///< what clutching has added by then
+    Pose tip;                              ///< pose of the tip in the frame of the device's base
+    Vector3d offset_m = Vector3d::Zero();  ///< offset of the clutch at this pose [m]
   };
-  /// While the clutch is pressed the tip stays where it was when a pose was accepted last, and turns.
+  /// Maps a pose. While the clutch is pressed, the tip keeps its last accepted position and only rotates.
   Place placeOf(const Pose& device_pose) const;
-  /// The tool is there: from there a clutch goes on.
+  /// Accepts a result; the clutch continues from its position.
   void accept(const Place& place);
-  /// The tip at a pose that is good: placeOf() and accept().
+  /// Maps and accepts a pose: placeOf() and accept().
   Pose toBase(const Pose& device_pose);
-  /// The device's pose that toBase() takes to this one.
+  /// Returns the device's pose that toBase() maps to this one.
   Pose fromBase(const Pose& tip) const;
-  /// The hand moves and the tool does not from now on, or follows it again.
+  /// Sets the clutch: while it is pressed, the device moves and the tool does not.
   void setClutch(bool pressed) { clutched_ = pressed; }
   bool clutched() const { return clutched_; }
-  /// The place of the base in the tissue frame, where the profile knows it.
+  /// Returns the pose of the base in the tissue frame, if the profile has it.
   const std::optional<Pose>& base() const { return base_; }
-  /// Turns a vector of the base's frame into the device's own axes.
+  /// Returns the rotation from the base's frame to the device's own axes.
   Quaterniond axesFromBase() const { return axes_.conjugate(); }
-  /// From the origin of a device's pose to the tip [m], in the frame of the base.
+  /// Returns the vector from the origin of a device's pose to the tip [m], in the frame of the base.
   Vector3d leverArm(const Pose& device_pose) const { return (turns_ * device_pose.orientation) * tip_.position_m; }
 
  private:
@@ -44,9 +44,9 @@ class DeviceMap {
   Quaterniond axes_, turns_;
   Pose tip_;
   std::optional<Pose> base_;
-  Vector3d offset_m_ = Vector3d::Zero();  ///< what clutching has added
+  Vector3d offset_m_ = Vector3d::Zero();  ///< offset of the clutch [m]
   bool clutched_ = false;
-  std::optional<Vector3d> last_m_;  ///< where the tip was last
+  std::optional<Vector3d> last_m_;  ///< last accepted position of the tip [m]
 };
 
 }  // namespace viscera

@@ -13,14 +13,14 @@ namespace {
 using Grade = Verdict::Grade;
 
 constexpr double kDegPerRad = 180 / 3.14159265358979323846;
-/// Cosine of 41 degrees: hands move no straighter than that without a ruler, and axes are 90 degrees apart.
+/// Cosine of 41 degrees: users move no straighter than that without a ruler, and axes are 90 degrees apart.
 constexpr double kAlong = 0.75;
-constexpr double kTrembles = 8;  ///< what is asked for is more than so many times the tremor of a hand
-constexpr double kShare = 0.15;  ///< of the motion at its beginning and its end that counts as standing there
+constexpr double kTrembles = 8;  ///< least ratio of a requested motion to the tremor
+constexpr double kShare = 0.15;  ///< share of the motion at its beginning and its end that counts as rest
 constexpr double kLeastTurn_rad = 0.25;
-constexpr double kUnitFactor = 3.2;  ///< a hand's 10 cm are something between 3 and 32 cm: units are further apart
-constexpr double kMirror = 0.5;      ///< by so much a mirror image must fit better, in sums of cosines
-constexpr double kUnsaid = 1e-9;     ///< of device units
+constexpr double kUnitFactor = 3.2;  ///< 10 cm by eye are 3 to 32 cm; units differ by a larger factor
+constexpr double kMirror = 0.5;      ///< least advantage of a reflection, in sums of cosines
+constexpr double kUnsaid = 1e-9;     ///< negligible length, in device units
 
 struct Unit {
   double unit_m;
@@ -50,7 +50,7 @@ const char* nameOf(Asked asked) {
   return "tilt away from you";
 }
 
-/// Where a way leads, in words.
+/// Describes the direction of a displacement.
 std::string wayText(const Vector3d& way) {
   const char* const words[3][2] = {{"left", "right"}, {"towards you", "away from you"}, {"down", "up"}};
   Eigen::Index axis;
@@ -58,7 +58,7 @@ std::string wayText(const Vector3d& way) {
   return words[axis][way[axis] > 0];
 }
 
-/// Which motion turns about this axis, in words.
+/// Describes the rotation about an axis.
 std::string turnText(const Vector3d& axis) {
   const char* const words[3][2] = {{"tilts away from you", "tilts towards you"},
                                    {"tilts to the left", "tilts to the right"},
@@ -88,12 +88,12 @@ std::string axesText(const Eigen::Matrix3d& axes) {
 }
 
 struct Pair {
-  Vector3d heard, wanted;  ///< unit vectors: of the device, and what it is to become
+  Vector3d heard, wanted;  ///< unit vectors: measured by the device, and desired
 };
 
 struct Fit {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-  double sum = -10, least = -1;  ///< of the cosines
+  double sum = -10, least = -1;  ///< sum and smallest of the cosines
 };
 
 Fit fitOf(const Eigen::Matrix3d& axes, const std::vector<Pair>& pairs) {
@@ -106,7 +106,7 @@ Fit fitOf(const Eigen::Matrix3d& axes, const std::vector<Pair>& pairs) {
   return out;
 }
 
-/// Of the 24 rotations, or the 24 mirror images, that bring axes to axes.
+/// Returns the best of the 24 rotations, or of the 24 reflections, that map axes to axes.
 Fit bestFit(const std::vector<Pair>& pairs, bool mirrored) {
   Fit best;
   int order[3] = {0, 1, 2};
@@ -122,26 +122,27 @@ Fit bestFit(const std::vector<Pair>& pairs, bool mirrored) {
   return best;
 }
 
-/// The axes that these motions ask for. @param now  of the profile, which stay where they fit
+/// Returns the axes that fit these motions. @param now  axes of the profile, which stay if they fit
 std::optional<std::string> axesFor(const std::vector<Pair>& pairs, const Eigen::Matrix3d& now, const char* what,
                                    std::vector<Verdict>& verdicts) {
   if (pairs.size() < 2) return std::nullopt;
   if (fitOf(now, pairs).least >= kAlong) return axesText(now);
   const Fit best = bestFit(pairs, false), mirror = bestFit(pairs, true);
   if (pairs.size() == 3 && mirror.sum > best.sum + kMirror) {
-    verdicts.push_back({Grade::kWrong,
-                        std::string(what) +
-                            ": a mirror image. One of three was the wrong way round: do them again; if it "
-                            "stays, the device's axes are left-handed, or its orientations those of the "
-                            "base seen from the tip, which no profile mends, but its driver",
-                        true});
+    verdicts.push_back(
+        {Grade::kWrong,
+         std::string(what) +
+             ": a mirror image. One of the three motions had the wrong direction; repeat them. If the result "
+             "stays, the device's axes are left-handed, or its orientations are inverted: only its "
+             "driver can correct that",
+         true});
     return std::nullopt;
   }
   if (best.least < kAlong) {
     verdicts.push_back(
-        {Grade::kWrong, std::string(what) + ": no axes of the device are along yours, the best by " +
+        {Grade::kWrong, std::string(what) + ": no axes of the device are parallel to yours (the best match is off by " +
                             degrees(best.least) +
-                            ": its base is turned. register_stylus finds `base` (docs/registration.md)"});
+                            "), so its base is rotated. register_stylus finds `base` (docs/devices.md)"});
     return std::nullopt;
   }
   return axesText(best.axes);
@@ -184,9 +185,9 @@ std::optional<HandMotion>& HandMotions::of(Asked asked) {
   return tilt_away;
 }
 
-std::optional<HandMotion> motionOf(const std::vector<HeardPose>& heard) {
+std::optional<HandMotion> motionOf(const std::vector<ReceivedPose>& heard) {
   std::vector<Pose> good;
-  for (const HeardPose& it : heard) {
+  for (const ReceivedPose& it : heard) {
     const double norm = it.pose.orientation.norm();
     if (!it.pose.position_m.allFinite() || !(std::abs(norm - 1) < 0.1)) continue;
     good.push_back(it.pose);
@@ -208,9 +209,9 @@ std::optional<HandMotion> motionOf(const std::vector<HeardPose>& heard) {
 std::optional<std::string> unclear(Asked asked, const HandMotion& motion, double tremble) {
   if (isTurn(asked) && motion.turn.norm() < kLeastTurn_rad)
     return "it turned by " + rounded(kDegPerRad * motion.turn.norm(), 0) +
-           " degrees only; some 45 are asked for. If you did, the device tells no orientations";
+           " degrees only; about 45 are needed. If you turned it that far, the device sends no orientations";
   if (!isTurn(asked) && motion.way.norm() < std::max(kUnsaid, kTrembles * tremble))
-    return std::string("its place did not change, or no more than it trembles");
+    return std::string("its position did not change, or not more than its noise");
   return std::nullopt;
 }
 
@@ -229,7 +230,7 @@ Verdict judgeMotion(Asked asked, const HandMotion& motion, const DeviceProfile& 
   if (cosine <= -kAlong) return {Grade::kWrong, name + ": mirrored, the tool " + does};
   if ((moved.normalized().cwiseAbs()).maxCoeff() >= kAlong)
     return {Grade::kWrong, name + ": axes are swapped, the tool " + does};
-  return {Grade::kWrong, name + ": askew, the tool goes " + degrees(cosine) + " beside it"};
+  return {Grade::kWrong, name + ": oblique, the tool moves " + degrees(cosine) + " off"};
 }
 
 FoundMap findMap(const HandMotions& motions, const DeviceProfile& profile, const Quaterniond& base) {
@@ -260,14 +261,14 @@ FoundMap findMap(const HandMotions& motions, const DeviceProfile& profile, const
   }
   const Unit& unit = *std::min_element(std::begin(kUnits), std::end(kUnits),
                                        [&](const Unit& a, const Unit& b) { return off(a.unit_m) < off(b.unit_m); });
-  const std::string said = "unit: of 10 cm of the hand the tool makes " +
+  const std::string said = "unit: when the device moves 10 cm, the tool moves " +
                            rounded(100 * length * profile.pose.unit_m, length * profile.pose.unit_m < 1 ? 2 : 0) +
                            " cm";
   if (off(unit.unit_m) < std::log(kUnitFactor)) {
     out.unit_m = unit.unit_m;
-    out.verdicts.push_back({Grade::kWrong, said + ": the device tells " + unit.name});
+    out.verdicts.push_back({Grade::kWrong, said + ": the device sends " + unit.name});
   } else {
-    out.verdicts.push_back({Grade::kWrong, said + ", which is none of metres, centimetres, millimetres, inches"});
+    out.verdicts.push_back({Grade::kWrong, said + ", which fits none of metres, centimetres, millimetres, inches"});
   }
   return out;
 }
@@ -275,15 +276,16 @@ FoundMap findMap(const HandMotions& motions, const DeviceProfile& profile, const
 FoundTip findTip(const Pose& upright, const DeviceProfile& profile, const Quaterniond& base) {
   const Quaterniond hand = base * Quaterniond(turnAxesOf(profile)) * upright.orientation;
   const Vector3d shaft = hand * profile.tip.orientation * Vector3d::UnitZ();
-  if (shaft.z() >= kAlong) return {{Grade::kRight, "shaft of an upright handle: up, right"}, std::nullopt};
+  if (shaft.z() >= kAlong) return {{Grade::kRight, "shaft of an upright handle: points up, right"}, std::nullopt};
   const Vector3d up = hand.conjugate() * Vector3d::UnitZ();  // in the handle's frame
   Eigen::Index axis;
   const double along = up.cwiseAbs().maxCoeff(&axis);
   const std::string said = "shaft of an upright handle: the tool's points " + wayText(shaft);
   if (along < kAlong)
-    return {{Grade::kWrong, said + ", and no axis of the handle's frame is along it: was it upright?"}, std::nullopt};
+    return {{Grade::kWrong, said + ", and no axis of the handle's frame is parallel to it; was it upright?"},
+            std::nullopt};
   const Vector3d to = (up[axis] < 0 ? -1 : 1) * Vector3d::Unit(axis);
-  const bool over = to.z() < -0.5;  // half a turn: about x, as profiles of the dVRK have it
+  const bool over = to.z() < -0.5;  // half a turn about x, as in profiles of the dVRK
   return {{Grade::kWrong, said}, over ? Quaterniond(0, 1, 0, 0) : rotationBetween(Vector3d::UnitZ(), to)};
 }
 

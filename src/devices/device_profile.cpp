@@ -19,7 +19,8 @@ namespace {
 
 YAML::Node mapOf(const std::string& yaml, const std::string& where) {
   YAML::Node root = YAML::Load(yaml);
-  if (!root.IsMap()) throw DeviceError(where + ": a device profile is a map of keys, as `viscera keys device` lists");
+  if (!root.IsMap())
+    throw DeviceError(where + ": a device profile must be a map of keys; `viscera keys device` lists them");
   return root;
 }
 
@@ -36,7 +37,7 @@ void replaceAll(std::string& text, const std::string& what, const std::string& b
     text.replace(at, what.size(), by);
 }
 
-/// Puts the names in. @throws DeviceError  what is left is no name of ROS
+/// Inserts the names. @throws DeviceError  the result is not a valid ROS name
 void putNames(DeviceProfile& device, const std::string& where) {
   if (device.name.empty()) device.name = device.stylus;
   struct Named {
@@ -56,15 +57,15 @@ void putNames(DeviceProfile& device, const std::string& where) {
     });
     if (!good)
       throw DeviceError(where + ": '" + named.key + "' gives '" + *named.text +
-                        "', which is no name of ROS; `{name}` and `{stylus}` are what can be put in");
+                        "', which is not a valid ROS name; it may contain `{name}` and `{stylus}`");
   }
 }
 
 void requireButton(const ButtonPort& button, const char* key, const std::string& where) {
   if (button.type != ButtonType::kNone && button.topic.empty())
-    throw DeviceError(where + ": '" + key + ".topic' must say where the button is");
+    throw DeviceError(where + ": '" + key + ".topic' must name the topic of the button");
   if (button.type == ButtonType::kOmniButton && button.index > 1)
-    throw DeviceError(where + ": '" + key + ".index' is 0 (grey) or 1 (white) with type omni_button; found " +
+    throw DeviceError(where + ": '" + key + ".index' must be 0 (grey) or 1 (white) with type omni_button; found " +
                       std::to_string(button.index));
 }
 
@@ -74,13 +75,13 @@ void requireGripper(const DeviceProfile& device, const std::string& where) {
   const bool first = gripper.presses == PressedButton::kButton1;
   if ((first ? device.button1 : device.button2).type != ButtonType::kNone)
     throw DeviceError(where + ": 'gripper.presses' and '" + (first ? "button1" : "button2") +
-                      ".type' both press that button; give one of them");
+                      ".type' both press that button; set only one of them");
   if (gripper.open_above < gripper.closed_below)
     throw DeviceError(where + ": 'gripper.open_above' must not be less than 'gripper.closed_below', " +
                       numberText(gripper.closed_below) + "; found " + numberText(gripper.open_above));
 }
 
-/// What no single key can tell.
+/// Checks conditions that involve several keys.
 void requireConsistent(const DeviceProfile& device, const std::string& where) {
   axesOf(device.pose.axes, where + ": 'pose.axes'");
   if (!device.pose.turn_axes.empty()) axesOf(device.pose.turn_axes, where + ": 'pose.turn_axes'");
@@ -92,15 +93,16 @@ void requireConsistent(const DeviceProfile& device, const std::string& where) {
   requireGripper(device, where);
   if (device.pose.type != PoseType::kCrtkArm) return;
   if (device.scale != 1 || device.clutch.type != ButtonType::kNone)
-    throw DeviceError(where + ": an arm (pose.type crtk_arm) has no 'scale' and no 'clutch': who drives it has them");
+    throw DeviceError(
+        where + ": an arm (pose.type crtk_arm) has no 'scale' and no 'clutch'; remove them: its driver has its own");
 }
 
 }  // namespace
 
 Eigen::Matrix3d axesOf(const std::string& axes, const std::string& key) {
   const auto refuse = [&](const std::string& why) {
-    throw DeviceError(key + " is three of x y z, each once, with or without '-', as in 'x -z y'" + why + "; found '" +
-                      axes + "'");
+    throw DeviceError(key + " must contain x, y and z, each once, with or without '-', as in 'x -z y'" + why +
+                      "; found '" + axes + "'");
   };
   TextIn words(axes);
   std::string word;
@@ -113,7 +115,7 @@ Eigen::Matrix3d axesOf(const std::string& axes, const std::string& key) {
     out(row, letter[0] - 'x') = negative ? -1 : 1;
   }
   if (row != 3 || std::abs(out.determinant()) != 1) refuse("");
-  if (out.determinant() < 0) refuse(", and not a mirror image of the device's");
+  if (out.determinant() < 0) refuse(", and must not mirror the axes of the device");
   return out;
 }
 

@@ -9,14 +9,14 @@
 
 namespace viscera {
 
-/// A number with so many digits behind the point.
+/// Formats a number with a fixed number of decimals.
 inline std::string rounded(double value, int digits) {
   TextOut out;
   out << std::fixed << std::setprecision(digits) << value;
   return out.str();
 }
 
-/// A length for people, without its unit. @param length_m  [m]
+/// Formats a length in millimetres, without the unit. @param length_m  [m]
 inline std::string millimetres(double length_m) {
   return rounded(1e3 * length_m, 2);
 }

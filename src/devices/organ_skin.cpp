@@ -9,8 +9,8 @@
 namespace viscera {
 namespace {
 
-constexpr double kBeside_m = 0.02;  ///< a tool is no thicker, with its tip and a hand that is not quite steady
-// The view of config/viscera.rviz, in radians as rviz has them.
+constexpr double kBeside_m = 0.02;  ///< largest radius of a tool with its tip, and a margin for tremor [m]
+// The view of config/viscera.rviz, in radians as in rviz.
 constexpr double kViewYaw = 4.9, kViewPitch = 0.3;
 
 Vector3d pointOf(const OrganSkin& skin, size_t vertex) {
@@ -18,7 +18,7 @@ Vector3d pointOf(const OrganSkin& skin, size_t vertex) {
   return {p[0], p[1], p[2]};
 }
 
-/// Ericson, Real-Time Collision Detection, 5.1.5.
+/// Returns the closest point of a triangle. Ericson, Real-Time Collision Detection, 5.1.5.
 Vector3d nearestOf(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& p) {
   const Vector3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
@@ -53,23 +53,23 @@ Eigen::AlignedBox3d OrganSkin::box() const {
 
 std::optional<double> distanceToSkin(const OrganSkin& skin, const Vector3d& point_m) {
   if (!areTrianglesSound(skin)) return std::nullopt;
-  constexpr double kTie = 1e-9;  // m: triangles that share the nearest edge or corner
+  constexpr double kTie = 1e-9;  // m: tolerance for triangles that share the nearest edge or corner
   double nearest = std::numeric_limits<double>::infinity(), sided = 0;
-  double best_m = std::numeric_limits<double>::infinity();  ///< the way to the nearest corner, which is no shorter
+  double best_m = std::numeric_limits<double>::infinity();  ///< distance to the nearest corner, an upper bound
   for (size_t v = 0; v < skin.points_m.size() / 3; ++v)
     best_m = std::min(best_m, (pointOf(skin, v) - point_m).squaredNorm());
   best_m = std::sqrt(best_m);
   for (size_t t = 0; t + 2 < skin.triangles.size(); t += 3) {
     const Vector3d a = pointOf(skin, skin.triangles[t]), b = pointOf(skin, skin.triangles[t + 1]),
                    c = pointOf(skin, skin.triangles[t + 2]);
-    // no point of a triangle is farther from its first corner than its longer side from there
+    // no point of a triangle is farther from its first corner than the longer edge from there
     const double reach = std::sqrt(std::max((b - a).squaredNorm(), (c - a).squaredNorm()));
     if ((a - point_m).squaredNorm() > (best_m + reach) * (best_m + reach)) continue;
     const Vector3d way = point_m - nearestOf(a, b, c, point_m);
     const double distance = way.norm();
     best_m = std::min(best_m, distance);
     if (distance > nearest + kTie) continue;
-    // at an edge or a corner the triangle counts that the point is most in front of, or behind
+    // at an edge or a corner, the triangle with the largest distance of the point from its plane decides the side
     const double side = (b - a).cross(c - a).normalized().dot(way);
     if (distance < nearest - kTie || std::abs(side) > std::abs(sided)) sided = side;
     nearest = std::min(nearest, distance);

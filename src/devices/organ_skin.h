@@ -10,28 +10,28 @@
 
 namespace viscera {
 
-/// The skin of what is on the table, as it is shown: what a person steers by who sees a tool and feels nothing.
+/// The rendered surface mesh of the organ, by which a user without force feedback places a tool.
 struct OrganSkin {
   std::vector<float> points_m;      ///< 3 per vertex
   std::vector<uint32_t> triangles;  ///< 3 vertices each, counter-clockwise from outside
 
   bool empty() const { return points_m.empty(); }
-  Eigen::AlignedBox3d box() const;  ///< of all vertices [m]
+  Eigen::AlignedBox3d box() const;  ///< bounding box of all vertices [m]
 };
 
-/// How far a point is from the skin [m]; below 0 it is under it.
-/// @returns nothing where there are no triangles, or these name vertices that there are not
+/// Returns the distance of a point from the surface [m]; below 0 it is inside.
+/// @returns nothing if there are no triangles, or an index is out of range
 std::optional<double> distanceToSkin(const OrganSkin& skin, const Vector3d& point_m);
 
-constexpr double kStartGap_m = 0.015;  ///< from a tool that waits to the skin: more than the largest tip's radius
+constexpr double kStartGap_m = 0.015;  ///< distance of a waiting tool [m], above the largest tip radius
 
-/// Where a tool waits that is to be used on this organ: on the line from its middle towards `side`, beyond all skin
-/// that a tool on this line could meet, its shaft along the line and its tip towards the middle.
-/// @param side  from the middle, need not be of length 1
+/// Returns the initial pose of a tool for this organ: on the line from the centre towards `side`, beyond all surface
+/// that a tool on this line could touch. The shaft is along the line and the tip points to the centre.
+/// @param side  direction from the centre, of any length
 Pose startBefore(const OrganSkin& skin, const Vector3d& side);
 
-/// `side` of the hand's tools, for who looks as config/viscera.rviz does: before the organ, above it and on the left of
-/// the picture, or on its right.
+/// Returns `side` for a left or right tool in the view of config/viscera.rviz: in front of the organ, above it, and on
+/// the left or right of the image.
 Vector3d sideOfHand(bool left);
 
 }  // namespace viscera

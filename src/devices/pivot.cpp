@@ -9,7 +9,7 @@ namespace viscera {
 
 Pivot solvePivot(const std::vector<Pose>& poses, const PivotLimits& limits) {
   if (poses.size() < kLeastPivotPoses)
-    throw RegistrationError("a pivot needs " + std::to_string(kLeastPivotPoses) + " poses at least, and has " +
+    throw RegistrationError("a pivot needs " + std::to_string(kLeastPivotPoses) + " poses at least, but has " +
                             std::to_string(poses.size()));
   const auto count = static_cast<double>(poses.size());
   Eigen::Matrix3d mean_turn = Eigen::Matrix3d::Zero();
@@ -18,8 +18,8 @@ Pivot solvePivot(const std::vector<Pose>& poses, const PivotLimits& limits) {
     mean_turn += pose.orientation.toRotationMatrix() / count;
     mean_m += pose.position_m / count;
   }
-  // The pivot is the mean of all tips: what is left is (R_i - mean R) t = mean p - p_i.
-  // Normal equations will do: turns that are accepted condition them well.
+  // The pivot is the mean of all tips: (R_i - mean R) t = mean p - p_i remains.
+  // Normal equations suffice: accepted rotations condition them well.
   Matrix3d squares = Matrix3d::Zero();
   Vector3d right_m = Vector3d::Zero();
   for (const Pose& pose : poses) {
@@ -31,10 +31,10 @@ Pivot solvePivot(const std::vector<Pose>& poses, const PivotLimits& limits) {
   Pivot out;
   out.turned = std::sqrt(std::max(turned.values[0], 0.0) / count);
   if (!(out.turned >= kLeastTurned))
-    throw RegistrationError("the device was turned too little, or about one axis only: " + rounded(out.turned, 3) +
-                            " m of travel per metre of tip in the direction that was turned least, at least " +
+    throw RegistrationError("the device was turned too little, or about only one axis: " + rounded(out.turned, 3) +
+                            " m of travel per metre of tip in the direction of least rotation; at least " +
                             rounded(kLeastTurned, 3) +
-                            " is needed: tilt it by 30 degrees to all sides, the tip in place");
+                            " is needed. Tilt it by 30 degrees to all sides and keep the tip in place");
   out.tip_m = turned.axes * (turned.axes.transpose() * right_m).cwiseQuotient(turned.values);
   out.pivot_m = mean_m + mean_turn * out.tip_m;
   double squares_m2 = 0;
@@ -42,7 +42,7 @@ Pivot solvePivot(const std::vector<Pose>& poses, const PivotLimits& limits) {
   out.residual_m = std::sqrt(squares_m2 / count);
   if (!(out.residual_m <= limits.residual_m))
     throw RegistrationError("the tip did not stay in place, or the poses are not good enough: residual " +
-                            millimetres(out.residual_m) + " mm, at most " + millimetres(limits.residual_m) +
+                            millimetres(out.residual_m) + " mm; at most " + millimetres(limits.residual_m) +
                             " mm is accepted");
   return out;
 }

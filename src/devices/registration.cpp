@@ -10,7 +10,7 @@
 namespace viscera {
 namespace {
 
-/// RMS distance of points from the line that fits them best.
+/// Returns the RMS distance of points from the line of best fit.
 double spread(const Eigen::Matrix3Xd& points_m) {
   const Vector3d mean_m = points_m.rowwise().mean();
   Matrix3d squares = Matrix3d::Zero();
@@ -25,8 +25,8 @@ double spread(const Eigen::Matrix3Xd& points_m) {
 void requireSpread(const Eigen::Matrix3Xd& points_m, const std::string& which) {
   const double found_m = spread(points_m);
   if (found_m >= kLeastSpread_m) return;
-  throw RegistrationError(which + " points lie on a line, or in one place: they are " + millimetres(found_m) +
-                          " mm off it, at least " + millimetres(kLeastSpread_m) + " mm is needed");
+  throw RegistrationError(which + " points are on one line or at one position: they are " + millimetres(found_m) +
+                          " mm off it; at least " + millimetres(kLeastSpread_m) + " mm is needed");
 }
 
 }  // namespace
@@ -34,10 +34,10 @@ void requireSpread(const Eigen::Matrix3Xd& points_m, const std::string& which) {
 Registration solveRegistration(const std::vector<KnownPoint>& known, const std::vector<Vector3d>& touched,
                                const RegistrationLimits& limits) {
   if (touched.size() != known.size())
-    throw RegistrationError("every known point must be touched: " + std::to_string(touched.size()) + " of " +
+    throw RegistrationError("not every known point was touched: " + std::to_string(touched.size()) + " of " +
                             std::to_string(known.size()) + " are");
   if (known.size() < kLeastPoints)
-    throw RegistrationError("a registration needs " + std::to_string(kLeastPoints) + " points at least, and has " +
+    throw RegistrationError("a registration needs " + std::to_string(kLeastPoints) + " points at least, but has " +
                             std::to_string(known.size()));
   const auto count = static_cast<Eigen::Index>(known.size());
   Eigen::Matrix3Xd from_m(3, count), to_m(3, count);
@@ -59,9 +59,9 @@ Registration solveRegistration(const std::vector<KnownPoint>& known, const std::
   out.residual_m = std::sqrt(squares / static_cast<double>(known.size()));
   if (!(out.residual_m <= limits.residual_m))
     throw RegistrationError("the touched points do not fit the known ones: residual " + millimetres(out.residual_m) +
-                            " mm, at most " + millimetres(limits.residual_m) +
+                            " mm; at most " + millimetres(limits.residual_m) +
                             " mm is accepted (each: " + distancesText(known, out) +
-                            " mm): were they touched in this order, in metres, with the tip known?");
+                            " mm). Touch them in this order, in metres, with the tip known");
   return out;
 }
 

@@ -12,8 +12,8 @@ namespace {
 
 constexpr Range kPlace_m{-100, 100};
 constexpr double kMostPoints = 1000;
-constexpr int kFileDigits = 9;           ///< YAML::Emitter writes numbers as the program's locale has them
-constexpr double kUnitTolerance = 1e-3;  ///< of a quaternion's length: digits that a person left out
+constexpr int kFileDigits = 9;           ///< YAML::Emitter would write numbers in the program's locale
+constexpr double kUnitTolerance = 1e-3;  ///< tolerance of a quaternion's norm: the user may leave out digits
 
 struct FileTip {
   Vector3d position_m = Vector3d::Zero();
@@ -38,12 +38,12 @@ struct FilePoints {
 };
 
 void visitFields(YamlReader& v, FileTip& c) {
-  v.vector("position_m", c.position_m, kPlace_m, "m", "of the tip, in the frame of the device's pose");
+  v.vector("position_m", c.position_m, kPlace_m, "m", "position of the tip in the frame of the device's pose");
 }
 
 void visitFields(YamlReader& v, FileBase& c) {
   c.line = v.line();
-  v.vector("position_m", c.position_m, kPlace_m, "m", "of the device's base, tissue frame");
+  v.vector("position_m", c.position_m, kPlace_m, "m", "position of the device's base in the tissue frame");
   v.numbers("orientation_xyzw", c.orientation_xyzw, {-1, 1}, "");
 }
 
@@ -52,16 +52,16 @@ void visitFields(YamlReader& v, FileRegistration& c) {
   c.has_base = v.has("base");
   v.group("tip", c.tip, "");
   v.group("base", c.base, "");
-  v.number("residual_mm", c.residual_mm, {0, 1e6}, "mm", "of what was found last");
+  v.number("residual_mm", c.residual_mm, {0, 1e6}, "mm", "residual of the last tip or base that was found");
 }
 
 void visitFields(YamlReader& v, FilePoint& c) {
-  v.text("name", c.name, "of the point");
-  v.vector("position_m", c.position_m, kPlace_m, "m", "tissue frame");
+  v.text("name", c.name, "name of the point");
+  v.vector("position_m", c.position_m, kPlace_m, "m", "position of the point in the tissue frame");
 }
 
 void visitFields(YamlReader& v, FilePoints& c) {
-  v.list("points", c.points, kMostPoints, "in the order in which they are touched");
+  v.list("points", c.points, kMostPoints, "points, in the order in which they are touched");
 }
 
 template <class File>

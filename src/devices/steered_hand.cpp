@@ -10,7 +10,7 @@
 namespace viscera {
 namespace {
 
-constexpr size_t kMostDigits = 3;  ///< of an axis' number
+constexpr size_t kMostDigits = 3;  ///< most digits of an axis number
 
 double deflected(double value, double dead_zone) {
   if (!std::isfinite(value)) return 0;
@@ -61,8 +61,8 @@ AxisMap::AxisMap(const std::string& text) {
   }
   if (!good || count != axes_.size())
     throw Error(
-        "six words, for x, y, z and turns about them: the number of an axis, with a minus where it is to be turned "
-        "round, or none, as in '0 1 4 none none -3'; found '" +
+        "six words, for x, y, z and rotations about them: each the number of an axis, with a minus to invert it, "
+        "or none, as in '0 1 4 none none -3'; found '" +
         text + "'");
 }
 

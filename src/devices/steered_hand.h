@@ -11,14 +11,14 @@
 
 namespace viscera {
 
-/// How fast a tip may go that no hand holds.
+/// Speed limits of a tip that no user holds.
 struct SteeredSpeed {
   double linear_m_per_s = 0.1;
   double angular_rad_per_s = 1.5;
 };
 
-/// One step of a tip towards a target that may jump, as a mouse does: straight, at this speed at most.
-/// @param dt_s  of the step [s], >= 0
+/// Advances a tip towards a target that may jump, as a mouse does: along a straight line, within the speed limits.
+/// @param dt_s  length of the step [s], >= 0
 Pose approach(const Pose& from, const Pose& target, const SteeredSpeed& speed, double dt_s);
 
 /// Deflections of a gamepad or a space mouse, -1 .. 1 each.
@@ -26,24 +26,25 @@ struct Deflection {
   Vector3d linear = Vector3d::Zero(), angular = Vector3d::Zero();
 };
 
-/// One step of a tip that deflections drive: along the axes of the frame of its pose, and about them, through the tip.
-/// Full deflection of one axis is full speed.
+/// Advances a tip by deflections: along the axes of the frame of its pose, and about these axes through the tip. Full
+/// deflection of one axis is full speed.
 Pose drive(const Pose& from, const Deflection& deflection, const SteeredSpeed& speed, double dt_s);
 
-/// Brings a tip back into a sphere, so that it is never lost.
-/// @param centre_m, reach_m  of the sphere, in the frame of the pose
+/// Moves a tip back into a sphere, so that it is never lost.
+/// @param centre_m, reach_m  centre and radius, in the frame of the pose
 Pose within(const Pose& pose, const Vector3d& centre_m, double reach_m);
 
-/// Which axis of a Joy message does what: `0 -1 4 none none -3` for x, y, z, and turns about them. A minus turns an
-/// axis round.
+/// Assigns the axes of a Joy message: `0 -1 4 none none -3` for x, y, z, and rotations about them. A minus reverses an
+/// axis.
 class AxisMap {
  public:
-  /// @throws Error  what six words are accepted
+  /// @throws Error  names the six accepted words
   explicit AxisMap(const std::string& text);
-  /// @param axes       of the message; those that it lacks are 0, and so is what is not finite
-  /// @param dead_zone  deflections up to this are none; from there on they grow from 0 to 1. 0 <= dead_zone < 1
+  /// Returns the deflections.
+  /// @param axes       axes of the message; missing ones and ones that are not finite are 0
+  /// @param dead_zone  deflections up to this are 0; from there on they grow from 0 to 1. 0 <= dead_zone < 1
   Deflection deflection(const std::vector<float>& axes, double dead_zone) const;
-  /// Does the message have all axes that are asked for?
+  /// Returns whether the message has all assigned axes.
   bool fits(const std::vector<float>& axes) const;
 
  private:

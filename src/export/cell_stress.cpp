@@ -16,8 +16,8 @@ namespace {
 
 using Eigen::Matrix3d;
 
-/// A cell's motion over h (docs/physics.md 1): its mean edges, and its hourglass motions by the axis that they leave
-/// out.
+/// Deformation modes of a cell over h (docs/physics.md 1): its mean edges, and its hourglass modes by the axis that
+/// they leave out.
 struct Motion {
   Matrix3d edges = Matrix3d::Identity(), hourglass = Matrix3d::Zero();
 };
@@ -40,7 +40,7 @@ double volumeOf(const Matrix3d& f) {
   return f.col(0).dot(f.col(1).cross(f.col(2)));
 }
 
-/// F* = F (1 + G) at the centroid of the tissue.
+/// Returns F* = F (1 + G) at the centroid of the tissue.
 Matrix3d gradientAt(const Motion& motion, const Vector3d& centroid, double poisson) {
   const double j = volumeOf(motion.edges);
   if (j <= static_cast<double>(layout::kLeastVolume)) return motion.edges;
@@ -61,7 +61,7 @@ CellStress stressOf(const Matrix3d& cauchy, double energy_j_per_m3) {
   return {energy_j_per_m3, std::sqrt(1.5) * shear.norm(), principalValues(cauchy).reverse()};
 }
 
-/// sigma = mu exp(b x) J^(-5/3) (B - tr B / 3) + K/2 (J - 1/J) + F S F^T / J, B = F F^T, x = J^(-2/3) tr B - 3.
+/// Returns sigma = mu exp(b x) J^(-5/3) (B - tr B / 3) + K/2 (J - 1/J) + F S F^T / J, B = F F^T, x = J^(-2/3) tr B - 3.
 /// @param stiffening  b   @param prestress  S over mu
 CellStress neoHookean(const Matrix3d& f, double lambda, double mu, double stiffening, const Matrix3d& prestress) {
   const double j = std::max(volumeOf(f), static_cast<double>(layout::kLeastVolume)), bulk = lambda + 2.0 / 3 * mu;

@@ -11,23 +11,23 @@
 
 namespace viscera {
 
-/// Stress of a cell at the centroid of its tissue: Cauchy's, of large strain. In a cell of two materials that of the
-/// one that it is labelled with.
+/// Cauchy stress of a cell at the centroid of its tissue, at large strain. In a cell of two materials, that of the
+/// labelled one.
 struct CellStress {
   double energy_j_per_m3;  ///< of the volume at rest
   double von_mises_pa;
-  Eigen::Vector3d principal_pa;  ///< largest first; pulling above 0
+  Eigen::Vector3d principal_pa;  ///< largest first; tension above 0
 };
 
-/// Computes the stress of the cells of one body in a state, by its law: neo-Hookean, or of springs that of St. Venant
-/// and Kirchhoff with their constants (docs/physics.md 1).
+/// Computes the stress of the cells of one body in a state, by its law: neo-Hookean or, for springs, St.
+/// Venant-Kirchhoff with their constants (docs/physics.md 1).
 class CellStresses {
  public:
   /// @param body  with cells; must outlive this
   explicit CellStresses(const Body& body);
 
-  /// @param cell  slot of its lowest corner, of a cell that is there   @param u_m  displacements of the corners: bit 0
-  /// of the index x, bit 1 y, bit 2 z
+  /// Returns the stress of a cell. @param cell  slot of its lowest corner, of an existing cell   @param u_m
+  /// displacements of the corners: bit 0 of the index x, bit 1 y, bit 2 z
   CellStress at(uint32_t cell, const std::array<Vector3d, 8>& u_m) const;
 
  private:
@@ -35,7 +35,7 @@ class CellStresses {
     double lambda, mu;
   };
   const Body& body_;
-  std::vector<Lame> lames_;  ///< [parts + 1] of no part, then by label
+  std::vector<Lame> lames_;  ///< [parts + 1] without part, then by label
   CellMoments moments_;
   std::vector<CellLaminate> laminates_;  ///< ascending by cell
 };

@@ -16,7 +16,7 @@ namespace viscera {
 namespace {
 
 const char* nameOf(ExportSource source) {
-  constexpr const char* kNames[] = {"skin", "lattice", "network", "threads"};
+  constexpr const char* kNames[] = {"skin", "lattice", "network", "sutures"};
   return kNames[static_cast<size_t>(source)];
 }
 
@@ -26,11 +26,11 @@ std::string numbered(uint64_t tick) {
   return text;
 }
 
-FieldMesh fieldsOf(const Session& session, const ShownMesh& skin, const ExportOptions& options) {
+FieldMesh fieldsOf(const Session& session, const VisibleMesh& skin, const ExportOptions& options) {
   FieldMesh mesh = options.source == ExportSource::kSkin      ? skinFields(session, skin)
                    : options.source == ExportSource::kLattice ? latticeFields(session)
                    : options.source == ExportSource::kNetwork ? networkFields(session)
-                                                              : threadFields(session);
+                                                              : sutureFields(session);
   toFrame(options.frame, session.scene().environment.scan_origin_m, mesh);
   return mesh;
 }
@@ -43,32 +43,32 @@ Exporter::Exporter(const std::string& folder, const ExportOptions& options, doub
       ticks_(std::max<uint64_t>(1, static_cast<uint64_t>(std::llround(options.every_s / tick_s)))) {
   const bool fields = options.format == ExportFormat::kVtp || options.format == ExportFormat::kXdmf;
   if (!fields && options.source != ExportSource::kSkin)
-    throw Error("--format ply, glb and pc2 hold skins: take vtp or xdmf of a lattice, a network or threads");
+    throw Error("--format ply, glb and pc2 contain only skins; use vtp or xdmf for a lattice, a network or sutures");
   if (options.format == ExportFormat::kGlb && options.frame != ExportFrame::kRos)
-    throw Error("--format glb is in metres with y up, as glTF has it: take vtp or ply with --export-frame lps_mm");
+    throw Error("--format glb is always in metres with y up, as in glTF; use vtp or ply with --export-frame lps_mm");
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw Error(folder + ": cannot be made into a folder for exports: " + error.message());
+  if (error) throw Error(folder + ": cannot create this folder for exports: " + error.message());
   if (options.format == ExportFormat::kXdmf) xdmf_.emplace(stem_);
   if (options.format == ExportFormat::kPc2) pc2_.emplace(stem_ + ".pc2", static_cast<double>(ticks_) * tick_s);
 }
 
-void Exporter::add(const Session& session, const ShownMesh& skin) {
+void Exporter::add(const Session& session, const VisibleMesh& skin) {
   if (options_.format == ExportFormat::kPly || options_.format == ExportFormat::kGlb) return addFile(session, skin);
   const FieldMesh mesh = fieldsOf(session, skin, options_);
   if (xdmf_) return xdmf_->add(mesh);
   if (pc2_) {
-    // The mesh that the cache moves.
+    // The mesh that the cache animates.
     if (!pc2_->begun()) writePly(skin, stem_ + ".ply");
     return pc2_->add(mesh);
   }
   addVtk(mesh);
 }
 
-void Exporter::addFile(const Session& session, const ShownMesh& skin) {
+void Exporter::addFile(const Session& session, const VisibleMesh& skin) {
   const std::string path = stem_ + numbered(session.tick());
   if (options_.format == ExportFormat::kGlb) return writeGlb(skin, path + ".glb");
-  ShownMesh moved = skin;
+  VisibleMesh moved = skin;
   toFrame(options_.frame, session.scene().environment.scan_origin_m, Vectors::kPlaces, moved.positions_m);
   if (options_.frame == ExportFrame::kLpsMm) {
     for (uint32_t& normal : moved.normals) {
@@ -84,14 +84,14 @@ void Exporter::addVtk(const FieldMesh& mesh) {
   writeVtk(mesh, path);
   collection_ += "<DataSet timestep=\"" + exactText(mesh.time_s) + "\" part=\"0\" file=\"" +
                  std::filesystem::path(path).filename().string() + "\"/>\n";
-  // Whole after every moment, should the run be ended.
+  // Complete after every moment, in case the run is interrupted.
   writeFile(stem_ + ".pvd", FileKind::kVtk,
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
             "<Collection>\n" +
                 collection_ + "</Collection>\n</VTKFile>\n");
 }
 
-void writeSkin(const Session& session, const ShownMesh& skin, const std::string& path) {
+void writeSkin(const Session& session, const VisibleMesh& skin, const std::string& path) {
   const std::string ending = std::filesystem::path(path).extension().string();
   if (ending == ".ply") return writePly(skin, path);
   if (ending == ".glb") return writeGlb(skin, path);

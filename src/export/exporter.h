@@ -19,20 +19,20 @@ struct ExportOptions {
   double every_s = 0.1;
 };
 
-/// Moments of a session as files: one each, or one for all of them, as the format has it.
+/// Writes moments of a session to files, one per moment or one for all, as the format requires.
 class Exporter {
  public:
-  /// @param folder  is made   @throws Error  it cannot be made; the format does not hold that
+  /// @param folder  is created   @throws Error  it cannot be created; the format does not support the source
   Exporter(const std::string& folder, const ExportOptions& options, double tick_s);
-  /// Is a moment due after this tick, the first of which is 1?
+  /// Returns whether a moment is due after this tick, counted from 1.
   bool isDue(uint64_t tick) const { return tick % ticks_ == 0; }
   bool ofSkin() const { return options_.source == ExportSource::kSkin; }
-  /// @param skin  of the session's last tick; not looked at unless ofSkin()   @throws Error
-  void add(const Session& session, const ShownMesh& skin);
+  /// Writes a moment. @param skin  of the session's last tick; unused unless ofSkin()   @throws Error
+  void add(const Session& session, const VisibleMesh& skin);
   void finish();  ///< @throws Error
 
  private:
-  void addFile(const Session& session, const ShownMesh& skin);
+  void addFile(const Session& session, const VisibleMesh& skin);
   void addVtk(const FieldMesh& mesh);
 
   ExportOptions options_;

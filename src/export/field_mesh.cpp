@@ -23,14 +23,14 @@ void add(std::vector<float>& out, const Vector3d& v) {
   for (int c = 0; c < 3; ++c) out.push_back(static_cast<float>(v[c]));
 }
 
-/// A cell of a body's lattice that is whole.
+/// An uncut cell of a body's lattice.
 struct Cell {
   uint32_t lowest;
   std::array<uint32_t, 8> corners;  ///< slots of the body, x first
   CellStress stress;
 };
 
-/// Calls visit(cell) for the whole cells of a body. @param offset  of its slots in the state
+/// Calls visit(cell) for the uncut cells of a body. @param offset  of its slots in the state
 template <class Visit>
 void forCells(const Body& body, uint32_t offset, const HostState& state, const Visit& visit) {
   if (!body.hasCells()) return;
@@ -50,7 +50,7 @@ void forCells(const Body& body, uint32_t offset, const HostState& state, const V
   }
 }
 
-/// [slots] means over the whole cells around a node; NaN where there is none.
+/// [slots] means over the uncut cells around a node; NaN where there is none.
 struct NodeStrains {
   std::vector<float> energy, von_mises;
 };
@@ -74,7 +74,7 @@ NodeStrains nodeStrains(const Model& model, const HostState& state) {
   return out;
 }
 
-/// Points of nodes, with what is known of all of them.
+/// Points of nodes, with their fields.
 class NodePoints {
  public:
   NodePoints(const Model& model, FieldMesh& mesh) : mesh_(mesh), place_(model.slots(), kNone) {
@@ -108,7 +108,7 @@ FieldMesh begun(const Session& session, uint32_t corners) {
   return mesh;
 }
 
-/// What carries a vertex, of its body's state: mean of the nodes that it is bound to.
+/// Returns the velocity of a vertex: mean of the nodes that it is bound to.
 Vector3d velocityOf(const layout::SkinBinding& binding, uint32_t offset, const HostState& state) {
   const Vector3d first = xyz(state.velocity_m_per_s[offset + binding.slot0]);
   if (binding.springs & (layout::kOneToOneBit | layout::kOneNodeBit | layout::kInCellBit)) return first;
@@ -119,7 +119,7 @@ Vector3d velocityOf(const layout::SkinBinding& binding, uint32_t offset, const H
 
 }  // namespace
 
-FieldMesh skinFields(const Session& session, const ShownMesh& skin) {
+FieldMesh skinFields(const Session& session, const VisibleMesh& skin) {
   const HostState state = session.solver().readState();
   const Model& model = session.model();
   const NodeStrains strains = nodeStrains(model, state);
@@ -143,7 +143,7 @@ FieldMesh skinFields(const Session& session, const ShownMesh& skin) {
       mesh.of_points[5].values.push_back(labelled ? static_cast<float>(body.lattice.labels[binding.slot0]) : 0);
     }
   }
-  // Of vertices that wounds have added nothing but where they are is known.
+  // Of vertices that wounds have added only the position is known.
   for (MeshField& field : mesh.of_points)
     field.values.resize(static_cast<size_t>(field.components) * skin.vertices(), kUnknown);
   if (!skin.colors.empty()) mesh.of_points.push_back({"color", 3, {}});
@@ -151,16 +151,16 @@ FieldMesh skinFields(const Session& session, const ShownMesh& skin) {
     for (const int shift : {0, 8, 16})
       mesh.of_points.back().values.push_back(static_cast<float>(color >> shift & 255U) / 255);
   mesh.of_cells = {{"body", 1, {}}, {"wound", 1, {}}};
-  for (const ShownPatch& patch : skin.topology->patches) {
+  for (const VisiblePatch& patch : skin.topology->patches) {
     mesh.of_cells[0].values.insert(mesh.of_cells[0].values.end(), patch.count, static_cast<float>(patch.body));
     mesh.of_cells[1].values.insert(mesh.of_cells[1].values.end(), patch.count,
-                                   patch.kind == ShownKind::kWound ? 1.0f : 0.0f);
+                                   patch.kind == SurfaceKind::kWound ? 1.0f : 0.0f);
   }
   return mesh;
 }
 
 FieldMesh latticeFields(const Session& session) {
-  // Where the corners of a hexahedron stand in the file, of corners with x first.
+  // Order of the corners of a hexahedron in the file, from corners with x first.
   constexpr std::array<size_t, 8> kAround = {0, 1, 3, 2, 4, 5, 7, 6};
   const HostState state = session.solver().readState();
   const Model& model = session.model();
@@ -182,7 +182,7 @@ FieldMesh latticeFields(const Session& session) {
         mesh.of_cells[static_cast<size_t>(4 + i)].values.push_back(static_cast<float>(cell.stress.principal_pa[i]));
     });
   }
-  if (mesh.cells.empty()) throw Error("--export lattice: no body has cells: export its skin or its network");
+  if (mesh.cells.empty()) throw Error("--export lattice: no body has cells; export its skin or its network");
   return mesh;
 }
 
@@ -209,31 +209,31 @@ FieldMesh networkFields(const Session& session) {
       mesh.of_cells[2].values.push_back(static_cast<float>(spring.stiffness_n_per_m * longer_m));
     }
   }
-  if (mesh.cells.empty()) throw Error("--export network: no body has explicit connections: export its lattice");
+  if (mesh.cells.empty()) throw Error("--export network: no body has explicit connections; export its lattice");
   return mesh;
 }
 
-FieldMesh threadFields(const Session& session) {
+FieldMesh sutureFields(const Session& session) {
   FieldMesh mesh = begun(session, 2);
-  mesh.of_cells = {{"thread", 1, {}}, {"tension", 1, {}}, {"needle", 1, {}}};
-  const auto link = [&](size_t thread, size_t from, double tension_n, bool needle) {
+  mesh.of_cells = {{"suture", 1, {}}, {"tension", 1, {}}, {"needle", 1, {}}};
+  const auto link = [&](size_t suture, size_t from, double tension_n, bool needle) {
     mesh.cells.insert(mesh.cells.end(), {static_cast<uint32_t>(from), static_cast<uint32_t>(from + 1)});
-    mesh.of_cells[0].values.push_back(static_cast<float>(thread));
+    mesh.of_cells[0].values.push_back(static_cast<float>(suture));
     mesh.of_cells[1].values.push_back(static_cast<float>(tension_n));
     mesh.of_cells[2].values.push_back(needle ? 1 : 0);
   };
-  for (size_t p = 0; p < threadPieces(session); ++p) {
+  for (size_t p = 0; p < suturePieces(session); ++p) {
     const size_t first = mesh.pointCount();
-    for (const Vector3d& place : threadPlaces(session, p)) add(mesh.points, place);
-    const std::vector<double> tensions_n = threadTensions_n(session, p);
-    for (size_t i = 0; i < tensions_n.size(); ++i) link(threadOf(session, p), first + i, tensions_n[i], false);
+    for (const Vector3d& place : suturePositions(session, p)) add(mesh.points, place);
+    const std::vector<double> tensions_n = sutureTensions_n(session, p);
+    for (size_t i = 0; i < tensions_n.size(); ++i) link(sutureOf(session, p), first + i, tensions_n[i], false);
   }
-  for (size_t t = 0; t < session.scene().threads.size(); ++t) {
+  for (size_t t = 0; t < session.scene().sutures.size(); ++t) {
     const size_t tip = mesh.pointCount();
-    for (const Vector3d& place : needlePlaces(session, t)) add(mesh.points, place);
+    for (const Vector3d& place : needlePositions(session, t)) add(mesh.points, place);
     for (size_t i = tip; i + 1 < mesh.pointCount(); ++i) link(t, i, 0, true);
   }
-  if (mesh.cells.empty()) throw Error("--export threads: the scene has none: give it threads[]");
+  if (mesh.cells.empty()) throw Error("--export sutures: the scene has no sutures; add sutures[]");
   return mesh;
 }
 

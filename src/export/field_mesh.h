@@ -10,21 +10,21 @@
 
 namespace viscera {
 
-/// What is taken out of a session.
-enum class ExportSource { kSkin, kLattice, kNetwork, kThreads };
-/// Axes and unit of what is written: those of the tissue frame (x forward, y left, z up, metres), or those of medical
-/// images (x left, y back, z up, millimetres), which 3D Slicer wants, with the origin of the scan that the tissue is
-/// from (environment.scan_origin_m).
+/// Exported part of a session.
+enum class ExportSource { kSkin, kLattice, kNetwork, kSutures };
+/// Axes and unit of the output: those of the tissue frame (x forward, y left, z up, metres), or those of medical images
+/// (x left, y back, z up, millimetres), for 3D Slicer, with the origin of the tissue's scan
+/// (environment.scan_origin_m).
 enum class ExportFrame { kRos, kLpsMm };
 
-/// Numbers at points or in cells. Energies and stresses are in SI units whatever the frame.
+/// Numbers at points or in cells. Energies and stresses are in SI units in any frame.
 struct MeshField {
   std::string name;
   int components = 1;
-  std::vector<float> values;  ///< NaN where it is not known
+  std::vector<float> values;  ///< NaN where unknown
 };
 
-/// A moment of a session as programs that show fields take it.
+/// A moment of a session, as a mesh with fields.
 struct FieldMesh {
   uint64_t tick = 0;
   double time_s = 0;
@@ -37,17 +37,17 @@ struct FieldMesh {
   size_t cellCount() const { return cells.size() / corners; }
 };
 
-/// @param skin  of the session's last tick
-FieldMesh skinFields(const Session& session, const ShownMesh& skin);
-FieldMesh latticeFields(const Session& session);  ///< its whole cells, those that a cut tore left out
-FieldMesh networkFields(const Session& session);  ///< its springs, those that are cut left out
-FieldMesh threadFields(const Session& session);   ///< links of its threads
+/// Returns the surface mesh with its fields. @param skin  of the session's last tick
+FieldMesh skinFields(const Session& session, const VisibleMesh& skin);
+FieldMesh latticeFields(const Session& session);  ///< its uncut cells
+FieldMesh networkFields(const Session& session);  ///< its uncut springs
+FieldMesh sutureFields(const Session& session);   ///< links of its sutures
 
-/// Of three numbers: they are turned; arrows have a unit besides, places an origin too.
+/// Kinds of vectors: all are rotated; arrows are also scaled, places also get an origin.
 enum class Vectors { kPlaces, kArrows, kDirections };
-/// Of the tissue frame, in another one. @param scan_origin_m  see environment.scan_origin_m
+/// Converts vectors of the tissue frame. @param scan_origin_m  see environment.scan_origin_m
 void toFrame(ExportFrame frame, const Vector3d& scan_origin_m, Vectors what, std::vector<float>& vectors);
-/// Points and the fields that are lengths or speeds.
+/// Converts points, and the fields that are lengths or speeds.
 void toFrame(ExportFrame frame, const Vector3d& scan_origin_m, FieldMesh& mesh);
 
 }  // namespace viscera

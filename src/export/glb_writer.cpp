@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Numbers of the format.
+// Constants of the format.
 constexpr uint32_t kMagic = 0x46546C67, kVersion = 2, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 constexpr int kFloat = 5126, kUint = 5125, kVertices = 34962, kIndices = 34963;
 
@@ -37,7 +37,7 @@ class Buffers {
   std::string binary;
 };
 
-// sRGB to linear, closely enough.
+// From sRGB to linear, approximately.
 double linear(double c) {
   return std::pow(c, 2.2);
 }
@@ -50,7 +50,7 @@ Json materialOf(const Vector3d& color) {
           {"doubleSided", true}};
 }
 
-std::vector<float> unitNormals(const ShownMesh& skin) {
+std::vector<float> unitNormals(const VisibleMesh& skin) {
   std::vector<float> out;
   for (size_t v = 0; v < skin.vertices(); ++v) {
     const Vector3f n = skin.normal(v);
@@ -62,7 +62,7 @@ std::vector<float> unitNormals(const ShownMesh& skin) {
 
 }  // namespace
 
-void writeGlb(const ShownMesh& skin, const std::string& path) {
+void writeGlb(const VisibleMesh& skin, const std::string& path) {
   Buffers buffers;
   const std::vector<float> normals = unitNormals(skin);
   const int positions = buffers.add(skin.positions_m, kFloat, kVertices, 3);
@@ -82,14 +82,14 @@ void writeGlb(const ShownMesh& skin, const std::string& path) {
     attributes["COLOR_0"] = buffers.add(colors, kFloat, kVertices, 3);
   }
   Json primitives = Json::array(), materials = Json::array();
-  for (const ShownPatch& patch : skin.topology->patches) {
+  for (const VisiblePatch& patch : skin.topology->patches) {
     if (patch.count == 0) continue;
     const auto first = skin.topology->triangles.begin() + static_cast<std::ptrdiff_t>(3 * patch.first);
     const std::vector<uint32_t> corners(first, first + static_cast<std::ptrdiff_t>(3 * patch.count));
     const Vector3d& body = skin.topology->bodies[patch.body].color;
-    const Vector3d color = patch.kind == ShownKind::kWound ? woundColor(body) : body;
+    const Vector3d color = patch.kind == SurfaceKind::kWound ? woundColor(body) : body;
     materials.push_back(
-        materialOf(skin.colors.empty() ? color : Vector3d::Ones()));  // which those of vertices multiply
+        materialOf(skin.colors.empty() ? color : Vector3d::Ones()));  // colours of vertices are multiplied by it
     primitives.push_back({{"attributes", attributes},
                           {"indices", buffers.add(corners, kUint, kIndices, 1)},
                           {"material", materials.size() - 1}});

@@ -80,9 +80,9 @@ void Pc2Series::add(const FieldMesh& mesh) {
     put<int32_t>(file_, 0);  // samples: known at the end
   }
   if (points_ != static_cast<int32_t>(mesh.pointCount())) {
-    throw Error(path_ + ": a point cache has " + std::to_string(points_) + " points at all times, and at tick " +
+    throw Error(path_ + ": a point cache must keep its " + std::to_string(points_) + " points, but at tick " +
                 std::to_string(mesh.tick) + " there are " + std::to_string(mesh.pointCount()) +
-                ": the skin was cut; take vtp, xdmf, ply or glb");
+                ": the skin was cut; use vtp, xdmf, ply or glb");
   }
   file_.write(mesh.points.data(), 4 * mesh.points.size());
   ++samples_;

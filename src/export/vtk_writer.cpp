@@ -9,7 +9,7 @@ namespace {
 
 constexpr uint8_t kHexahedron = 12;  // VTK's number
 
-/// An array as XML and as bytes, in the same order.
+/// Arrays as XML and as bytes, in the same order.
 class Appended {
  public:
   template <class T>
@@ -46,7 +46,7 @@ void writeVtk(const FieldMesh& mesh, const std::string& path) {
                     "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<" + type +
                     ">\n<Piece NumberOfPoints=\"" + std::to_string(mesh.pointCount()) + "\" NumberOf" +
                     (solid ? "Cells" : cells) + "=\"" + std::to_string(mesh.cellCount()) + "\">\n";
-  // One after the other: what is appended lies in the order in which it is named.
+  // Bytes are appended in the order in which the XML names them.
   xml += appended.fields("PointData", mesh.of_points);
   xml += appended.fields("CellData", mesh.of_cells);
   xml += "<Points>\n" + appended.array("Float32", "points", 3, mesh.points) + "</Points>\n<" + cells + ">\n";

@@ -9,21 +9,22 @@
 
 namespace viscera {
 
-// Writers of what other programs open, without their libraries. All throw Error where a file cannot be written.
+// Writers of other programs' formats, without their libraries. All throw Error where a file cannot be written.
 
-/// VTK's XML with raw bytes behind it: PolyData (.vtp) of triangles and lines, UnstructuredGrid (.vtu) of hexahedra.
+/// Writes VTK's XML with appended raw bytes: PolyData (.vtp) of triangles and lines, UnstructuredGrid (.vtu) of
+/// hexahedra.
 void writeVtk(const FieldMesh& mesh, const std::string& path);
-/// glTF binary, version 2: one primitive per body and kind with its colour, or those of its vertices where the skin has
-/// some; y up, in metres, as the format wants it.
+/// Writes glTF binary, version 2: one primitive per body and kind, with its colour, or with vertex colours if the mesh
+/// has them; y up, in metres, as the format requires.
 /// @param skin  in the tissue frame
-void writeGlb(const ShownMesh& skin, const std::string& path);
+void writeGlb(const VisibleMesh& skin, const std::string& path);
 
-/// The whole skin of a moment by the file's ending: .ply, .glb, or .vtp with its fields.
+/// Writes the whole surface mesh of a moment in the format of the file's ending: .ply, .glb, or .vtp with its fields.
 /// @throws Error  another ending
-void writeSkin(const Session& session, const ShownMesh& skin, const std::string& path);
+void writeSkin(const Session& session, const VisibleMesh& skin, const std::string& path);
 
-/// XDMF 3: one text file that names all times, and one of raw little-endian bytes; cells are there once for as long as
-/// they stay the same.
+/// XDMF 3: one text file that names all times, and one of raw little-endian bytes. Cells are written once until they
+/// change.
 class XdmfSeries {
  public:
   explicit XdmfSeries(const std::string& stem);  ///< .xdmf and .bin
@@ -39,11 +40,11 @@ class XdmfSeries {
   uint64_t at_ = 0;
 };
 
-/// Positions alone, as Blender's Mesh Cache takes them (PC2).
+/// Positions alone, for Blender's Mesh Cache (PC2).
 class Pc2Series {
  public:
   Pc2Series(const std::string& path, double every_s);
-  /// @throws Error  not as many points as at first: the skin was cut
+  /// Writes a moment. @throws Error  the number of points has changed: the mesh was cut
   void add(const FieldMesh& mesh);
   bool begun() const { return samples_ > 0; }
   void finish();

@@ -9,7 +9,7 @@
 
 namespace viscera::gpu {
 
-/// What a buffer holds, into an archive or out of it; waits.
+/// Writes a buffer into an archive, or reads it. Waits for the GPU.
 template <class T>
 void persist(Archive& archive, Buffer<T>& buffer) {
   std::vector<T> values;

@@ -17,8 +17,8 @@ namespace viscera::gpu {
 
 namespace {
 
-constexpr int kNice = 10;                         // about a tenth of the processor beside a thread that wants all of it
-constexpr const char* kRasteriser = "llvmpipe-";  // what the names of its threads begin with
+constexpr int kNice = 10;                         // about a tenth of the processor next to a busy thread
+constexpr const char* kRasteriser = "llvmpipe-";  // prefix of the names of its threads
 
 void giveWay(id_t thread) {
   setpriority(PRIO_PROCESS, thread, std::max(kNice, getpriority(PRIO_PROCESS, thread)));

@@ -4,9 +4,9 @@
 
 namespace viscera::gpu {
 
-/// This thread, and the threads of Mesa's software rasteriser where that draws, give way to all other threads of the
-/// process: pictures take what stepping leaves of the processor. It cannot be taken back. Does nothing where the
-/// system does not let it.
+/// Lowers the priority of this thread, and of the threads of Mesa's software rasteriser where that draws, below all
+/// other threads of the process: images take what stepping leaves of the processor. It cannot be undone. Does nothing
+/// where the system does not permit it.
 void drawInBackground();
 
 }  // namespace viscera::gpu

@@ -35,18 +35,18 @@ size_t bufferBytes() {
 
 RawBuffer::RawBuffer(size_t bytes, const char* name, const void* data) : bytes_(bytes), name_(name) {
   constexpr size_t kSmallest = 16;               // drivers refuse storage of size 0
-  constexpr size_t kFewZeros = size_t{1} << 16;  // are sent: what is written next need not wait for a clear
+  constexpr size_t kFewZeros = size_t{1} << 16;  // sent from the host, so that the next write need not wait for a clear
   const std::vector<char> zeros(!data && bytes <= kFewZeros ? std::max(bytes, kSmallest) : 0);
   if (!zeros.empty()) data = zeros.data();
   std::array<char, kSmallest> padded{};
   if (data && bytes < kSmallest) data = std::memcpy(padded.data(), data, bytes);
-  checkErrors("what came before a buffer was made");
+  checkErrors("work before the creation of a buffer");
   glCreateBuffers(1, &id_);
   countObject();
   glNamedBufferStorage(id_, static_cast<GLsizeiptr>(std::max(bytes, kSmallest)), data, GL_DYNAMIC_STORAGE_BIT);
   GLenum code = glGetError();
   if (code == GL_NO_ERROR && !data) {
-    clear();  // some drivers look for memory when it is first used
+    clear();  // some drivers allocate memory when it is first used
     code = glGetError();
   }
   if (code == GL_NO_ERROR) {
@@ -77,7 +77,7 @@ RawBuffer& RawBuffer::operator=(RawBuffer&& other) noexcept {
   return *this;
 }
 
-/// NVIDIA's driver 580 clears after it has written 64 KiB or more, although it was told to clear first (docs/gpu.md).
+/// Waits for a clear. NVIDIA's driver 580 executes a clear after a later write of 64 KiB or more (docs/gpu.md).
 void RawBuffer::awaitClear() {
   if (cleared_) awaitGpu(described(name_, bytes_).c_str());
   cleared_ = false;
@@ -136,7 +136,7 @@ TexelView::TexelView(const RawBuffer& buffer, TexelFormat format) {
   if (texels > static_cast<size_t>(most)) {
     throw GpuError(described(buffer.name(), buffer.bytes()) + ", " + std::to_string(texels) +
                    " texels, is longer than the driver's GL_MAX_TEXTURE_BUFFER_SIZE, " + std::to_string(most) +
-                   ": use a larger spacing_m");
+                   "; use a larger spacing_m");
   }
   glCreateTextures(GL_TEXTURE_BUFFER, 1, &id_);
   countObject();
@@ -170,7 +170,7 @@ void RawBuffer::requireBlock() const {
   const size_t most = driverLimits().storage_block_bytes;
   if (bytes_ <= most) return;
   throw GpuError(described(name_, bytes_) + " is longer than the driver's GL_MAX_SHADER_STORAGE_BLOCK_SIZE, " +
-                 std::to_string(most) + ": use a larger spacing_m, or solver.backend: cpu");
+                 std::to_string(most) + "; use a larger spacing_m, or solver.backend: cpu");
 }
 
 void RawBuffer::bindStorage(uint32_t binding) const {

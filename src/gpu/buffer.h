@@ -9,11 +9,11 @@
 
 namespace viscera::gpu {
 
-/// Untyped GPU memory; Buffer<T> is what the rest of the code uses.
+/// Untyped GPU memory; other code uses Buffer<T>.
 class RawBuffer {
  public:
   RawBuffer() = default;
-  /// At least 16 bytes are allocated. @param name  for messages, of static lifetime   @param data  [bytes]; null: zeros
+  /// Allocates at least 16 bytes. @param name  for messages, of static lifetime   @param data  [bytes]; null: zeros
   /// @throws GpuError  out of memory, with name and size
   explicit RawBuffer(size_t bytes, const char* name = "without a name", const void* data = nullptr);
   ~RawBuffer();
@@ -21,12 +21,12 @@ class RawBuffer {
   RawBuffer& operator=(RawBuffer&& other) noexcept;
 
   void write(size_t offset, size_t bytes, const void* data);
-  /// Waits for the GPU. @throws GpuError  it does not answer (awaitGpu)
+  /// Reads bytes. Waits for the GPU. @throws GpuError  it does not answer (awaitGpu)
   void read(size_t offset, size_t bytes, void* data) const;
   void clear();                           ///< to zero, on the GPU
   void copyFrom(const RawBuffer& other);  ///< all of it, on the GPU, to the beginning of this one, which is no shorter
   void bindStorage(uint32_t binding) const;  ///< @throws GpuError  as requireBlock()
-  /// @throws GpuError  longer than the driver lets a storage block be
+  /// Checks the size. @throws GpuError  larger than the driver's largest storage block
   void requireBlock() const;
   void bindUniform(uint32_t binding, size_t offset, size_t bytes) const;
   uint32_t id() const { return id_; }
@@ -38,11 +38,11 @@ class RawBuffer {
   uint32_t id_ = 0;
   size_t bytes_ = 0;
   const char* name_ = "";
-  bool cleared_ = false;  ///< on the GPU, and nothing was waited for since
+  bool cleared_ = false;  ///< on the GPU, and not waited for since
 };
 
-/// A buffer seen through texel fetches: the read path for gathers, several times faster than storage loads where a
-/// software rasteriser runs the kernels, somewhat slower on a GPU (docs/gpu.md).
+/// A buffer as texels, for gathers: several times faster than storage loads where a software rasteriser runs the
+/// kernels, somewhat slower on a GPU (docs/gpu.md).
 enum class TexelFormat { kRgba32f, kRgba32ui, kRg32f, kR32f, kR32ui };
 class TexelView {
  public:
@@ -58,15 +58,15 @@ class TexelView {
   uint32_t id_ = 0;
 };
 
-/// What all buffers of this process that live hold [bytes]; rings of read-back come on top.
+/// Returns the size of all buffers of this process [bytes], without those of read-back rings.
 size_t bufferBytes();
 
-/// Several storage buffers at bindings first, first + 1, ... in one call. @param buffers  ids
+/// Binds several storage buffers at bindings first, first + 1, ... in one call. @param buffers  ids
 void bindStorages(uint32_t first, std::initializer_list<uint32_t> buffers);
-/// Several texel views at units first, first + 1, ... in one call. @param views  ids
+/// Binds several texel views at units first, first + 1, ... in one call. @param views  ids
 void bindTexels(uint32_t first, std::initializer_list<uint32_t> views);
 
-/// Move-only array of T on the GPU. T must have the std430 layout of its twin in GLSL (layout/).
+/// Move-only array of T on the GPU. T must have the std430 layout of its counterpart in GLSL (layout/).
 template <class T>
 class Buffer {
  public:
@@ -89,7 +89,8 @@ class Buffer {
   void copyFrom(const Buffer& other) { raw_.copyFrom(other.raw_); }  ///< to the beginning of this one
   void bindStorage(uint32_t binding) const { raw_.bindStorage(binding); }
   void bindUniform(uint32_t binding) const { bindUniform(binding, 0, count_); }
-  /// @param first  its bytes must be a multiple of GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT (256 is always enough)
+  /// Binds a range as a uniform block. @param first  its bytes must be a multiple of GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT
+  /// (256 is always enough)
   void bindUniform(uint32_t binding, size_t first, size_t count) const {
     raw_.bindUniform(binding, first * sizeof(T), count * sizeof(T));
   }

@@ -36,15 +36,16 @@ F eglFunction(const char* name) {
   return reinterpret_cast<F>(eglGetProcAddress(name));
 }
 
-/// Initialises a display, once in a process. It is never terminated: eglTerminate() would take it from all its users,
-/// and Mesa then unloads its driver, LLVM with it, while destructors of other threads may still be in it.
+/// Initialises a display, once in a process. Displays are never terminated: eglTerminate() would take it from all
+/// users, and Mesa then unloads its driver and LLVM, while destructors of other threads may still use them.
 /// @throws GpuError  this process was forked from one that had a display: drivers' threads and locks are not copied
 bool openDisplay(EGLDisplay display) {
   static const pid_t opener = getpid();
   if (opener != getpid()) {
-    throw GpuError("OpenGL was first used by process " + std::to_string(opener) +
-                   ", from which this one was forked, and does not work in both; start other processes, in Python by "
-                   "multiprocessing.get_context(\"spawn\"), or step on the CPU without pictures");
+    throw GpuError(
+        "OpenGL was first used by process " + std::to_string(opener) +
+        ", from which this one was forked, and cannot be used in both. Start separate processes, in Python with "
+        "multiprocessing.get_context(\"spawn\"), or step on the CPU without pictures");
   }
   return eglInitialize(display, nullptr, nullptr) == EGL_TRUE;
 }
@@ -93,16 +94,16 @@ Context::Context(int only) {
   for (const Candidate& candidate : listDevices(problem)) {
     DeviceAttempt attempt{candidate.index, candidate.name, false, ""};
     if (only >= 0 && candidate.index != only) {
-      attempt.reason = "not asked for: device " + std::to_string(only) + " was";
+      attempt.reason = "not requested: device " + std::to_string(only) + " was";
     } else if (!context_) {
       attempt.taken = open(candidate.index, candidate.device, attempt);
     } else {
-      attempt.reason = "not needed: a device before it was taken";
+      attempt.reason = "not needed: an earlier device was taken";
     }
     attempts_.push_back(attempt);
   }
   if (context_) return;
-  std::string message = "no EGL device gives OpenGL 4.5 core";
+  std::string message = "no EGL device provides OpenGL 4.5 core";
   if (!problem.empty()) message += "; " + problem;
   for (const DeviceAttempt& a : attempts_) {
     message += "; device " + std::to_string(a.index) + " (" + a.name + "): " + a.reason;
@@ -112,7 +113,8 @@ Context::Context(int only) {
 
 namespace {
 
-/// @param tells_of_resets  a GPU that the driver had to reset is then an error instead of results that stand still
+/// Creates a context. @param tells_of_resets  a reset of the GPU by the driver is then an error; without it results
+/// stop changing
 EGLContext createContext(EGLDisplay display, EGLConfig config, bool tells_of_resets) {
   std::vector<EGLint> wishes = {EGL_CONTEXT_MAJOR_VERSION,       4,
                                 EGL_CONTEXT_MINOR_VERSION,       5,
@@ -123,7 +125,7 @@ EGLContext createContext(EGLDisplay display, EGLConfig config, bool tells_of_res
   return eglCreateContext(display, config, EGL_NO_CONTEXT, wishes.data());
 }
 
-/// A current context on an initialised display; else EGL_NO_CONTEXT and `reason` told.
+/// Returns a current context on an initialised display; else EGL_NO_CONTEXT, with `reason` set.
 EGLContext openContext(EGLDisplay display, std::string& reason) {
   const EGLint config_wishes[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
@@ -144,11 +146,11 @@ EGLContext openContext(EGLDisplay display, std::string& reason) {
   return context;
 }
 
-/// Loads the functions of the current context. @return what is wrong; empty: nothing
+/// Loads the functions of the current context. @return the error; empty: none
 std::string loadFunctions() {
   glewExperimental = GL_TRUE;
   const GLenum glew = glewInit();
-  // GLEW 2.2 asks GLX for a display after it has loaded the entry points; on EGL there is none, and that is all right.
+  // GLEW 2.2 asks GLX for a display after it has loaded the entry points. On EGL there is none, which does no harm.
   if (glew != GLEW_OK && glew != GLEW_ERROR_NO_GLX_DISPLAY) {
     return std::string("glewInit failed: ") + reinterpret_cast<const char*>(glewGetErrorString(glew));
   }
@@ -156,13 +158,13 @@ std::string loadFunctions() {
   while (glGetError() != GL_NO_ERROR) {
   }  // glewInit may leave GL_INVALID_ENUM behind on a core context
   noteErrors();
-  // As many threads as the driver likes: it is told of all programs before it is asked for any (gpu/program.h).
+  // As many threads as the driver likes: all programs are started before any result is queried (gpu/program.h).
   if (glMaxShaderCompilerThreadsKHR) {
     glMaxShaderCompilerThreadsKHR(0xFFFFFFFF);
   } else if (glMaxShaderCompilerThreadsARB) {
     glMaxShaderCompilerThreadsARB(0xFFFFFFFF);
   }
-  forgetDriverLimits();
+  clearDriverLimits();
   try {
     requireLimits(driverLimits(), neededLimits());
   } catch (const GpuError& error) {
@@ -200,7 +202,7 @@ bool Context::open(int index, void* device, DeviceAttempt& attempt) {
   version_ = reinterpret_cast<const char*>(glGetString(GL_VERSION));
   software_ = gpu::isSoftware();
   attempt.name = renderer_;
-  attempt.reason = software_ ? "first that works; no hardware device before it did" : "first that works";
+  attempt.reason = software_ ? "first that works; no hardware device before it worked" : "first that works";
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   return true;
 }
@@ -212,7 +214,7 @@ void Context::release() noexcept {
 bool Context::makeCurrent() noexcept {
   if (isCurrent()) return true;
   if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) return false;
-  forgetDriverLimits();
+  clearDriverLimits();
   return true;
 }
 
@@ -255,7 +257,7 @@ ContextScope::~ContextScope() {
   eglBindAPI(api_);
   if (changed && context_ != EGL_NO_CONTEXT) {
     eglMakeCurrent(display_, draw_, read_, context_);
-    forgetDriverLimits();
+    clearDriverLimits();
   }
 }
 

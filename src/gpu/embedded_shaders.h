@@ -4,7 +4,7 @@
 
 namespace viscera::gpu {
 
-/// A shader, or a header that is GLSL too, carried inside the program. Its name is without folder.
+/// A shader, or a header that is also GLSL, embedded in the program. Its name has no folder.
 struct EmbeddedShader {
   const char* name;
   const char* text;

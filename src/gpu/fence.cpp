@@ -26,7 +26,7 @@ void awaitFence(const std::function<FenceState(uint64_t nanoseconds)>& poll, con
     begun = now;
     if (waited_s < longest_s) continue;
     TextOut out;
-    out << "the GPU has not answered for " << longest_s << " s (" << what << "): it hangs, or was lost";
+    out << "the GPU has not answered for " << longest_s << " s (" << what << "): it hangs or was lost";
     throw GpuError(out.str());
   }
 }
@@ -48,7 +48,7 @@ Fence::~Fence() {
   glDeleteSync(static_cast<GLsync>(sync_));
 }
 
-/// A failure is told by the next read.
+/// Returns whether the fence has passed. The next read reports a failure.
 bool Fence::hasPassed() const {
   return glClientWaitSync(static_cast<GLsync>(sync_), 0, 0) != GL_TIMEOUT_EXPIRED;
 }

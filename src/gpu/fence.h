@@ -7,16 +7,14 @@
 
 namespace viscera::gpu {
 
-/// Longest that anybody waits for the GPU [s]. What is waited for is a tick or two, or a picture: a second on a slow
-/// GPU with as much tissue as its memory holds, ten times less than this; drivers give a kernel that hangs up after 2
-/// to 10 s.
+/// Longest wait for the GPU [s]. Waits are for a tick or two, or an image. On a slow GPU, with as much tissue as its
+/// memory holds, that takes a second, a tenth of this. Drivers stop a kernel that hangs after 2 to 10 s.
 constexpr double kLongestWait_s = 10;
 
 enum class FenceState { kPassed, kPending, kFailed };
 
-/// Waits until `poll` says that the fence has passed. No poll counts for more than half of longest_s: in a process that
-/// was stopped, or on a machine that slept, the clock goes on while nothing asks. @param poll  waits for so many
-/// nanoseconds at most
+/// Waits until `poll` says that the fence has passed. One poll counts for at most half of longest_s, as the clock goes
+/// on while a process is stopped or a machine sleeps. @param poll  waits for so many nanoseconds at most
 /// @param what  is waited for, in the message   @throws GpuError  failed, or still pending after longest_s
 void awaitFence(const std::function<FenceState(uint64_t nanoseconds)>& poll, const char* what,
                 double longest_s = kLongestWait_s);
@@ -24,7 +22,7 @@ void awaitFence(const std::function<FenceState(uint64_t nanoseconds)>& poll, con
 /// Waits for an OpenGL fence (GLsync). @throws GpuError  as above
 void awaitSync(void* sync, const char* what);
 
-/// What the GPU was told before this was made; begins to do it.
+/// Fence after all commands given so far; flushes them to the GPU.
 class Fence {
  public:
   Fence();
@@ -37,7 +35,7 @@ class Fence {
   void* sync_;
 };
 
-/// Waits until the GPU has done everything that it was told. @throws GpuError  as above
+/// Waits until the GPU has executed all commands. @throws GpuError  as above
 void awaitGpu(const char* what);
 
 }  // namespace viscera::gpu

@@ -74,12 +74,11 @@ void noteErrors() {
 
 void requireNoReset(unsigned status, const char* what) {
   if (status == GL_NO_ERROR) return;
-  const char* guilt = status == GL_GUILTY_CONTEXT_RESET     ? "by what this program told it"
-                      : status == GL_INNOCENT_CONTEXT_RESET ? "by another program"
+  const char* guilt = status == GL_GUILTY_CONTEXT_RESET     ? "because of commands of this program"
+                      : status == GL_INNOCENT_CONTEXT_RESET ? "because of another program"
                                                             : "for an unknown reason";
-  throw GpuError(std::string("the driver has reset the GPU, ") + guilt +
-                 ": the context is lost with all its memory, in " + what + ", last kernel '" + lastKernel() +
-                 "'; start again, or use solver.backend: cpu");
+  throw GpuError(std::string("the driver has reset the GPU, ") + guilt + ": the context and its memory are lost, in " +
+                 what + ", last kernel '" + lastKernel() + "'. Restart the program, or use solver.backend: cpu");
 }
 
 void checkErrors(const char* what) {

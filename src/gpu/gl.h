@@ -9,16 +9,17 @@
 
 namespace viscera::gpu {
 
-/// "0x502 (GL_INVALID_OPERATION)" and the like.
+/// Returns an error as text, such as "0x502 (GL_INVALID_OPERATION)".
 std::string glErrorText(unsigned code);
 
-/// From now on checkErrors() tells what the driver of the current context says of errors, where it says anything:
-/// asynchronously, and of nothing but errors, so that it costs nothing while there are none.
+/// Makes checkErrors() include messages of the current context's driver. The driver reports them asynchronously, and
+/// only errors, so it costs nothing while there are none.
 void noteErrors();
-/// @param status  of glGetGraphicsResetStatus()   @throws GpuError  it is lost; `what` names the work done
+/// Checks that the GPU was not reset. @param status  of glGetGraphicsResetStatus()   @throws GpuError  it was; `what`
+/// names the work done
 void requireNoReset(unsigned status, const char* what);
 
-/// Counts an OpenGL object made; see objectsCreated().
+/// Counts a new OpenGL object; see objectsCreated().
 void countObject();
 
 }  // namespace viscera::gpu

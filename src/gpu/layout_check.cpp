@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What C++ makes of the structs that it shares with GLSL is what std430 makes of them; of those that also lie in
-// uniform blocks, what std140 does: arrays of them in steps of 16 bytes.
+// Checks that the structs shared with GLSL have the std430 layout in C++; those also used in uniform blocks the std140
+// layout: arrays of them in steps of 16 bytes.
 #include <cstddef>
 
 #include "layout/awake_bricks.h"
@@ -40,7 +40,7 @@ SIZE(BodyParams, 64);
 AT(BodyParams, axial_quarter_n_per_m, 16);
 AT(BodyParams, diagonal_half_n_per_m, 20);
 AT(BodyParams, mass_eighth_kg, 24);
-AT(BodyParams, drag_per_s, 28);
+AT(BodyParams, mass_damping_per_s, 28);
 AT(BodyParams, dashpot_s, 32);
 AT(BodyParams, bulk_j, 36);
 AT(BodyParams, rigidity_j, 44);
@@ -146,7 +146,8 @@ constexpr uint kUnits[] = {kUnitDisplacement, kUnitVelocity,   kUnitBricks,     
                            kUnitLinkStarts,   kUnitRest,       kUnitCellMoments};
 constexpr uint kDrawingUnits[] = {kUnitShownCharts, kUnitCharts, kUnitMaterials, kUnitColors, kUnitReliefs, kUnitGrain};
 
-/// OpenGL promises 16 units to a stage, and 80 to all stages together.
+/// Returns whether each unit is used once and within OpenGL's guarantee: 16 units per stage, 80 for all stages
+/// together.
 constexpr bool eachOnceAndPromised() {
   uint taken = 0;
   for (const uint unit : kUnits) {

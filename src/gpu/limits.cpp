@@ -31,7 +31,7 @@ size_t groupsAlongX() {
   return value < 0 ? 0 : static_cast<size_t>(value);
 }
 
-/// As $VISCERA_READS says, `loads` or `texels`; otherwise what is faster.
+/// Returns the choice of $VISCERA_READS, `loads` or `texels`; without it the faster one.
 bool readsByLoads() {
   const char* const told = std::getenv("VISCERA_READS");
   if (!told) return !isSoftware();
@@ -72,7 +72,7 @@ const Limits& driverLimits() {
   return *known;
 }
 
-void forgetDriverLimits() {
+void clearDriverLimits() {
   known.reset();
 }
 
@@ -82,9 +82,9 @@ void pretendDriverLimits(const Limits& limits) {
 
 void requireStorageBlocks(const Limits& driver, const std::string& kernel, size_t blocks) {
   if (blocks <= driver.storage_blocks) return;
-  throw GpuError("the driver's limits are too small for what this scene has: GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS is " +
+  throw GpuError("the driver's limits are too small for this scene: GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS is " +
                  std::to_string(driver.storage_blocks) + " and must be " + std::to_string(blocks) + " for kernel '" +
-                 kernel + "'; with solver.backend: cpu the scene needs no such kernel to step");
+                 kernel + "'; solver.backend: cpu does not need this kernel");
 }
 
 void requireLimits(const Limits& driver, const Limits& needed) {

@@ -22,11 +22,11 @@
 
 namespace viscera::gpu {
 
-/// What messages say of a program.
+/// Name of a program in messages.
 struct ProgramLabel {
   explicit ProgramLabel(std::string of) : name(std::move(of)) {}
   std::string name;
-  std::atomic<bool> has_run{false};  ///< a dispatch of it has been looked at: asking after each would cost
+  std::atomic<bool> has_run{false};  ///< its first dispatch was checked: a check after each would cost time
 };
 
 namespace {
@@ -54,12 +54,12 @@ size_t wordsOf(GLenum type) {
   }
 }
 
-/// Programs that are to be looked at when they first run; only used where tests ask for it.
+/// Programs to check at their first run; used only where tests ask for it.
 std::atomic<bool> checks_dispatches{false};
 std::mutex unchecked_mutex;
 std::set<uint32_t> unchecked;
 
-/// Of the program that this thread uses; kept as long as the process lives, one for each name.
+/// Label of the program that this thread uses. One per name, kept until the process ends.
 thread_local ProgramLabel* in_use = nullptr;
 
 ProgramLabel* labelOf(const std::string& name) {
@@ -79,7 +79,7 @@ void refuseUnbound() {
   std::string missing;
   for (const std::string& name : unboundNow(bindingsOf(static_cast<uint32_t>(program)))) missing += " " + name;
   if (!missing.empty())
-    throw GpuError("kernel '" + (in_use ? in_use->name : "") + "' runs with nothing bound to:" + missing);
+    throw GpuError("kernel '" + (in_use ? in_use->name : "") + "' runs without a binding for:" + missing);
 }
 
 }  // namespace
@@ -121,7 +121,7 @@ Program::Program(std::string name)
 }
 
 void Program::begin() {
-  countObject();  // now, whenever they are made: what runs later makes none that was not planned
+  countObject();  // counted now, whenever it is made: later calls make none that was not planned
   for (size_t i = 0; i < unfinished_->stages.size(); ++i) countObject();
   if (driverLimits().compiles_ahead) unfinished_->start();
 }
@@ -148,11 +148,11 @@ void Program::finish() const {
   for (const auto& [name, uniform] : by_name) {
     for (const Uniform& other : uniforms_) {
       if (other.key == uniform.key)
-        throw GpuError("program '" + name_ + "': uniform '" + name + "' needs another name");
+        throw GpuError("program '" + name_ + "': uniform '" + name + "' has the same hash as another one; rename it");
     }
     uniforms_.push_back(uniform);
   }
-  unfinished_->id = 0;  // it is this object's now
+  unfinished_->id = 0;  // this object owns it now
   const std::vector<PendingValue> values = std::move(unfinished_->values);
   unfinished_.reset();
   for (const PendingValue& it : values) set(it.name, it.type, it.words.data(), it.components, it.count);
@@ -201,7 +201,7 @@ void checkFirstRun() {
 void Program::dispatch(size_t invocations, uint32_t group_size) {
   if (invocations == 0) return;
   if (checks_dispatches) refuseUnbound();
-  // One dimension of groups holds at least 65,535; more are folded into the second, which kernels undo (globalIndex()).
+  // One dimension has at least 65,535 groups; more are folded into the second, which kernels undo (globalIndex()).
   constexpr size_t kMaxGroups = 65535;
   const size_t groups = (invocations + group_size - 1) / group_size;
   const size_t rows = (groups + kMaxGroups - 1) / kMaxGroups;
@@ -225,16 +225,15 @@ void Program::storageBarrier() {
                   GL_COMMAND_BARRIER_BIT);
 }
 
-/// Notes a value. OpenGL's own start, zero, is known too. @return null: nothing is to be done
+/// Stores a value if it is new; OpenGL's initial value, zero, counts as stored. @return null: nothing to do
 const Program::Uniform* Program::changed(UniformName name, uint32_t type, const void* value, size_t words) const {
   finish();
   for (const Uniform& uniform : uniforms_) {
     if (uniform.key != name.key()) continue;
     if (uniform.location < 0) return nullptr;
-    if (uniform.type != type)
-      throw GpuError("program '" + name_ + "': uniform '" + name.text() + "' is of another type");
+    if (uniform.type != type) throw GpuError("program '" + name_ + "': uniform '" + name.text() + "' has another type");
     const size_t bytes =
-        std::min(words, uniform.words) * sizeof(uint32_t);  // of an array the driver keeps what is used
+        std::min(words, uniform.words) * sizeof(uint32_t);  // of an array the driver keeps the used elements
     if (std::memcmp(&values_[uniform.first], value, bytes) == 0) return nullptr;
     std::memcpy(&values_[uniform.first], value, bytes);
     return &uniform;
@@ -242,7 +241,7 @@ const Program::Uniform* Program::changed(UniformName name, uint32_t type, const 
   throw GpuError("program '" + name_ + "' has no uniform '" + name.text() + "'");
 }
 
-/// @param type  of OpenGL @param value  [count][components] words
+/// Sets a uniform. @param type  of OpenGL @param value  [count][components] words
 void Program::set(UniformName name, uint32_t type, const void* value, size_t components, size_t count) const {
   if (unfinished_ && unfinished_->id == 0) return unfinished_->keep(name, type, value, components, count);
   const Uniform* u = changed(name, type, value, components * count);
@@ -268,7 +267,7 @@ void Program::set(UniformName name, uint32_t type, const void* value, size_t com
     case GL_FLOAT_MAT4:
       return glProgramUniformMatrix4fv(id_, u->location, n, GL_FALSE, floats);
     default:
-      throw GpuError("program '" + name_ + "': uniform '" + name.text() + "' is of a type that cannot be set");
+      throw GpuError("program '" + name_ + "': uniform '" + name.text() + "' has a type that cannot be set");
   }
 }
 

@@ -52,7 +52,7 @@ bool ReadbackRing::request(const Source* sources, size_t count, uint64_t tag) {
   }
   glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
   if (at_once_) {
-    (void)glIsBuffer(slot.buffer);  // an answer: where the driver queues calls, they have been made now
+    (void)glIsBuffer(slot.buffer);  // a query with an answer: where the driver queues calls, they have been made now
   } else {
     slot.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
   }

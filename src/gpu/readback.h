@@ -8,13 +8,13 @@
 
 namespace viscera::gpu {
 
-/// The one place where data comes back from the GPU without waiting: a ring of persistently mapped buffers with fences.
-/// request() queues a copy; collect() hands over the oldest copy whose fence has passed, in order of request.
+/// The only asynchronous read-back from the GPU: a ring of persistently mapped buffers with fences. request() queues a
+/// copy; collect() returns the oldest copy with a fence that has passed, in order of request.
 class ReadbackRing {
  public:
   /// @param bytes  largest copy  @param depth  copies that may be in flight  @param name  for messages, a literal
   /// @param at_once  copies of buffers are made when they are queued, as by llvmpipe, which draws on threads of its
-  /// own: they need not wait for what is being drawn
+  /// own: they need not wait for drawing
   /// @throws GpuError  out of memory
   ReadbackRing(size_t bytes, int depth = 3, const char* name = "a copy", bool at_once = false);
   ~ReadbackRing();
@@ -25,18 +25,20 @@ class ReadbackRing {
     uint32_t buffer;
     size_t offset, bytes;
   };
-  /// Queues copies of the sources, one after the other, under a tag of the caller's. False if every slot is in flight.
+  /// Queues copies of the sources, one after the other, with a tag of the caller's. Returns false if every slot is in
+  /// flight.
   bool request(const Source* sources, size_t count, uint64_t tag);
   bool request(const Source& source, uint64_t tag) { return request(&source, 1, tag); }
-  /// What a pixel is read as.
+  /// Format in which a pixel is read.
   enum class Pixel { kRgb8, kFloat, kUint8 };
-  /// Queues a copy of the bound read framebuffer's pixels, from its bottom row, packed without padding. Renderer
-  /// draws the image's top row there, so rows arrive top first.
+  /// Queues a copy of the bound read framebuffer's pixels, from its bottom row, packed without padding. Renderer draws
+  /// the image's top row there, so rows arrive top first.
   bool requestPixels(int width, int height, uint64_t tag, Pixel pixel = Pixel::kRgb8);
-  /// Oldest finished copy, or nullptr. The memory stays valid until release(). @throws GpuError  it does not come
+  /// Returns the oldest finished copy, or nullptr. The memory stays valid until release(). @throws GpuError  it does
+  /// not come
   const void* collect(uint64_t* tag, bool wait = false);
   void release();
-  /// Forgets what is in flight.
+  /// Discards what is in flight.
   void drop();
   int inFlight() const { return in_flight_; }
   uint64_t waits() const { return waits_; }  ///< times that collect() had to wait for the GPU

@@ -31,7 +31,7 @@ std::string withoutIndex(const std::string& name) {
   return name.substr(0, name.find('['));
 }
 
-/// All uniforms outside of blocks, textures too.
+/// Returns all uniforms outside of blocks, including textures.
 std::vector<ActiveUniform> looseUniforms(uint32_t program) {
   std::vector<ActiveUniform> out;
   GLint count = 0;

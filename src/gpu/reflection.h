@@ -17,12 +17,12 @@ struct ActiveUniform {
 };
 std::vector<ActiveUniform> activeUniforms(uint32_t program);
 
-/// Names of all uniforms that a source declares outside of blocks, whatever the features make of them.
+/// Returns the names of all uniforms that a source declares outside of blocks, with any features.
 std::vector<std::string> declaredUniforms(const std::string& source);
 
-/// Numbers are of their own for storage blocks, uniform blocks and texture units.
+/// Kinds of bindings, each with its own numbers: storage blocks, uniform blocks and texture units.
 enum class BindingKind { kStorage, kUniform, kTexture };
-/// What has to be bound before a program runs.
+/// A binding that a program needs before it runs.
 struct Binding {
   BindingKind kind;
   uint32_t number;
@@ -30,10 +30,10 @@ struct Binding {
 };
 std::vector<Binding> bindingsOf(uint32_t program);
 
-/// @throws GpuError  two bindings of one kind have the same number
+/// Checks that numbers are unique. @throws GpuError  two bindings of one kind have the same number
 void refuseSharedNumbers(const std::vector<Binding>& bindings, const std::string& program);
 
-/// Names of bindings to which nothing is bound now.
+/// Returns the names of bindings to which nothing is bound now.
 std::vector<std::string> unboundNow(const std::vector<Binding>& bindings);
 
 }  // namespace viscera::gpu

@@ -28,7 +28,7 @@ int fileNumber(ShaderFiles& files, const std::string& name) {
   return static_cast<int>(files.size()) - 1;
 }
 
-/// What an #include line names, without its folder: that is for C++.
+/// Returns the file name of an #include line, without its folder, which only C++ needs.
 std::string includedName(const std::string& line) {
   if (line.rfind("#include", 0) != 0) return "";
   const size_t open = line.find('"');

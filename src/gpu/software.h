@@ -8,7 +8,7 @@
 
 namespace viscera::gpu {
 
-/// Is the current context's OpenGL a rasteriser on the processor?
+/// Returns whether the current context's OpenGL is a rasteriser on the processor.
 inline bool isSoftware() {
   const auto* const name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   return name != nullptr && (std::strstr(name, "llvmpipe") != nullptr || std::strstr(name, "softpipe") != nullptr);

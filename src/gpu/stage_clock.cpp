@@ -47,7 +47,7 @@ StageClock::~StageClock() {
   for (Mark& mark : marks_) glDeleteQueries(1, &mark.query);
 }
 
-/// Ends the stage before.
+/// Waits for the GPU and ends the previous stage.
 void StageClock::waitAndCount(int next) {
   glFinish();
   const SteadyTime now = std::chrono::steady_clock::now();
@@ -65,7 +65,8 @@ void StageClock::mark(int stage) {
   glQueryCounter(mark.query, GL_TIMESTAMP);
 }
 
-/// False if there is no room for the marks of its beginning and end, those of the stages around it included.
+/// Enters a stage. Returns false if there is no room for the marks of its beginning and end, and of the ends of the
+/// stages around it.
 bool StageClock::enter(Stage stage) {
   const size_t needed = waits_ ? 0 : stack_.size() + 2;
   while (marks_.size() - under_way_ < needed && readOldest(false)) {

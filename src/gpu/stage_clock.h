@@ -12,7 +12,7 @@
 
 namespace viscera::gpu {
 
-/// What the GPU works on, as far as it is timed.
+/// Timed stages of the GPU's work.
 enum class Stage {
   kCells,
   kStep,
@@ -20,30 +20,30 @@ enum class Stage {
   kMeasure,
   kReaction,
   kUpload,   ///< of a state on the host
-  kSurface,  ///< of following the tissue what is in neither of the next two
+  kSurface,  ///< of updating surface meshes, without the next two
   kNormals,  ///< of nodes
   kMapping,  ///< of vertices
-  kRender,   ///< of drawing what is in none of the next ones
-  kTissue,   ///< drawn; where it is lit in a pass of its own, without that
-  kLight,    ///< pixels of one surface lit
-  kEdges,    ///< pixels of several found and lit
+  kRender,   ///< of drawing, without the next ones
+  kTissue,   ///< drawing; without lighting where that has a pass of its own
+  kLight,    ///< lighting of pixels with one surface
+  kEdges,    ///< finding and lighting pixels with several
   kTools,    ///< and obstacles
   kOverlays,
-  kResolve,   ///< pixels made of those that were drawn
-  kReadback,  ///< of surfaces and pictures
+  kResolve,   ///< image pixels from drawn ones
+  kReadback,  ///< of surfaces and images
 };
 constexpr size_t kStages = 17;
 const char* stageName(Stage stage);
 
-/// Time that the GPU spends on each stage, from time stamps in its command stream: nothing waits for them. While a
-/// clock lives, every TimedStage of its thread is timed by it; without one they cost a comparison.
+/// Time that the GPU spends on each stage, from time stamps in its command stream, without waiting. While a clock
+/// lives, it times every TimedStage of its thread. Without one a TimedStage costs a comparison.
 class StageClock {
  public:
-  /// @param marks  time stamps that may be under way; when all are, stages go untimed until some have come back
+  /// @param marks  most time stamps in flight; with all in use, stages are not timed
   /// @throws GpuError  another clock lives on this thread
   explicit StageClock(int marks = 8192);
-  /// A clock that waits for the GPU at both ends of every stage, and takes the time on the host: for renderers that
-  /// draw tile by tile, all stages of one picture side by side. @throws GpuError  as above
+  /// Returns a clock that waits for the GPU at both ends of every stage, and takes the time on the host: for renderers
+  /// that draw tile by tile, all stages of one image in parallel. @throws GpuError  as above
   static std::unique_ptr<StageClock> waiting();
   ~StageClock();
   StageClock(const StageClock&) = delete;
@@ -53,16 +53,16 @@ class StageClock {
     double seconds = 0;
     uint64_t count = 0;  ///< times that the stage was entered
   };
-  /// What has come back since the clock began. @param wait  for all that is under way
+  /// Returns the times measured since the clock began. @param wait  for all that is in flight
   const std::array<Time, kStages>& collect(bool wait = false);
-  uint64_t untimed() const { return untimed_; }  ///< stages left out, as too many time stamps were under way
+  uint64_t untimed() const { return untimed_; }  ///< stages not timed, as too many time stamps were in flight
 
  private:
   friend class TimedStage;
   static constexpr int kNothing = -1;
   struct Mark {
     uint32_t query = 0;
-    int stage = kNothing;  ///< that the time from this mark to the next one belongs to
+    int stage = kNothing;  ///< stage of the time from this mark to the next one
   };
   bool enter(Stage stage);
   void leave();
@@ -73,7 +73,7 @@ class StageClock {
   std::vector<Mark> marks_;  ///< ring
   size_t oldest_ = 0, under_way_ = 0;
   bool waits_ = false;
-  SteadyTime last_{};  ///< where it waits
+  SteadyTime last_{};  ///< with waiting()
   uint64_t last_ns_ = 0;
   int last_stage_ = kNothing;  ///< of the mark read last
   std::vector<int> stack_;     ///< stages entered and not left
@@ -81,7 +81,7 @@ class StageClock {
   uint64_t untimed_ = 0;
 };
 
-/// The stage that the GPU commands given while this lives belong to. Of stages within stages the inner one counts.
+/// Assigns the GPU commands given in its lifetime to a stage. Of nested stages the inner one counts.
 class TimedStage {
  public:
   explicit TimedStage(Stage stage);

@@ -15,7 +15,7 @@ namespace {
 
 using Names = std::set<std::string>;
 
-/// Of `#if`, `#elif`: defined(A) || defined(B) ..., or with && throughout.
+/// Returns whether a condition of `#if` or `#elif` holds: defined(A) || defined(B) ..., or with && throughout.
 bool holds(const std::string& condition, const Names& defined) {
   static const std::regex name_pattern(R"(defined\((\w+)\))");
   const bool all = condition.find("||") == std::string::npos;
@@ -27,7 +27,7 @@ bool holds(const std::string& condition, const Names& defined) {
   return out;
 }
 
-/// One #if that is open.
+/// One open #if.
 struct Choice {
   bool taken;   ///< this branch is
   bool chosen;  ///< this one or one before is

@@ -7,9 +7,9 @@
 
 namespace viscera::gpu {
 
-/// Storage blocks that a compute shader's source declares, as its features have it. All of them count against the
-/// driver's limit, used or not: their layout is std430.
-/// @param source  as of shaderSource(): the lines of #if that our sources have, `defined` with && or with ||
+/// Returns the number of storage blocks that a compute shader's source declares with its features. All of them count
+/// against the driver's limit, used or not: their layout is std430.
+/// @param source  as of shaderSource(): only the #if lines that our sources have, `defined` with && or with ||
 size_t declaredStorageBlocks(const std::string& source);
 
 }  // namespace viscera::gpu

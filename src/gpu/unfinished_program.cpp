@@ -14,10 +14,10 @@ namespace viscera::gpu {
 
 namespace {
 
-/// Where programs that this thread makes are listed until they are finished.
+/// List of the programs of this thread until they are finished.
 thread_local std::set<UnfinishedProgram*>* listed = nullptr;
 
-/// @throws GpuError  it does not compile
+/// Finishes a stage. @throws GpuError  it does not compile
 void finishStage(const ShaderStage& stage) {
   GLint ok = 0, length = 0;
   glGetShaderiv(stage.id, GL_COMPILE_STATUS, &ok);
@@ -79,7 +79,7 @@ void UnfinishedProgram::keep(UniformName uniform, uint32_t type, const void* val
   const auto same = [uniform](const PendingValue& it) { return it.name.key() == uniform.key(); };
   auto kept = std::find_if(values.begin(), values.end(), same);
   if (kept == values.end()) kept = values.insert(values.end(), PendingValue{uniform, type, components, 0, {}});
-  if (kept->type != type) throw GpuError("program '" + name + "': uniform '" + uniform.text() + "' is of another type");
+  if (kept->type != type) throw GpuError("program '" + name + "': uniform '" + uniform.text() + "' has another type");
   kept->count = std::max(kept->count, count);
   kept->words.resize(kept->count * components);
   std::memcpy(kept->words.data(), value, count * components * sizeof(uint32_t));

@@ -15,7 +15,7 @@ namespace viscera::gpu {
 /// One shader of a program.
 struct ShaderStage {
   GLenum kind;
-  uint32_t id;  ///< 0: the driver was not told to compile it yet
+  uint32_t id;  ///< 0: compilation was not started
   std::string name;
   ShaderFiles files;
   std::string source;  ///< until then
@@ -29,12 +29,12 @@ struct PendingValue {
   std::vector<uint32_t> words;
 };
 
-/// What a Program needs until it is first used: its shaders, and the values set so far. Listed by MadePrograms.
+/// State of a Program until its first use: its shaders, and the values set so far. Listed by MadePrograms.
 struct UnfinishedProgram {
-  uint32_t id = 0;  ///< 0: the driver was not told to compile it yet
+  uint32_t id = 0;  ///< 0: compilation was not started
   std::string name;
   std::vector<ShaderStage> stages;
-  std::vector<std::string> uniforms;  ///< that its shaders declare, as often as they like
+  std::vector<std::string> uniforms;  ///< that its shaders declare, with repetitions
   std::vector<PendingValue> values;
 
   UnfinishedProgram();
@@ -42,11 +42,11 @@ struct UnfinishedProgram {
   UnfinishedProgram& operator=(const UnfinishedProgram&) = delete;
   ~UnfinishedProgram();
   void add(GLenum kind, const std::string& shader, const std::vector<std::string>& defines);
-  /// Tells the driver to compile and link it, once.
+  /// Starts compilation and linking, once.
   void start();
-  /// @throws GpuError  it does not compile or link
+  /// Checks the result. @throws GpuError  it does not compile or link
   void require() const;
-  /// Keeps a value for the time when the program is compiled. @param value  [count][components] words
+  /// Stores a value until the program is compiled. @param value  [count][components] words
   /// @throws GpuError  the shaders declare no such uniform; it was set with another type before
   void keep(UniformName uniform, uint32_t type, const void* value, size_t components, size_t count);
 };

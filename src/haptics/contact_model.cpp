@@ -12,21 +12,22 @@ namespace {
 
 using Kind = TickContact::Kind;
 
-/// A tip that moved less than this from one tick to the next says little: noise of the device and sway of the tissue
-/// are of this size [m].
+/// A displacement between ticks below this carries little information: noise of the device and motion of the tissue are
+/// of this size [m].
 constexpr double kTellingMove_m = 5e-5;
-/// A force below this has no direction that can be trusted [N].
+/// The direction of a force below this is not reliable [N].
 constexpr double kLeastForce_n = 1e-9;
-/// For so long a surface that was left is where it was [s].
+/// Time for which a surface is assumed to stay after the tip left it [s].
 constexpr double kRemembered_s = 0.3;
-/// What is learnt stays within these shares of what the tissue's constants say: a thin layer on bone is stiffer than a
+/// Bounds of the learnt stiffness, relative to that of the tissue's constants: a thin layer on bone is stiffer than a
 /// half space, a flap is softer.
 constexpr double kSoftest = 0.3, kStiffest = 6;
-/// Of a blade's limit: a force above that says nothing of a stiffness, as the edge goes on. A needle's, along it.
+/// Share of a blade's limit (and of a needle's along its shaft) above which a force says nothing about stiffness, since
+/// the edge moves on.
 constexpr double kYields = 0.9;
-/// A needle along its shaft, of what it is across, before ticks tell.
+/// Initial stiffness of a needle along its shaft, relative to that across.
 constexpr double kAlongShaft = 0.4;
-/// A thread pulls no more than so many times as in the tick: what is slack is not known to be stiff.
+/// Limit of a suture's force, relative to that of the tick: a slack suture is not known to be stiff.
 constexpr double kMostPull = 2;
 
 Vector3d directionOf(const Vector3d& v) {
@@ -34,14 +35,14 @@ Vector3d directionOf(const Vector3d& v) {
   return length > kLeastForce_n ? Vector3d(v / length) : Vector3d(Vector3d::Zero());
 }
 
-/// The nearest symmetric matrix with eigenvalues within limits.
+/// Returns the nearest symmetric matrix with eigenvalues within limits.
 Matrix3d within(const Matrix3d& k, double least, double most) {
   const PrincipalAxes of = principalAxes(0.5 * (k + k.transpose()));
   const Vector3d values = of.values.cwiseMax(least).cwiseMin(most);
   return of.axes * values.asDiagonal() * of.axes.transpose();
 }
 
-/// What of a vector is along another of length 1.
+/// Returns the projection onto a unit vector.
 Matrix3d onto(const Vector3d& along) {
   return along * along.transpose();
 }
@@ -56,8 +57,9 @@ bool yields(const TickContact& contact) {
 
 }  // namespace
 
-/// Along the normal [N/m]. Hertz: F = 4/3 E* sqrt(r) d^1.5, so dF/dd = 2 E* sqrt(r d), E* = E / (1 - nu^2). A sphere
-/// that tissue holds: 24 pi mu (1 - nu) r / (5 - 6 nu) in an infinite solid, half of it at a surface.
+/// Returns the stiffness along the normal [N/m]. Hertz: F = 4/3 E* sqrt(r) d^1.5, so dF/dd = 2 E* sqrt(r d),
+/// E* = E / (1 - nu^2). For a sphere held by tissue: 24 pi mu (1 - nu) r / (5 - 6 nu) in an infinite solid, half of it
+/// at a surface.
 double ContactModel::stiffnessOf(double young_modulus_pa, const TickContact& contact) const {
   const double nu = tissue_.poisson_ratio, r = tissue_.tip_radius_m;
   if (contact.kind == Kind::kHolds) {
@@ -70,7 +72,7 @@ double ContactModel::stiffnessOf(double young_modulus_pa, const TickContact& con
   return 2 * size * std::cbrt(0.75 * contact.reaction.force_n.norm() / size);
 }
 
-/// Before ticks tell. Of a thread nothing: what it leads to is not known.
+/// Returns the initial stiffness. It is zero for a suture, since what it is attached to is not known.
 Matrix3d ContactModel::first(const TickContact& contact) const {
   if (contact.kind == Kind::kPulls) return Matrix3d::Zero();
   if (contact.kind == Kind::kPierces)
@@ -80,8 +82,9 @@ Matrix3d ContactModel::first(const TickContact& contact) const {
   return k * onto(directionOf(contact.reaction.force_n));
 }
 
-/// What the last two ticks say, beside what was known. Powell's symmetric update: of all symmetric K with K dx = -dF
-/// the nearest to the one before. A thread tells along its pull, a needle that goes on across itself alone.
+/// Returns the stiffness updated with the last two ticks. Powell's symmetric update: of all symmetric K with
+/// K dx = -dF, the one nearest to the previous K. A suture is updated along its force only, a needle that moves on only
+/// across its shaft.
 Matrix3d ContactModel::learnt(const TickContact& contact, const Vector3d& at_m) const {
   if (contact.kind != now_.kind) return first(contact);
   Matrix3d k = now_.stiffness, telling = Matrix3d::Identity();
@@ -102,7 +105,8 @@ Matrix3d ContactModel::learnt(const TickContact& contact, const Vector3d& at_m) 
   return bounded(contact, k);
 }
 
-/// Of a needle, what acts along is apart from what acts across: the one ends at limits, the other does not.
+/// Limits the stiffness. A needle's stiffness has no coupling between along and across: only the force along it is
+/// limited.
 Matrix3d ContactModel::bounded(const TickContact& contact, const Matrix3d& k) const {
   if (contact.kind == Kind::kPulls) return within(k, 0, std::numeric_limits<double>::max());
   if (contact.kind == Kind::kPierces) {
@@ -140,9 +144,9 @@ void ContactModel::put(const TickContact& contact, double over_s, double now_s) 
   goOver(next, over_s, now_s);
 }
 
-/// The tip has left the surface, which stays known while the tip is near it: no force where the tip was in this tick,
-/// and from where the force would begin the same stiffness as before. Tissue is stiffer the deeper a tip is, so its
-/// surface lies no deeper than that.
+/// Returns the model after the tip has left the surface, which stays known while the tip is near it. The force is zero
+/// at the tip's position in this tick, and has the previous stiffness from the depth at which it begins. Tissue becomes
+/// stiffer with depth, so the surface is no deeper than that.
 ContactModel::Affine ContactModel::leftBehind(const Vector3d& at_m, double now_s) const {
   if (now_.kind != Kind::kPushes || now_s - touched_s_ > kRemembered_s) return {};
   if ((at_m - touched_m_).norm() > tissue_.tip_radius_m) return {};
@@ -156,24 +160,24 @@ ContactModel::Affine ContactModel::leftBehind(const Vector3d& at_m, double now_s
   return out;
 }
 
-void ContactModel::forget(double over_s, double now_s) {
+void ContactModel::clear(double over_s, double now_s) {
   before_ = mixed(now_s);
   goOver(Affine{}, over_s, now_s);
 }
 
-/// From before_.
+/// Starts the blend from before_.
 void ContactModel::goOver(const Affine& next, double over_s, double now_s) {
   now_ = next;
   since_s_ = now_s;
   over_s_ = over_s;
 }
 
-/// From before_ to now_, 0..1.
+/// Returns the progress of the blend from before_ to now_, 0..1.
 double ContactModel::goneOver(double now_s) const {
   return over_s_ > 0 ? std::clamp((now_s - since_s_) / over_s_, 0.0, 1.0) : 1;
 }
 
-/// A mixture of two affine forces is one.
+/// Returns the blended model: a blend of two affine forces is affine.
 ContactModel::Affine ContactModel::mixed(double now_s) const {
   const double w = goneOver(now_s);
   if (w == 1) return now_;
@@ -195,7 +199,8 @@ ContactModel::Affine ContactModel::mixed(double now_s) const {
   return out;
 }
 
-/// Two of one kind are mixed before their bounds, as the surface of a probe is; of others each has its own.
+/// Returns the force. Models of one kind are blended before limits apply, such as the surface of a probe; models of
+/// different kinds are each limited first.
 ContactModel::Force ContactModel::at(const Vector3d& tip_m, double now_s) const {
   if (before_.kind == now_.kind || before_.kind == Kind::kFree || now_.kind == Kind::kFree)
     return answer(mixed(now_s), tip_m);
@@ -219,7 +224,7 @@ ContactModel::Force ContactModel::answer(const Affine& model, const Vector3d& ti
   }
   const double pushed = model.normal.dot(out.force_n);
   if (!(pushed > 0)) return {};
-  // What acts across is the surface's slope, not a pull: no larger than the push.
+  // The force across is due to the surface's slope, not a pull: it is no larger than the push.
   const Vector3d across = out.force_n - pushed * model.normal;
   const double size = across.norm();
   if (size > pushed) out.force_n = pushed * (model.normal + across / size);

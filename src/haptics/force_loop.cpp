@@ -38,7 +38,7 @@ void ForceLoop::put(const Ticks& ticks, const Hands& hands, SteadyTime now) {
     if (ticks[s].tracked)
       servos_[s].put(ticks[s].contact, seconds(now));
     else
-      servos_[s].forget(seconds(now));
+      servos_[s].clear(seconds(now));
   }
   if (answering_) return;
   Wrenches wanted;
@@ -52,7 +52,7 @@ void ForceLoop::put(const Ticks& ticks, const Hands& hands, SteadyTime now) {
 
 void ForceLoop::rest(SteadyTime now) {
   schedule_.rest(now);
-  forget(now);
+  clear(now);
 }
 
 void ForceLoop::release(SteadyTime now) {
@@ -65,19 +65,20 @@ void ForceLoop::suspend(SteadyTime now) {
 
 void ForceLoop::resume(SteadyTime now) {
   schedule_.resume(now);
-  forget(now);
+  clear(now);
 }
 
-void ForceLoop::forget(SteadyTime now) {
-  for (HapticServo& servo : servos_) servo.forget(seconds(now));
+void ForceLoop::clear(SteadyTime now) {
+  for (HapticServo& servo : servos_) servo.clear(seconds(now));
 }
 
 SteadyTime ForceLoop::due() const {
   return answering_ ? std::min(period_due_, schedule_.due()) : schedule_.due();
 }
 
-/// Answering begins and ends with hands that feel it. What was known of them before it ended is void.
-void ForceLoop::heedListeners(const Hands& hands, SteadyTime now) {
+/// Starts or stops evaluation, depending on tracked styluses that subscribe. Discards the motion of devices when it
+/// stops.
+void ForceLoop::updateListeners(const Hands& hands, SteadyTime now) {
   const HandsThere there = thereOf(hands);
   const bool answers = between_ticks_ && schedule_.live() && std::find(there.begin(), there.end(), true) != there.end();
   if (answers == answering_) return;
@@ -89,10 +90,10 @@ void ForceLoop::heedListeners(const Hands& hands, SteadyTime now) {
 }
 
 Wrenches ForceLoop::next(const Hands& hands, SteadyTime now) {
-  heedListeners(hands, now);
+  updateListeners(hands, now);
   if (answering_ && now >= period_due_) {
     answer(hands, now);
-    period_due_ += (1 + (now - period_due_) / period_) * period_;  // periods that were missed are left out
+    period_due_ += (1 + (now - period_due_) / period_) * period_;  // missed periods are skipped
   }
   Wrenches out = schedule_.next(now);
   if (!answering_ || !schedule_.live()) return out;
@@ -104,7 +105,7 @@ Wrenches ForceLoop::next(const Hands& hands, SteadyTime now) {
   return out;
 }
 
-/// What the local models want at the newest poses.
+/// Evaluates the local models at the newest poses.
 void ForceLoop::answer(const Hands& hands, SteadyTime now) {
   Wrenches wanted;
   for (size_t s = 0; s < servos_.size(); ++s) {
@@ -112,7 +113,7 @@ void ForceLoop::answer(const Hands& hands, SteadyTime now) {
       if (hands[s].tracked)
         servos_[s].leave();
       else
-        servos_[s].forget(seconds(now));
+        servos_[s].clear(seconds(now));
       continue;
     }
     wanted[s] = servos_[s].step(hands[s].tip_m, seconds(hands[s].told), seconds(now));
@@ -126,7 +127,7 @@ void ForceLoop::sent(const std::array<Vector3d, layout::kMaxStyluses>& hand_forc
   for (size_t s = 0; s < servos_.size(); ++s) servos_[s].sent(hand_forces_n[s], seconds(now));
 }
 
-ForceLoop::Felt ForceLoop::felt(size_t stylus) const {
+ForceLoop::HapticStats ForceLoop::felt(size_t stylus) const {
   if (!between_ticks_) return {};
   const HapticServo& servo = servos_[stylus];
   return {servo.passivity().energy_j(), servo.passivity().least_j(), servo.share(), answers_[stylus]};

@@ -11,73 +11,73 @@
 
 namespace viscera {
 
-/// Forces of all styluses, in ticks and between them: a HapticServo each, which newest poses ask at a rate of its own,
-/// and the schedule that limits what goes out (docs/haptics.md). Knows neither topics nor threads: who owns it calls
-/// next() when it is due, sends what it returns, and tells by sent() what hands got of it.
+/// Forces of all styluses, in ticks and between them: one HapticServo per stylus, evaluated at the newest poses at a
+/// rate of its own, and the schedule that limits what is sent (docs/haptics.md). It has neither topics nor threads. The
+/// owner calls next() when it is due, sends the result, and reports with sent() what reached the devices.
 class ForceLoop {
  public:
   struct Stylus {
     ForceLimits limits;
     HapticServoConfig servo;
   };
-  /// What a tick has for a stylus.
+  /// Results of a tick for a stylus.
   struct Tick {
     Reaction reaction;
-    bool tracked = false;  ///< a hand is there
+    bool tracked = false;  ///< whether the stylus is tracked
     TickContact contact;
   };
   using Ticks = std::array<Tick, layout::kMaxStyluses>;
-  /// A hand at this moment.
+  /// Current input of a stylus.
   struct Hand {
-    bool tracked = false;  ///< and leads the tool
-    bool listens = false;  ///< its device does
+    bool tracked = false;  ///< whether it is tracked and moves the tool
+    bool listens = false;  ///< whether its device subscribes to forces
     Vector3d tip_m = Vector3d::Zero();
-    SteadyTime told{};  ///< when its newest pose came
+    SteadyTime told{};  ///< arrival of its newest pose
     bool feels() const { return tracked && listens; }
   };
   using Hands = std::array<Hand, layout::kMaxStyluses>;
-  /// What a stylus felt since the start, for the diagnostics. Energies are the hand's.
-  struct Felt {
-    double energy_j = 0, least_j = 0;  ///< given by the hand, as the passivity observer has it
-    double share = 1;                  ///< of the stiffness that fast motion feels
-    uint64_t answers = 0;              ///< periods
+  /// Statistics of a stylus since the start, for the diagnostics. Energies are at the device.
+  struct HapticStats {
+    double energy_j = 0, least_j = 0;  ///< energy given by the user, from the passivity observer, and its minimum [J]
+    double share = 1;                  ///< share of the stiffness that acts on fast motion
+    uint64_t answers = 0;              ///< number of evaluated periods
   };
 
-  /// @param styluses  all with one period   @param between_ticks  false: forces once per tick
-  /// @param stall_s   a tick that comes later than this after the one before is a stall [s]
+  /// @param styluses  all with the same period   @param between_ticks  false: forces once per tick
+  /// @param stall_s   longest time between two ticks that is not a stall [s]
   ForceLoop(const std::vector<Stylus>& styluses, bool between_ticks, double stall_s);
 
   bool betweenTicks() const { return between_ticks_; }
   void setLimits(size_t stylus, const ForceLimits& limits) { schedule_.setLimits(stylus, limits); }
-  /// A tick's answers. @param hands  as of next()
+  /// Updates the models with a tick. @param hands  in next()
   void put(const Ticks& ticks, const Hands& hands, SteadyTime now);
-  /// There are no ticks: all begins again with the next one.
+  /// Stops forces because there are no ticks. Everything is reset until the next one.
   void rest(SteadyTime now);
-  /// Zero for ever.
+  /// Sends zero from now on.
   void release(SteadyTime now);
-  /// Zero until resume(), whatever ticks say; after it all begins again.
+  /// Sends zero until resume(), regardless of ticks. resume() resets everything.
   void suspend(SteadyTime now);
   void resume(SteadyTime now);
 
-  /// At the latest then next() is to be called.
+  /// Returns the latest time for the next call of next().
   SteadyTime due() const;
-  /// The wrenches to send now, before a device's own scale and limits.
+  /// Returns the wrenches to send now, before a device's own scale and limits.
   Wrenches next(const Hands& hands, SteadyTime now);
-  /// What hands are told from now on: forces of their motors, axes of the tissue frame; nothing of a hand whose device
-  /// does not listen.
+  /// Records the forces that act from now on: forces of the motors, axes of the tissue frame; zero for a device that
+  /// does not subscribe.
   void sent(const std::array<Vector3d, layout::kMaxStyluses>& hand_forces_n, SteadyTime now);
-  /// Periods are answered: ticks come in time, and some device listens.
+  /// Returns whether periods are evaluated: ticks come in time, and some device subscribes.
   bool answering() const { return answering_; }
 
   const WrenchSchedule& schedule() const { return schedule_; }
   const HapticServo& servo(size_t stylus) const { return servos_[stylus]; }
-  Felt felt(size_t stylus) const;
+  HapticStats felt(size_t stylus) const;
 
  private:
   double seconds(SteadyTime now) const { return std::chrono::duration<double>(now - SteadyTime{}).count(); }
   void answer(const Hands& hands, SteadyTime now);
-  void forget(SteadyTime now);
-  void heedListeners(const Hands& hands, SteadyTime now);
+  void clear(SteadyTime now);
+  void updateListeners(const Hands& hands, SteadyTime now);
 
   const bool between_ticks_;
   SteadyTime::duration period_{};

@@ -8,32 +8,34 @@
 namespace viscera {
 namespace {
 
-/// Of the velocity that damping acts on: long enough to smooth an encoder's steps.
+/// Time constant of the velocity for damping: long enough to smooth the encoder's steps.
 constexpr double kVelocityTime_s = 3e-3;
-/// Over this the loop's own damping is looked at: some cycles of what a light device swings with.
+/// Time constant for estimating the loop's own damping: some cycles of a light device's oscillation.
 constexpr double kLookTime_s = 0.1;
-/// Forces that change more slowly than this are no swing.
+/// Time constant above which changes of force are not oscillations.
 constexpr double kSwingTime_s = 0.03;
-/// A hand's damping surely makes up for so much [N s/m].
+/// Damping that a user's hand certainly provides [N s/m].
 constexpr double kAllowed_n_s_per_m = 1;
-/// Motion that is slower is not judged: an encoder's noise [m/s].
+/// Slower motion is not judged, since it may be noise of an encoder [m/s].
 constexpr double kJudged_m_per_s = 0.005;
-/// How fast stiffness is taken away while the loop feeds a swing, and comes back while it is free.
+/// Time constants for reducing stiffness while the loop feeds an oscillation, and for restoring it while the tip is
+/// free.
 constexpr double kSoftenTime_s = 0.02, kStiffenTime_s = 5;
 constexpr double kLeastShare = 0.1;
-/// Stiffness times delay, from a pose to the force that answers it, that fast motion may feel at all: what is more has
-/// swung before it is heard of [N s/m].
+/// Largest product of stiffness and delay, from a pose to its force, for fast motion: above it, the loop oscillates
+/// before the oscillation is measured [N s/m].
 constexpr double kBearable_n_s_per_m = 5;
-/// What is softened comes up to the whole force within some of these.
+/// Time constants after which a softened force reaches the full force.
 constexpr double kCreepTime_s = 0.5, kLongestCreep_s = 4, kLongestHeld_s = 1;
-/// The time between poses is a mean of about so many.
+/// Number of poses over which the time between poses is averaged.
 constexpr double kPosesLookedAt = 8;
-/// Ahead of the newest pose by no more than so many of the times between poses: one that does not come says nothing.
+/// Limit of extrapolation beyond the newest pose, in times between poses: a pose that is missing carries no
+/// information.
 constexpr double kMostPosesAhead = 1.5;
-/// Of what softened force there may be over the tissue's: it ends where the tissue's ends.
+/// Limit of the softened force relative to the tissue's: it ends where the tissue's force ends.
 constexpr double kMostOver = 1.5;
 
-/// Towards a value, as a filter of first order does in a period.
+/// Advances a first-order low-pass filter by one period.
 template <typename T>
 void approach(T& filtered, const T& value, double period_s, double time_s) {
   filtered += period_s / (period_s + time_s) * (value - filtered);
@@ -52,21 +54,21 @@ void HapticServo::put(const TickContact& contact, double now_s) {
   model_.put(contact, config_.tick_s, now_s);
 }
 
-void HapticServo::forget(double now_s) {
-  model_.forget(config_.tick_s, now_s);
+void HapticServo::clear(double now_s) {
+  model_.clear(config_.tick_s, now_s);
   leave();
 }
 
 void HapticServo::leave() {
-  passivity_.forget();
+  passivity_.clear();
   placed_ = false;
   for (Vector3d* each : {&moved_m_, &acting_n_, &velocity_, &acceleration_, &mean_n_, &slow_n_, &slower_n_})
     each->setZero();
   power_ = speed2_ = acceleration2_ = stored_j_ = 0;
 }
 
-/// The velocity goes on as it was until the next place is told: a device may be slower than the loop. What lies beyond
-/// a gap is no motion.
+/// Updates the motion of the device. The velocity is kept until the next position arrives, since a device may be slower
+/// than the loop. A displacement across a gap is not motion.
 void HapticServo::follow(const Vector3d& tip_m, double told_s) {
   const Vector3d at_m = tip_m / config_.motion_scale;
   moved_m_.setZero();
@@ -90,9 +92,9 @@ void HapticServo::follow(const Vector3d& tip_m, double told_s) {
   told_s_ = told_s;
 }
 
-/// Does the loop feed a swing? Its damping is c = - sum(f . v) / sum(v . v), f less its slow part, over the last
-/// cycles; what is stored for a part of a cycle counts K / (omega^2 time). A light device behind a delay cannot be
-/// damped: there what is stiff is made softer for a while.
+/// Reduces the stiffness if the loop feeds an oscillation. The damping over the last cycles is
+/// c = - sum(f . v) / sum(v . v), f without its slow part; energy stored for part of a cycle contributes
+/// K / (omega^2 time). A light device behind a delay cannot be damped, so its stiffness is reduced for a while.
 void HapticServo::judge() {
   const double dt = config_.period_s;
   approach(mean_n_, acting_n_, dt, kSwingTime_s);
@@ -108,23 +110,24 @@ void HapticServo::judge() {
   if (power_ < -allowed * speed2_) share_ = std::max(share_ - dt / kSoftenTime_s * share_, kLeastShare);
 }
 
-/// The model's force, of which only a share follows fast motion. Where the force has turned, nothing is left of the way
-/// that it had.
+/// Returns the model's force; only a share of it follows fast motion. When the force has changed direction, the
+/// component along its former direction is removed.
 Vector3d HapticServo::softened(const Vector3d& wanted_n) {
   const double k = felt_n_per_m();
   if (share_ * k * late_s() > kBearable_n_s_per_m) share_ = kBearable_n_s_per_m / (k * late_s());
-  // What creeps lags behind, which is negative damping: of (1 - share) K / (omega^2 time) after one stage, of
-  // 16 / (omega time)^2 of that after the two, half as long, that there are. Heavy devices swing slowly.
+  // A lagging force is negative damping: (1 - share) K / (omega^2 time) after one stage, and 16 / (omega time)^2 of
+  // that after two stages of half the time each. Heavy devices oscillate slowly.
   const double omega2 = speed2_ > 0 ? acceleration2_ / speed2_ : 0;
   const double bearable_s = omega2 > 0 ? (1 - share_) * k / (omega2 * kAllowed_n_s_per_m) : 0;
-  // A probe leaves, pushed out by what lags, which is less by one stage.
+  // A probe is pushed out by the lagging force, which is smaller with one stage.
   const bool leaves = model_.kind() == TickContact::Kind::kPushes || model_.kind() == TickContact::Kind::kFree;
   const double time_s = std::clamp(bearable_s, kCreepTime_s, leaves ? kLongestCreep_s : kLongestHeld_s);
   approach(slow_n_, wanted_n, config_.period_s, leaves ? time_s : 0.5 * time_s);
   approach(slower_n_, slow_n_, config_.period_s, leaves ? 0 : 0.5 * time_s);
   const double size = wanted_n.norm();
   if (!(size > 0)) {
-    // A tip that comes back to a surface begins again. A thread is slack for moments of a swing, as its mean says.
+    // A tip that returns to a surface starts again. A suture is slack for moments of an oscillation, so its mean is
+    // kept.
     if (model_.kind() != TickContact::Kind::kPulls) slow_n_ = slower_n_ = Vector3d::Zero();
     return wanted_n;
   }
@@ -137,7 +140,7 @@ Vector3d HapticServo::softened(const Vector3d& wanted_n) {
   return length > most ? Vector3d(most / length * out) : out;
 }
 
-/// At most, of the whole model.
+/// Returns an upper bound of the full model's stiffness at the device [N/m].
 double HapticServo::felt_n_per_m() const {
   return config_.motion_scale * config_.force_scale * last_.stiffness_n_per_m.norm();
 }
@@ -159,7 +162,8 @@ Reaction HapticServo::step(const Vector3d& tip_m, double told_s, double now_s) {
 
 Vector3d HapticServo::damped(const Vector3d& limited_n, double now_s) {
   if (!(config_.force_scale > 0)) return limited_n;
-  // A damper that acts late shakes what is light: of mass m, t late, m / 2t at most. The swing tells m > K / omega^2.
+  // A late damper excites a light mass: for mass m and delay t it may be m / 2t at most. The oscillation shows
+  // m > K / omega^2.
   const double least_kg = speed2_ > 0 && acceleration2_ > 0 ? share_ * felt_n_per_m() * speed2_ / acceleration2_ : 0;
   const double sure = 0.5 * least_kg / late_s();
   return passivity_.damped(velocity_, config_.force_scale * limited_n, stored_j_, told_s_, now_s, share_, sure) /

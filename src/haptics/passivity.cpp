@@ -8,12 +8,12 @@
 namespace viscera {
 namespace {
 
-/// Below this speed the damper fades away: noise of an encoder, and tremor, have no direction to be braked [m/s].
+/// Below this speed the damper fades out: encoder noise and tremor have no direction to damp [m/s].
 constexpr double kSlow_m_per_s = 0.01;
-/// What tissue stores is known by its stiffness at the last tick alone: with that of a sphere, which grows with depth,
-/// too low by a fifth.
+/// Margin of the stored energy, which is computed from the stiffness at the last tick: for a sphere, with stiffness
+/// that grows with depth, it is a fifth too low.
 constexpr double kStoredMargin = 1.25;
-/// Forces per period: the answer, and what a limit lets through between two answers.
+/// Number of forces per period: the evaluated force, and one that a limit allows between two evaluations.
 constexpr double kForcesPerPeriod = 2;
 
 }  // namespace
@@ -35,7 +35,7 @@ std::optional<Vector3d> SentForces::sumAt(double time_s) const {
     if (entry.time_s <= time_s) return entry.sum_n_s + (time_s - entry.time_s) * entry.force_n;
   }
   if (count_ == entries_.size()) return std::nullopt;
-  return Vector3d(Vector3d::Zero());  // before the first one there was none
+  return Vector3d(Vector3d::Zero());  // there was no force before the first
 }
 
 std::optional<Vector3d> SentForces::between(double from_s, double to_s) const {
@@ -47,7 +47,7 @@ std::optional<Vector3d> SentForces::between(double from_s, double to_s) const {
 PassivityControl::PassivityControl(const PassivityLimits& limits)
     : limits_(limits), sent_(limits.round_trip_s + kLongestWay_s, limits.period_s) {}
 
-void PassivityControl::forget() {
+void PassivityControl::clear() {
   sent_.clear();
   budget_j_ = damping_ = 0;
 }
@@ -72,7 +72,7 @@ Vector3d PassivityControl::damped(const Vector3d& velocity, const Vector3d& want
   budget_j_ = std::min(budget_j_, stored + limits_.most_reserve_j);
   damping_ = 0;
   const double out_n = speed > 0 ? wanted_n.dot(velocity) / speed : 0;
-  // What forces that are on their way will do to the hand if it goes on as it does.
+  // The work of forces in transit on the device if it keeps its velocity.
   const Vector3d under_way_n_s = sent_.between(told_s - limits_.round_trip_s, now_s).value_or(Vector3d::Zero());
   const double left_j = std::max(budget_j_ - under_way_n_s.dot(velocity), 0.0);
   if (out_n > 0 && left_j < stored)

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kSubsteps = 10;
 constexpr double kTurn = 6.283185307179586;
-/// Of the tremor along x, y, z [Hz]: no two in step.
+/// Frequencies of the tremor along x, y, z [Hz]: no two in phase.
 constexpr double kTremor_hz[3] = {8.3, 9.7, 11.1};
 
 Vector3d inSteps(const Vector3d& at_m, double step_m) {

@@ -8,7 +8,7 @@
 namespace viscera {
 namespace {
 
-/// A wrench that was held for long does not leap all the way that its slew would have allowed meanwhile.
+/// Limits the jump of a wrench that was constant for long: its slew rate applies to at most this time [s].
 constexpr double kLongestSlew_s = 2 * WrenchSchedule::kSlewPeriod_s;
 
 double seconds(WrenchSchedule::Time::duration span) {
@@ -116,7 +116,8 @@ WrenchSchedule::Time WrenchSchedule::due() const {
   return after(last_next_, kIdlePeriod_s);
 }
 
-/// In an end or a stall the largest wrench that is allowed is gone within kRelease_s, and a smaller one sooner.
+/// Returns the limits for a stall or an end: the largest allowed wrench fades out within kRelease_s, a smaller one
+/// sooner.
 ForceLimits WrenchSchedule::limitsNow(const ForceLimits& usual) const {
   ForceLimits limits = usual;
   if (mode_ != Mode::kStalled && !closed()) return limits;

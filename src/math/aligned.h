@@ -8,10 +8,10 @@
 
 namespace viscera {
 
-/// Bytes of a cache line, and of the widest vector there is.
+/// Bytes of a cache line, and of the widest vector register.
 constexpr size_t kVectorAlignment = 64;
 
-/// Allocator of memory that vector loads may read without crossing cache lines.
+/// Allocator of memory that vector loads read without crossing cache lines.
 template <typename T>
 struct AlignedAllocator {
   using value_type = T;

@@ -14,8 +14,8 @@
 
 namespace viscera {
 
-/// A state on its way into memory or back, in named sections. What keeps state has ONE function that goes through it
-/// in one order, whichever way: what is written and what is read cannot differ.
+/// A state on its way into memory or back, in named sections. A class that keeps state has one function for both
+/// directions, which visits its members in one order. So what is written and what is read cannot differ.
 class Archive {
  public:
   struct Section {
@@ -23,38 +23,38 @@ class Archive {
     std::vector<char> bytes;
   };
 
-  Archive() = default;  ///< writes
+  Archive() = default;  ///< an archive that writes
   explicit Archive(std::vector<Section> sections) : sections_(std::move(sections)), reads_(true) {}
 
   bool reads() const { return reads_; }
   const std::vector<Section>& sections() const { return sections_; }
   std::vector<Section> take() { return std::move(sections_); }  ///< what was written
-  /// Room for so many bytes more in the section that is written: they are not moved on the way.
+  /// Reserves memory for so many bytes more in the section that is written, so that they are not moved.
   void reserve(size_t bytes) { sections_.back().bytes.reserve(sections_.back().bytes.size() + bytes); }
 
-  /// What follows belongs to it. @throws Error  another one comes next, or the one before was not read to its end
+  /// Begins a section. @throws Error  another one comes next, or the one before was not read to its end
   void section(const std::string& name) {
     if (!reads_) {
       sections_.push_back({name, {}});
       return;
     }
     end();
-    if (next_ == sections_.size() || sections_[next_].name != name) throw Error("section '" + name + "' is not there");
+    if (next_ == sections_.size() || sections_[next_].name != name) throw Error("section '" + name + "' is missing");
     ++next_;
     at_ = 0;
   }
-  /// @throws Error  a section that is read has more than was asked of it
+  /// Checks that the last section was read to its end. @throws Error  it was not
   void end() const {
     if (reads_ && next_ > 0 && at_ != sections_[next_ - 1].bytes.size()) throw misfit();
   }
 
-  /// Checks what was read, because a checksum says only that the file is as it was written.
+  /// Checks what was read: a checksum only shows that the file is as it was written.
   /// @param what  is wrong, and what is accepted   @throws Error  names the section
   void require(bool holds, const std::string& what) const {
     if (!holds) throw Error("section '" + sections_[reads_ ? next_ - 1 : sections_.size() - 1].name + "': " + what);
   }
 
-  /// Of a section that is read: is there more of it?
+  /// Returns whether the section that is read has more bytes.
   bool more() const { return next_ > 0 && at_ < sections_[next_ - 1].bytes.size(); }
 
   void bytes(void* data, size_t size) {
@@ -69,24 +69,24 @@ class Archive {
     std::memcpy(data, from.data() + at_, size);
     at_ += size;
   }
-  /// @throws Error  the file has neither 0 nor 1
+  /// Writes or reads a flag. @throws Error  the file has neither 0 nor 1
   void value(bool& flag) {
     auto byte = static_cast<uint8_t>(flag);
     bytes(&byte, 1);
-    require(byte <= 1, "a flag is " + std::to_string(byte) + "; 0 or 1 is accepted");
+    require(byte <= 1, "a flag is " + std::to_string(byte) + "; accepted: 0 or 1");
     flag = byte == 1;
   }
   template <size_t N>
   void value(std::array<bool, N>& flags) {
     for (bool& flag : flags) value(flag);
   }
-  /// Plain data: numbers, and structs and matrices of numbers.
+  /// Writes or reads plain data: numbers, and structs and matrices of numbers.
   template <class T>
   void value(T& it) {
     static_assert(std::is_trivially_destructible_v<T> && !std::is_pointer_v<T>);
     bytes(static_cast<void*>(&it), sizeof it);
   }
-  /// Of as many as there are here. @throws Error  there are more or fewer in the archive
+  /// Writes or reads as many values as the vector holds. @throws Error  the archive has more or fewer
   template <class Vector>
   void values(Vector& them) {
     uint64_t count = them.size();
@@ -94,7 +94,7 @@ class Archive {
     if (count != them.size()) throw misfit();
     elements(them);
   }
-  /// Of any number.
+  /// Writes or reads any number of values.
   template <class Vector>
   void list(Vector& them) {
     uint64_t count = them.size();
@@ -114,12 +114,12 @@ class Archive {
     bytes(static_cast<void*>(them.data()), them.size() * sizeof(Element));
   }
   Error misfit() const {
-    return Error("section '" + sections_[next_ - 1].name + "' has another size than this scene's state has here");
+    return Error("section '" + sections_[next_ - 1].name + "' has another size than the state of this scene");
   }
 
   std::vector<Section> sections_;
   bool reads_ = false;
-  size_t next_ = 0, at_ = 0;  ///< section that is read next; place in the one before it
+  size_t next_ = 0, at_ = 0;  ///< section that is read next; offset in the one before it
 };
 
 }  // namespace viscera

@@ -11,13 +11,13 @@ namespace viscera {
 
 namespace {
 
-constexpr double kOpposite = 1e-12 - 1;  // cosine, where the axis is lost to rounding
+constexpr double kOpposite = 1e-12 - 1;  // cosine below which rounding loses the axis
 
 using AxesSolver = Eigen::SelfAdjointEigenSolver<Matrix3d>;
 
 }  // namespace
 
-// As Eigen's FromTwoVectors(), which takes a singular value decomposition for vectors that are opposite.
+// Avoids Eigen's FromTwoVectors(), which takes a singular value decomposition for opposite vectors.
 Quaterniond rotationBetween(const Vector3d& from, const Vector3d& to) {
   const Vector3d a = from.normalized(), b = to.normalized();
   const double cosine = b.dot(a);

@@ -6,18 +6,17 @@
 
 namespace viscera {
 
-// Eigen's decompositions as plain functions: each takes seconds to compile, so it is compiled in decompositions.cpp
-// alone.
+// Eigen's decompositions as plain functions. Each takes seconds to compile, so decompositions.cpp alone compiles it.
 
 /// Returns the shortest rotation that turns the direction of `from` into that of `to`; any of them if they are
 /// opposite.
 Quaterniond rotationBetween(const Vector3d& from, const Vector3d& to);
 
-/// Returns the rigid motion [4 x 4, homogeneous] with the least squares of distances from the columns of `from` [3 x
-/// n], moved, to those of `to` [3 x n] (Umeyama, PAMI 1991, without scale).
+/// Returns the rigid motion [4 x 4, homogeneous] that moves the columns of `from` [3 x n] to those of `to` [3 x n] with
+/// the least squares of distances (Umeyama, PAMI 1991, without scale).
 Eigen::Matrix4d rigidMotion(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to);
 
-/// Returns the rotation R with the largest trace of R^T `matrix`: the one nearest to it (Kabsch, Acta Cryst. A32,
+/// Returns the rotation R that is nearest to `matrix`, with the largest trace of R^T `matrix` (Kabsch, Acta Cryst. A32,
 /// 1976).
 Matrix3d nearestRotation(const Matrix3d& matrix);
 
@@ -26,9 +25,9 @@ struct PrincipalAxes {
   Vector3d values;
   Matrix3d axes;
 };
-/// Returns eigenvalues and eigenvectors of a symmetric matrix, whose lower triangle is read.
+/// Returns eigenvalues and eigenvectors of a symmetric matrix. Reads its lower triangle.
 PrincipalAxes principalAxes(const Matrix3d& symmetric);
-/// Returns the same without iterations, by the cubic's roots: faster, and less exact for close eigenvalues.
+/// Returns the same without iterations, from the roots of the cubic: faster, and less exact for close eigenvalues.
 PrincipalAxes principalAxesDirect(const Matrix3d& symmetric);
 /// Returns the eigenvalues of a symmetric matrix in ascending order.
 Vector3d principalValues(const Matrix3d& symmetric);

@@ -28,7 +28,7 @@ constexpr Signature kSignatures[] = {
     {"POINTCACHE2", FileKind::kPc2},
 };
 
-/// Keys of the top level by which a YAML file is known.
+/// Top-level keys that identify a scene file.
 constexpr std::array<Text, 6> kSceneKeys = {"bodies", "solver", "environment", "styluses", "cameras", "obstacles"};
 constexpr std::array<Text, 3> kRegistrationKeys = {"tip", "base", "residual_mm"};
 

@@ -7,7 +7,7 @@
 
 namespace viscera {
 
-/// A float and the word that holds it: positive floats are ordered as their words are.
+/// Returns the float with these bits. Positive floats are ordered as their bits are.
 inline float floatFromBits(uint32_t bits) {
   float value;
   std::memcpy(&value, &bits, sizeof value);

@@ -11,8 +11,8 @@
 
 namespace viscera {
 
-/// act(0) .. act(count - 1), in any order, on as many threads as there are processors to use. An exception of one is
-/// thrown when all have ended.
+/// Calls act(0) to act(count - 1), in any order, on as many threads as there are usable processors. Throws the
+/// exception of one call after all have ended.
 template <class Act>
 void inParallel(size_t count, const Act& act) {
   std::atomic<size_t> next{0};

@@ -11,8 +11,8 @@
 
 namespace viscera {
 
-/// Runs `make`; where memory does not suffice, the error says what for.
-/// @param what  what is made: "mesh file 'x.obj'"; or a function that says it when asked, after `make` has failed
+/// Calls `make`. If memory does not suffice, throws an error that says what the memory was for.
+/// @param what  what is made: "mesh file 'x.obj'"; or a function that returns it, called after `make` has failed
 /// @throws Fault  of viscera/math/error.h, in place of std::bad_alloc and std::length_error
 template <class Fault = Error, class What, class Make>
 auto memoryFor(const What& what, Make make) -> decltype(make()) {
@@ -24,13 +24,13 @@ auto memoryFor(const What& what, Make make) -> decltype(make()) {
         return std::string(what);
       }
     }();
-    return Fault(made + ": this machine, or what it leaves to this program, has not enough memory for it");
+    return Fault(made + ": not enough memory on this machine, or left for this program");
   };
   try {
     return make();
   } catch (const std::bad_alloc&) {
     throw fault();
-  } catch (const std::length_error&) {  // more than could ever be addressed
+  } catch (const std::length_error&) {  // more than the address space
     throw fault();
   }
 }

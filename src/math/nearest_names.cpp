@@ -15,7 +15,7 @@ char lowered(char c) {
   return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
 }
 
-/// Edits between two words, one of which may exchange neighbours (optimal string alignment).
+/// Returns the number of edits between two words; an edit may exchange neighbours (optimal string alignment).
 size_t editsBetween(const std::string& a, const std::string& b) {
   std::vector<size_t> before, last(b.size() + 1), now(b.size() + 1);
   std::iota(last.begin(), last.end(), size_t{0});
@@ -37,7 +37,7 @@ size_t editsBetween(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::vector<std::string> nearestFirst(const std::string& word, std::vector<std::string> names) {
-  constexpr size_t kFirst = 3, kLongest = 100;  // characters: of what is no name at all
+  constexpr size_t kFirst = 3, kLongest = 100;  // characters; a longer word is not a name
   const std::string asked = word.substr(0, kLongest);
   std::vector<std::pair<size_t, std::string>> by_edits;
   for (const std::string& name : names) by_edits.emplace_back(editsBetween(asked, name), name);

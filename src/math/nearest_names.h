@@ -7,10 +7,10 @@
 
 namespace viscera {
 
-/// Returns the names with those first, three at most, that a mistyped word is nearest to: by letters that are wrong,
-/// missing, too many or exchanged with their neighbour. The others keep their order.
+/// Returns the names, nearest first: up to three names with the fewest letters that are wrong, missing, surplus or
+/// exchanged with their neighbour. The others keep their order.
 std::vector<std::string> nearestFirst(const std::string& word, std::vector<std::string> names);
-/// Returns the same as a text, a comma between two.
+/// Returns the same as text, separated by commas.
 std::string nearestFirstText(const std::string& word, const std::vector<std::string>& names);
 
 }  // namespace viscera

@@ -12,8 +12,8 @@ namespace viscera {
 
 namespace {
 
-constexpr int kExactDigits = 17;   // significant ones, of any double
-constexpr size_t kLongest = 1100;  // characters: of -DBL_MAX with its decimals
+constexpr int kExactDigits = 17;   // significant digits that identify any double
+constexpr size_t kLongest = 1100;  // characters of -DBL_MAX with its decimals
 
 std::string textOf(double value, std::chars_format format, int precision) {
   std::array<char, kLongest> text;
@@ -24,7 +24,7 @@ std::string textOf(double value, std::chars_format format, int precision) {
 }  // namespace
 
 std::optional<double> readNumber(const std::string& text) {
-  // Takes what std::from_chars() refuses: a plus sign, blanks, and what a double holds as 0 or infinity alone.
+  // Accepts what std::from_chars() refuses: a plus sign, blanks, and numbers that a double rounds to 0 or infinity.
   static const locale_t kClassic = newlocale(LC_ALL_MASK, "C", nullptr);
   char* end = nullptr;
   const double value = strtod_l(text.c_str(), &end, kClassic);

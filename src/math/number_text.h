@@ -9,16 +9,16 @@
 
 namespace viscera {
 
-// Numbers as text, with a decimal point whatever the locale of the program that uses this library: a desktop may have
-// a comma. C's strtod() and printf(), std::stod(), std::to_string() and streams follow the locale.
+// Numbers as text, with a decimal point in every locale. C's strtod() and printf(), std::stod(), std::to_string() and
+// streams follow the locale of the program, which may use a comma.
 
-/// Returns the number that the whole text is, as strtod() reads it in the C locale. Nothing: it is no number.
+/// Returns the number that the whole text is, as strtod() reads it in the C locale, or nothing if it is not a number.
 std::optional<double> readNumber(const std::string& text);
-/// Returns what printf("%.*g") makes in the C locale. @param digits  significant ones
+/// Returns the output of printf("%.*g") in the C locale. @param digits  significant ones
 std::string numberText(double value, int digits = 6);
-/// Returns what printf("%.*f") makes in the C locale. @param decimals  behind the point
+/// Returns the output of printf("%.*f") in the C locale. @param decimals  behind the point
 std::string fixedText(double value, int decimals);
-/// Returns as many digits as make the same double again.
+/// Returns enough digits to read the same double back.
 std::string exactText(double value);
 
 /// std::ostringstream and std::istringstream of the C locale.

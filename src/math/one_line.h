@@ -9,12 +9,12 @@
 
 namespace viscera {
 
-/// Characters of an error line. Our longest, which lists the keys of a body, has some 600 with a long path; what is
-/// longer quotes the input at length.
+/// Most characters of an error line. Our longest, which lists the keys of a body, has some 600 with a long path. A
+/// longer line quotes its input at length.
 constexpr size_t kLongestLine = 1000;
 
-/// Bytes of the character of UTF-8 that a text begins with; 0 where it begins with none, or with one that moves the
-/// cursor: control characters, line and paragraph separators, and what turns the direction of writing.
+/// Returns the bytes of the UTF-8 character that the text begins with. Returns 0 if it begins with none, or with one
+/// that moves the cursor: control characters, line and paragraph separators, and changes of writing direction.
 inline size_t printableBytes(std::string_view text) {
   const auto byte = [&](size_t i) { return static_cast<uint8_t>(i < text.size() ? text[i] : 0); };
   const uint8_t first = byte(0);
@@ -32,9 +32,9 @@ inline size_t printableBytes(std::string_view text) {
   return well_formed && !moves ? bytes : 0;
 }
 
-/// A text as one line that is safe on a terminal and in a log: what is not printable UTF-8 is escaped (\n, \t, \x1b),
-/// and of more than kLongestLine bytes the middle is left out: file and culprit stand at the beginning, what is
-/// accepted at the end. A line that it made stays as it is.
+/// Returns a text as one line that is safe on a terminal and in a log. Escapes what is not printable UTF-8 (\n, \t,
+/// \x1b). Shortens more than kLongestLine bytes in the middle, as file and culprit are at the beginning and what is
+/// accepted is at the end. Its own output stays as it is.
 inline std::string oneLine(std::string_view text) {
   std::string line;
   while (!text.empty()) {

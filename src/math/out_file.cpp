@@ -24,17 +24,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kHead = size_t{64} << 10;   // bytes by which a file's kind is known
+constexpr size_t kHead = size_t{64} << 10;   // bytes that identify a file's kind
 constexpr size_t kBuffer = size_t{1} << 20;  // bytes
 constexpr size_t kAtOnce = size_t{1} << 30;  // bytes; Linux writes fewer than 2^31 in one call
-constexpr size_t kLongestName = 80;          // of the file and of the host within a draft's name, which has 255 at most
+constexpr size_t kLongestName = 80;  // bytes of the names of file and host within a draft's name, which has 255 at most
 
 using FileId = std::pair<dev_t, ino_t>;
 
-/// What this process reads, and who hears of what it writes.
+/// Files that this process reads, and the listener for files that it writes.
 struct Known {
   std::mutex mutex;
-  std::map<FileId, std::string> read;  ///< by a path, under which it may be another file by now
+  std::map<FileId, std::string> read;  ///< by path; another file may have this path by now
   std::mutex listening;
   WriteListener listener;
 };
@@ -60,7 +60,7 @@ std::string headOf(const std::string& path) {
   return head;
 }
 
-/// A name that nothing else has: processes of several hosts or containers may share a folder and have one number.
+/// Returns a unique name: processes of several hosts or containers may share a folder and have the same process number.
 std::string draftOf(const std::string& place) {
   static thread_local std::random_device random;
   char host[256] = "";
@@ -105,19 +105,19 @@ bool isRead(const std::string& path) {
   return found != known().read.end() && idOf(found->second, now) && now == id;
 }
 
-void requireReplaceable(const std::string& path, FileKind kind) {
+void requireReplaceable(const std::string& path, FileKind kind, bool updates) {
   std::error_code error;
-  if (fs::is_directory(path, error)) throw Error(path + ": cannot be written: is a folder");
+  if (fs::is_directory(path, error)) throw Error(path + ": cannot be written: it is a folder");
   bool exists = false;
   if (!isPlain(path, exists) || !exists) return;
-  const bool is_updated = kind == FileKind::kState || kind == FileKind::kRegistration;
+  const bool is_updated = updates || kind == FileKind::kState || kind == FileKind::kRegistration;
   if (!is_updated && isRead(path))
-    throw Error(path + ": cannot be written: this command reads it, and would destroy it; name another file");
+    throw Error(path + ": cannot be written: this command reads it and would destroy it; choose another file");
   if (access(path.c_str(), W_OK) != 0) throw Error(path + ": cannot be written: " + std::strerror(errno));
   const std::string head = headOf(path);
   if (head.empty() || kindOf(head) == kind) return;
-  throw Error(path + ": cannot be written: there is already " + nameOf(kindOf(head)) + " of that name, and " +
-              nameOf(kind) + " does not replace it; name another file, or remove it");
+  throw Error(path + ": cannot be written: it already exists as " + nameOf(kindOf(head)) + ", and " + nameOf(kind) +
+              " does not replace it; choose another file, or remove it");
 }
 
 void setWriteListener(WriteListener listener) {
@@ -125,8 +125,8 @@ void setWriteListener(WriteListener listener) {
   known().listener = std::move(listener);
 }
 
-OutFile::OutFile(const std::string& path, FileKind kind) : path_(path) {
-  requireReplaceable(path, kind);
+OutFile::OutFile(const std::string& path, FileKind kind, bool updates) : path_(path) {
+  requireReplaceable(path, kind, updates);
   {
     const std::lock_guard<std::mutex> lock(known().listening);
     if (known().listener) known().listener(path, kind);
@@ -163,7 +163,7 @@ void OutFile::fail() const {
 
 void OutFile::write(const void* data, size_t bytes) {
   if (buffer_.size() + bytes >= kBuffer) flush();
-  if (bytes >= kBuffer) return writeDirectly(static_cast<const char*>(data), bytes);  // a state may be of gigabytes
+  if (bytes >= kBuffer) return writeDirectly(static_cast<const char*>(data), bytes);  // a state may have gigabytes
   buffer_.append(static_cast<const char*>(data), bytes);
 }
 
@@ -213,6 +213,12 @@ void OutFile::keep(bool durable) {
 void writeFile(const std::string& path, FileKind kind, std::string_view bytes) {
   OutFile file(path, kind);
   file.write(bytes);
+  file.keep();
+}
+
+void updateFile(const std::string& path, std::string_view text) {
+  OutFile file(path, kindOf(headOf(path)), true);
+  file.write(text);
   file.keep();
 }
 

@@ -15,14 +15,14 @@ namespace viscera {
 
 namespace {
 
-constexpr int kMostProcessors = 1 << 16;  // that a set of them is made for
+constexpr int kMostProcessors = 1 << 16;  // largest set of processors that is tried
 
 std::string textOf(const std::string& path) {
   std::ifstream file(path);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// 0: unknown.
+/// Returns the number of processors in the affinity mask; 0: unknown.
 int processorsOfAffinity() {
   for (int most = CPU_SETSIZE; most <= kMostProcessors; most *= 2) {  // the kernel refuses sets smaller than its own
     std::vector<cpu_set_t> set(static_cast<size_t>(most / CPU_SETSIZE));
@@ -32,11 +32,12 @@ int processorsOfAffinity() {
   return 0;
 }
 
-/// Of one group, by the file of version 2, "MAX PERIOD", or the two of version 1; above 0, or nothing.
+/// Returns the quota of one group [processors], from the file of version 2, "MAX PERIOD", or the two files of version
+/// 1. It is above 0, or nothing.
 std::optional<double> quotaOf(const std::string& folder, bool unified) {
   double quota = 0, period = 0;
   if (unified) {
-    std::istringstream(textOf(folder + "/cpu.max")) >> quota >> period;  // "max" is no number
+    std::istringstream(textOf(folder + "/cpu.max")) >> quota >> period;  // "max" does not parse as a number
   } else {
     std::istringstream(textOf(folder + "/cpu.cfs_quota_us")) >> quota;
     std::istringstream(textOf(folder + "/cpu.cfs_period_us")) >> period;
@@ -45,7 +46,7 @@ std::optional<double> quotaOf(const std::string& folder, bool unified) {
   return quota / period;
 }
 
-/// Are `cpu` and others behind commas among these controllers?
+/// Returns whether these comma-separated controllers include `cpu`.
 bool hasProcessors(const std::string& controllers) {
   return ("," + controllers + ",").find(",cpu,") != std::string::npos;
 }
@@ -63,7 +64,7 @@ std::optional<double> processorQuota(const std::string& mount, const std::string
     if (!unified && !hasProcessors(controllers)) continue;
     std::string path = line.substr(second + 1);
     if (path == "/") path.clear();
-    for (;;) {  // the group and those that it is in; within a container, paths may be those of the host
+    for (;;) {  // the group and its parents; within a container, paths may be those of the host
       for (const char* in : {"", "/unified", "/cpu", "/cpu,cpuacct", "/cpuacct,cpu"}) {
         const std::optional<double> quota = quotaOf(mount + in + path, unified);
         if (quota) least = std::min(least.value_or(*quota), *quota);
@@ -76,7 +77,7 @@ std::optional<double> processorQuota(const std::string& mount, const std::string
 }
 
 int usableProcessors() {
-  // Quotas are read once: loops ask for each of their rounds.
+  // Quotas are read once: loops query them in each round.
   static const std::optional<double> quota = processorQuota("/sys/fs/cgroup", textOf("/proc/self/cgroup"));
   int out = processorsOfAffinity();
   if (out == 0) out = static_cast<int>(std::thread::hardware_concurrency());

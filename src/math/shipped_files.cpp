@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Folders config/ that may be there: of what is installed with `binary`, and of the sources of a build that it is in.
+/// Adds folders config/ that may exist: of the installation with `binary`, and of the sources of the build that
+/// contains it.
 void addFolders(const fs::path& binary, std::vector<fs::path>& out) {
   for (fs::path up = binary.parent_path(); !up.empty(); up = up.parent_path()) {
     const fs::path share = up / "share" / "viscera";
@@ -26,7 +27,7 @@ void addFolders(const fs::path& binary, std::vector<fs::path>& out) {
   }
 }
 
-/// In the order in which they are looked through. @param last  another one, or nothing
+/// Returns folders in the order of the search. @param last  another one, or nothing
 std::vector<fs::path> configFolders(const std::string& last) {
   std::vector<fs::path> out;
   std::error_code error;

@@ -7,10 +7,9 @@
 
 namespace viscera {
 
-/// Returns the file itself if there is one, or if the name has a '/'; else the shipped one of that name; else nothing.
-/// Shipped files are looked for below share/viscera of each folder that the program, or this library, is in, and in the
-/// source tree that these were built from.
-/// @param kind  "scenes", "tasks": a folder of config/   @param last  another folder config/, for want of these
+/// Returns the file itself if it exists, or if the name has a '/'; else the shipped file of that name; else nothing.
+/// Searches share/viscera in each parent folder of the program or of this library, then the source tree of the build.
+/// @param kind  "scenes", "tasks": a folder of config/   @param last  another folder config/, searched last
 std::string shippedFile(const std::string& name, const std::string& kind, const std::string& last = "");
 /// Returns the names of the shipped files of a kind, sorted, from the first of these folders that has any.
 std::vector<std::string> shippedNames(const std::string& kind, const std::string& last = "");

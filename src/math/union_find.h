@@ -15,7 +15,7 @@ namespace viscera {
 /// calls take O(m log n).
 class UnionFind {
  public:
-  /// @param n  numbers, each a set of its own
+  /// Makes n numbers, each a set of its own.
   explicit UnionFind(size_t n = 0) : parents_(n) { std::iota(parents_.begin(), parents_.end(), 0U); }
 
   /// Adds the next number as a set of its own, and returns it.
@@ -28,7 +28,7 @@ class UnionFind {
     while (parents_[member] != member) member = parents_[member] = parents_[parents_[member]];
     return member;
   }
-  /// Makes the sets of two members one, and returns its smallest member.
+  /// Unites the sets of two members, and returns the smallest member of the result.
   uint32_t unite(uint32_t a, uint32_t b) {
     a = find(a);
     b = find(b);
@@ -36,7 +36,7 @@ class UnionFind {
   }
   /// Returns the smallest member of each number's set [size()].
   std::vector<uint32_t> all() && {
-    for (uint32_t& parent : parents_) parent = parents_[parent];  // parents are smaller, so they are done
+    for (uint32_t& parent : parents_) parent = parents_[parent];  // parents are smaller, so they are final
     return std::move(parents_);
   }
   size_t size() const { return parents_.size(); }

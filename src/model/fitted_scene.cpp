@@ -20,7 +20,7 @@
 namespace viscera {
 namespace {
 
-/// Collects "key=value".
+/// List of "key=value" under construction.
 class Keys {
  public:
   void set(const std::string& key, double value) { add(key) << value; }
@@ -35,7 +35,7 @@ class Keys {
 
  private:
   std::ostream& add(const std::string& key) {
-    constexpr int kDigits = 6;  // for people to read and edit: a millionth of an organ
+    constexpr int kDigits = 6;  // readable for people: a millionth of an organ
     std::ostringstream& text = texts_.emplace_back();
     text.imbue(std::locale::classic());
     text.precision(kDigits);
@@ -49,8 +49,8 @@ std::string item(const std::string& list, size_t i) {
   return list + "[" + std::to_string(i) + "].";
 }
 
-/// Fixed regions stand in the frame of their body, and follow in the tissue frame: however a mesh is turned, it is held
-/// from where the organ of the scene was.
+/// Maps fixed regions, which are in the frame of their body, in the tissue frame. However a mesh is rotated, it is then
+/// fixed where the organ of the scene was.
 void followFixed(const OrganFit& fit, const BodyConfig& was, const BodyConfig& is, Keys& keys) {
   const Pose from_body = bodyPose(was), to_body = bodyPose(is).inverse();
   const auto moved = [&](const Vector3d& p) -> Vector3d { return to_body * fit.moved(from_body * p); };
@@ -78,7 +78,8 @@ bool hasSpacing(const BodyConfig& body) {
   return !body.auto_spacing && body.target_nodes == 0 && body.spacing_m > 0;
 }
 
-/// As many cells as the scene's organ has, about: tools that are smaller still find nodes.
+/// Returns the factor for a cell size with about as many cells as the scene's organ has: smaller tools still find
+/// nodes.
 double cellScale(const OrganFit& fit) {
   return std::cbrt(fit.stretch.prod());
 }
@@ -112,12 +113,12 @@ void followObstacles(const OrganFit& fit, const Scene& made, Keys& keys) {
   }
 }
 
-void followThreads(const OrganFit& fit, const Scene& made, Keys& keys) {
-  for (size_t i = 0; i < made.threads.size(); ++i) {
-    const std::string key = item("threads", i);
-    keys.set(key + "position_m", fit.moved(made.threads[i].position_m));
-    for (size_t k = 0; k < made.threads[i].path.size(); ++k)
-      keys.set(key + item("path", k) + "position_m", fit.moved(made.threads[i].path[k].position_m));
+void followSutures(const OrganFit& fit, const Scene& made, Keys& keys) {
+  for (size_t i = 0; i < made.sutures.size(); ++i) {
+    const std::string key = item("sutures", i);
+    keys.set(key + "position_m", fit.moved(made.sutures[i].position_m));
+    for (size_t k = 0; k < made.sutures[i].path.size(); ++k)
+      keys.set(key + item("path", k) + "position_m", fit.moved(made.sutures[i].path[k].position_m));
   }
 }
 
@@ -129,7 +130,7 @@ void followCameras(const OrganFit& fit, const Scene& made, Keys& keys) {
   }
 }
 
-/// @param is  the body with the keys that were set
+/// @param is  the body with the keys that the user set
 void followTools(const OrganFit& fit, const Scene& made, const BodyConfig& is, Keys& keys) {
   const BodyConfig& was = made.bodies[0];
   const bool is_set = hasSpacing(was) && hasSpacing(is) && is.spacing_m != was.spacing_m;
@@ -146,12 +147,12 @@ Vector3d sightOf(const Scene& scene) {
   return Vector3d::UnitY();
 }
 
-/// Box of the first body: of its closed surfaces, without open sheets and crumbs. None if the organ cannot be read,
-/// which making a model of it says better.
+/// Returns the bounding box of the first body's closed surfaces, without open sheets and crumbs. None if the organ
+/// cannot be read; making a model of it reports the reason.
 std::optional<Eigen::AlignedBox3d> boxOf(const Scene& scene) {
   BodyConfig body = scene.bodies[0];
-  body.textures = false;  // shape alone
-  body.fixed.clear();     // which may be another body's
+  body.textures = false;  // shape only
+  body.fixed.clear();     // may be those of another body
   try {
     return makeTissue(body, scene.folder)->bounds();
   } catch (const std::exception&) {
@@ -159,8 +160,8 @@ std::optional<Eigen::AlignedBox3d> boxOf(const Scene& scene) {
   }
 }
 
-/// A mesh whose unit is not set, and that is far too large: the next step would be a grid of it.
-/// @throws MeshError
+/// Rejects a mesh without a unit that is far too large: the next step would be a grid of it.
+/// @throws MeshError  it is
 void requireLikelyUnit(const Scene& scene, const Eigen::AlignedBox3d& made_m, const Eigen::AlignedBox3d& box_m,
                        const Overrides& own) {
   constexpr double kMostTimes = 20;
@@ -170,11 +171,12 @@ void requireLikelyUnit(const Scene& scene, const Eigen::AlignedBox3d& made_m, co
   const double usual_m = made_m.sizes().maxCoeff(), times = box_m.sizes().maxCoeff() / usual_m;
   if (!(times > kMostTimes)) return;
   throw MeshError(unitQuestion(scene.bodies[0], box_m.sizes(), usual_m) + " It is " + numberText(times, 3) +
-                  " times as wide as the scene's body; a mesh of that size in metres needs " + key + "=1");
+                  " times as wide as the scene's body; if the mesh is in metres and really that large, set " + key +
+                  "=1");
 }
 
-/// None if one of the organs cannot be read, or is out of all proportion.
-/// @throws MeshError  of requireLikelyUnit()
+/// Returns the fit between two organs; none if one of them cannot be read, or the sizes are out of proportion.
+/// @throws MeshError  as requireLikelyUnit()
 std::optional<OrganFit> fitOf(const Scene& made, const Scene& scene, const Overrides& own) {
   const std::optional<Eigen::AlignedBox3d> from = boxOf(made), to = boxOf(scene);
   if (!from || !to) return std::nullopt;
@@ -183,7 +185,7 @@ std::optional<OrganFit> fitOf(const Scene& made, const Scene& scene, const Overr
   return fit.isSound() ? std::optional<OrganFit>(fit) : std::nullopt;
 }
 
-/// The scene as its file alone has it; none if it waits for a mesh.
+/// Returns the scene of the file without overrides; none if the file needs a mesh.
 std::optional<Scene> madeScene(const std::string& path) {
   try {
     return loadScene(path);
@@ -213,7 +215,7 @@ FittedScene loadFittedScene(const std::string& path, const Overrides& mesh, cons
   followSpacing(*fit, made->bodies[0], keys);
   if (is_alone) {
     followObstacles(*fit, *made, keys);
-    followThreads(*fit, *made, keys);
+    followSutures(*fit, *made, keys);
     followCameras(*fit, *made, keys);
     followTools(*fit, *made, out.scene.bodies[0], keys);
   }

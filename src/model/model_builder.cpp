@@ -33,7 +33,7 @@ TriangleMesh surfaceOf(const Tissue& tissue, const BodyConfig& config, const Sol
   return config.skin == SkinSource::kVolume ? extractSkin(solid) : tissue.surface(solid);
 }
 
-/// Passes the stages of one body on under its name.
+/// Returns a progress callback that prefixes stages with the name of a body.
 Progress progressOf(const BodyConfig& config, const Progress& progress) {
   if (!progress) return {};
   return [&progress, name = config.name](const std::string& stage, double fraction) {
@@ -45,7 +45,8 @@ void addPiecesNote(const BodyConfig& config, Body& body) {
   std::string note = piecesNote(body);
   if (note.empty()) return;
   const bool of_parts = config.source == TissueSource::kMesh && config.fill == Fill::kParts;
-  if (of_parts && body.hasCells()) note += "; fill: enclosed bridges gaps between parts that belong together";
+  if (of_parts && body.hasCells())
+    note += "; if the parts belong together, set fill: enclosed, which bridges gaps between them";
   body.notes.push_back(note);
 }
 
@@ -114,7 +115,7 @@ Body buildNetworkBody(const BodyConfig& config, const Tissue& tissue, bool can_b
   return body;
 }
 
-/// What decides how large a body becomes, for a person.
+/// Returns the key that determines the size of a body, for a person.
 std::string sizeKey(const BodyConfig& config) {
   if (config.target_nodes > 0) return "target_nodes " + std::to_string(config.target_nodes);
   TextOut out;
@@ -140,7 +141,7 @@ Body buildBody(const BodyConfig& config, const Scene& scene, bool can_be_cut, co
     Body body = isNetwork(config.structure) ? buildNetworkBody(config, *tissue, can_be_cut, progress)
                                             : buildLatticeBody(config, scene, *tissue, can_be_cut, progress);
     addNotes(tissueNotes(config), body);
-    if (!config.parts.empty()) elasticityByLabel(body);  // are there such parts?
+    if (!config.parts.empty()) elasticityByLabel(body);  // checks the names of the parts
     return body;
   };
   try {
@@ -163,7 +164,7 @@ bool canMove(const Model& model) {
 }  // namespace
 
 Model buildModel(const Scene& scene, const Progress& progress) {
-  const bool can_be_cut = maySever(scene.styluses) || tears(scene) || threadsTear(scene);
+  const bool can_be_cut = maySever(scene.styluses) || tears(scene) || suturesTear(scene);
   const std::string file = scene.file.empty() ? "" : scene.file + ": ";
   Model model;
   for (size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -173,7 +174,7 @@ Model buildModel(const Scene& scene, const Progress& progress) {
       model.bodies.push_back(withPlace(scene, b, [&] { return buildBody(config, scene, can_be_cut, progress); }));
     } catch (const PlacedError&) {
       throw;
-    } catch (const SceneError& error) {  // has the body already
+    } catch (const SceneError& error) {  // names the body already
       throw SceneError(file + error.what());
     } catch (const LatticeError& error) {
       throw LatticeError(file + "body '" + config.name + "': " + error.what());
@@ -181,10 +182,10 @@ Model buildModel(const Scene& scene, const Progress& progress) {
   }
   if (scene.fit && !model.bodies.empty()) model.bodies[0].notes.push_back(scene.fit->text());
   if (!canMove(model))
-    throw SceneError(file + "every node of the scene is fixed: nothing can move; make a 'fixed' region smaller");
+    throw SceneError(file + "every node of the scene is fixed, so nothing can move; make a 'fixed' region smaller");
   if (model.slots() > std::numeric_limits<uint32_t>::max()) {
     throw LatticeError(file + "the bodies need " + std::to_string(model.slots()) +
-                       " node slots together, more than 2^32");
+                       " node slots in total; at most 2^32 are accepted");
   }
   return model;
 }

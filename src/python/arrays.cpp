@@ -11,7 +11,7 @@ py::module_ numpy() {
 }
 
 py::buffer_info infoOf(const Memory& memory) {
-  static const double kNothing = 0;  // the place of an array without elements
+  static const double kNothing = 0;  // address of an array without elements
   const void* first = memory.first ? memory.first : &kNothing;
   return {const_cast<void*>(first),
           memory.item_bytes,
@@ -25,7 +25,7 @@ py::buffer_info infoOf(const Memory& memory) {
 }  // namespace
 
 void bindMemory(py::module_& module) {
-  py::class_<Memory>(module, "_Memory", py::buffer_protocol(), "Memory that an array looks at.").def_buffer(&infoOf);
+  py::class_<Memory>(module, "_Memory", py::buffer_protocol(), "Memory that an array refers to.").def_buffer(&infoOf);
 }
 
 py::object arrayOf(Memory memory) {

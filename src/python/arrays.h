@@ -13,35 +13,35 @@ namespace viscera::python {
 
 namespace py = pybind11;
 
-/// Memory that NumPy reads by the buffer protocol. NumPy is called as Python code only: the module knows nothing of its
-/// binary interface, and works with versions 1 and 2.
+/// Memory that NumPy reads by the buffer protocol. The module calls NumPy as Python code only. It does not depend on
+/// NumPy's binary interface and works with versions 1 and 2.
 struct Memory {
   const void* first = nullptr;
   py::ssize_t item_bytes = 0;
-  std::string format;  ///< of the buffer protocol
+  std::string format;  ///< format of the buffer protocol
   std::vector<py::ssize_t> shape, strides_bytes;
-  py::object owner;  ///< lives as long as the memory is looked at
+  py::object owner;  ///< object that stays alive as long as the memory is used
 };
 
-/// Binds Memory. To be called before anything returns an array.
+/// Binds Memory. Call it before any function returns an array.
 void bindMemory(py::module_& module);
 
-/// Returns a numpy.ndarray that looks at the memory and cannot be written.
+/// Returns a read-only numpy.ndarray of the memory.
 py::object arrayOf(Memory memory);
 
-/// Returns a numpy.ndarray of float64 with these numbers, which can be written.
+/// Returns a writable numpy.ndarray of float64 with these numbers.
 py::object arrayOf(std::initializer_list<double> numbers);
 
-/// Returns numpy.asarray(given, dtype). @param dtype  "float64", or empty: as `given` has it
-/// @throws py::error_already_set as NumPy raises
+/// Returns numpy.asarray(given, dtype). @param dtype  "float64", or empty: the type of `given`
+/// @throws py::error_already_set  an exception of NumPy
 py::object asArray(const py::object& given, const char* dtype);
 
-/// An array of one type and in C's order, to be read.
+/// An array of one type in C order, for reading.
 template <class T>
 class Given {
  public:
   Given() = default;
-  /// @throws py::error_already_set as NumPy raises where values do not convert
+  /// @throws py::error_already_set  an exception of NumPy, if values do not convert
   Given(const py::object& given, const char* dtype) : array_(asArray(given, dtype)), info_(array_.request()) {}
 
   py::ssize_t ndim() const { return info_.ndim; }
@@ -49,7 +49,7 @@ class Given {
   const std::vector<py::ssize_t>& shape() const { return info_.shape; }
   py::ssize_t shape(py::ssize_t axis) const { return info_.shape[static_cast<size_t>(axis)]; }
   const T* data() const { return static_cast<const T*>(info_.ptr); }
-  /// Returns the place of an element. @param at  index along each axis
+  /// Returns the address of an element. @param at  index along each axis
   template <class... Index>
   const T* data(Index... at) const {
     py::ssize_t place = 0;
@@ -67,22 +67,22 @@ class Given {
   py::buffer_info info_;
 };
 
-/// A view without a copy: `owner` lives as long as the array, and NumPy does not let it be written.
-/// @param strides  in bytes
+/// Returns a read-only view without a copy; `owner` lives as long as the array.
+/// @param strides  [bytes]
 template <class T>
 py::object view(const T* data, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides, py::handle owner) {
   return arrayOf({data, sizeof(T), py::format_descriptor<T>::format(), std::move(shape), std::move(strides),
                   py::reinterpret_borrow<py::object>(owner)});
 }
 
-/// Rows of `width` numbers, one behind the other.
+/// Returns a view of consecutive rows of `width` numbers.
 template <class T>
 py::object rows(const std::vector<T>& values, py::ssize_t width, py::handle owner) {
   const auto size = static_cast<py::ssize_t>(sizeof(T));
   return view(values.data(), {static_cast<py::ssize_t>(values.size()) / width, width}, {width * size, size}, owner);
 }
 
-/// The numbers of a vector that is given away: the array owns them.
+/// Returns an array that takes over a vector.
 template <class T>
 py::object given(std::vector<T>&& values, py::ssize_t width) {
   auto* kept = new std::vector<T>(std::move(values));

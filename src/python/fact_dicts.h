@@ -8,7 +8,7 @@
 
 namespace viscera::python {
 
-/// Adds a dict per group, by its name: of values, lists of numbers and lists of dicts, as metrics.json has them.
+/// Adds a dict per group, under its name: of values, lists of numbers and lists of dicts, as in metrics.json.
 void addFacts(const FactGroups& groups, pybind11::dict& out);
 
 }  // namespace viscera::python

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The compiled half of the Python package viscera; the other half is viscera/__init__.py beside this file.
+// The compiled part of the Python package viscera; the Python part is viscera/__init__.py in this folder.
 #include "python/arrays.h"
 #include "python/scene_binding.h"
 #include "python/session_binding.h"

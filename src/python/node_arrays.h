@@ -11,13 +11,13 @@
 
 namespace viscera::python {
 
-/// Slots of all bodies that have a node.
+/// Returns the slots of all bodies that have a node.
 std::vector<uint32_t> activeSlots(const Model& model);
-/// [3 * slots] m, tissue frame; NaN where there is no node.
+/// Returns [3 * slots] rest positions, m, tissue frame; NaN without a node.
 std::vector<float> restPositions(const Model& model);
-/// The same of a state.
+/// Returns the positions of a state in the same format.
 std::vector<float> positions(const Model& model, const HostState& state);
-/// [6 * styluses] force and torque.
+/// Returns [6 * styluses] force and torque.
 std::vector<double> wrenchesOf(const Frame& frame, size_t styluses);
 
 }  // namespace viscera::python

@@ -35,7 +35,7 @@ std::vector<std::string> names(const std::vector<T>& things) {
 }  // namespace
 
 void bindScene(py::module_& module) {
-  auto scene = py::class_<SceneSource>(module, "SceneBase", "What viscera.Scene is made on.");
+  auto scene = py::class_<SceneSource>(module, "SceneBase", "Base class of viscera.Scene.");
   scene.def(py::init([](const std::string& file, const std::string& text, const std::string& label,
                         const std::string& mesh, const Overrides& overrides) {
               SceneSource out{file, text, label, mesh, overrides, {}};
@@ -45,7 +45,7 @@ void bindScene(py::module_& module) {
             py::arg("file"), py::arg("text"), py::arg("label"), py::arg("mesh"), py::arg("overrides"));
   scene.def_property_readonly("name", [](const SceneSource& s) { return s.scene.name; });
   scene.def_property_readonly(
-      "file", [](const SceneSource& s) { return s.file; }, "Empty for a scene from text.");
+      "file", [](const SceneSource& s) { return s.file; }, "Scene file; empty for a scene from text.");
   scene.def_property_readonly("overrides", [](const SceneSource& s) { return s.overrides; });
   scene.def_property_readonly(
       "styluses", [](const SceneSource& s) { return names(s.scene.styluses); }, "Names.");
@@ -54,9 +54,9 @@ void bindScene(py::module_& module) {
   scene.def_property_readonly(
       "cameras", [](const SceneSource& s) { return names(s.scene.cameras); }, "Names.");
   scene.def_property_readonly(
-      "tick_s", [](const SceneSource& s) { return 1 / s.scene.solver.tick_hz; }, "[s]");
+      "tick_s", [](const SceneSource& s) { return 1 / s.scene.solver.tick_hz; }, "Length of a tick [s].");
   scene.def_property_readonly(
-      "keys", [](const SceneSource& s) { return sceneText(s.scene); }, "Every key with its value, a line each.");
+      "keys", [](const SceneSource& s) { return sceneText(s.scene); }, "All keys with their values, one per line.");
 }
 
 }  // namespace viscera::python

@@ -10,16 +10,16 @@
 
 namespace viscera::python {
 
-/// A scene with what it was made of, so that keys can be set upon it.
+/// A scene with its sources, so that keys can be overridden.
 struct SceneSource {
-  std::string file;   ///< empty: from `text`
+  std::string file;   ///< file; empty: from `text`
   std::string text;   ///< YAML
-  std::string label;  ///< stands for the file in messages about `text`
-  std::string mesh;   ///< tissue of the first body; empty: what the scene says
+  std::string label;  ///< name that replaces the file in messages about `text`
+  std::string mesh;   ///< mesh of the first body; empty: the scene's
   Overrides overrides;
   Scene scene;
 
-  /// @throws SceneError  as the command line's
+  /// Loads the scene. @throws SceneError  as on the command line
   void load();
   SceneSource with(const Overrides& more) const;
 };

@@ -18,8 +18,8 @@ namespace viscera::python {
 
 namespace {
 
-constexpr int64_t kMostTicks = 1'000'000'000;  // of one call: eleven days at 1 kHz
-constexpr int kMostThreads = 1024;             // as `viscera sweep --jobs`
+constexpr int64_t kMostTicks = 1'000'000'000;  // limit of one call: eleven days at 1 kHz
+constexpr int kMostThreads = 1024;             // as in `viscera sweep --jobs`
 
 using Skin = const SurfaceFrame;
 using Class = py::class_<Stepped, std::shared_ptr<Stepped>>;
@@ -41,16 +41,16 @@ std::vector<float> normals(const Skin& skin) {
   return out;
 }
 
-/// Of every triangle a number of its patch.
+/// Returns a number of its patch for every triangle.
 template <class T, class Of>
-std::vector<T> ofTriangles(const ShownTopology& topology, Of&& of) {
+std::vector<T> ofTriangles(const VisibleTopology& topology, Of&& of) {
   std::vector<T> out(topology.triangleCount());
-  for (const ShownPatch& patch : topology.patches)
+  for (const VisiblePatch& patch : topology.patches)
     std::fill_n(out.begin() + static_cast<std::ptrdiff_t>(patch.first), patch.count, static_cast<T>(of(patch)));
   return out;
 }
 
-std::vector<uint32_t> usedVertices(const ShownTopology& topology) {
+std::vector<uint32_t> usedVertices(const VisibleTopology& topology) {
   std::vector<bool> used(topology.vertices);
   for (const uint32_t vertex : topology.triangles) {
     if (vertex >= used.size()) used.resize(vertex + size_t{1});
@@ -82,7 +82,7 @@ py::list contacts(const Frame& frame, size_t styluses) {
     one["touched"] = frame.has_stats ? frame.stats.touched[s] : 0;
     one["held"] = frame.has_stats ? frame.stats.grabbed[s] : 0;
     one["inside"] = frame.inside[s];
-    one["held_back"] = frame.held_back[s];
+    one["speed_limited"] = frame.speed_limited[s];
     one["saturated"] = frame.reactions[s].saturated;
     out.append(one);
   }
@@ -95,9 +95,9 @@ double ofBits(uint32_t bits) {
   return static_cast<double>(out);
 }
 
-/// What of a Core diagnostics are made of, taken while no step is under way.
+/// Data for the diagnostics, copied while no step runs.
 struct Facts {
-  layout::TickStats stats{};  ///< of the last tick; zero before the first
+  layout::TickStats stats{};  ///< statistics of the last tick; zero before the first
   Counters counters;
   Extremes extremes;
   Health health;
@@ -125,8 +125,8 @@ Facts factsOf(Stepped::Core& core) {
   return out;
 }
 
-/// Names and meanings are those of metrics.json; of what it has not, of the topic /diagnostics; of what neither has,
-/// ours.
+/// Returns the diagnostics. Names and meanings are those of metrics.json, then of the topic /diagnostics; others are
+/// specific to this module.
 
 py::dict diagnostics(const Facts& facts) {
   py::dict out;
@@ -141,8 +141,8 @@ py::dict diagnostics(const Facts& facts) {
   out["max_speed_m_per_s"] = facts.extremes.max_speed_m_per_s;
   out["nonfinite"] = facts.extremes.nonfinite;
   out["nodes_crowded"] = facts.extremes.crowded;
-  out["governor_trips"] = facts.extremes.governor_trips;
-  out["ticks_held_back"] = facts.extremes.held_back;
+  out["roll_backs"] = facts.extremes.roll_backs;
+  out["ticks_speed_limited"] = facts.extremes.speed_limited;
   out["peak_force_n"] = facts.extremes.peak_force_n;
   out["backend"] = facts.backend;
   out["stepped_by"] = facts.stepped_by;
@@ -161,7 +161,7 @@ py::dict diagnostics(const Facts& facts) {
 
 py::dict fields(const Stepped& stepped, const std::string& of) {
   if (of != "lattice" && of != "network")
-    throw py::value_error("fields: wanted 'lattice' or 'network'; found '" + of + "'");
+    throw py::value_error("fields: must be 'lattice' or 'network'; found '" + of + "'");
   FieldMesh mesh = stepped.with([&](Stepped::Core& core) {
     return of == "lattice" ? latticeFields(*core.session) : networkFields(*core.session);
   });
@@ -188,7 +188,7 @@ py::object picture(const Stepped& stepped, size_t camera, const std::string& kin
     const py::object flat = given(std::move(image.rgb), 3 * w);
     return flat.attr("reshape")(h, w, 3);
   }
-  throw py::value_error("picture: kind: wanted color, right, depth or labels; found '" + kind + "'");
+  throw py::value_error("picture: kind: must be color, right, depth or labels; found '" + kind + "'");
 }
 
 void bindSkin(py::module_& module) {
@@ -197,34 +197,35 @@ void bindSkin(py::module_& module) {
   skin.def_readonly("tick", &SurfaceFrame::tick);
   skin.def_property_readonly(
       "positions_m", [](const py::object& self) { return rows(self.cast<Skin&>().positions_m, 3, self); },
-      "(vertices, 3) float32 [m], tissue frame, of used and spare vertices; no copy.");
+      "(vertices, 3) float32 [m], tissue frame: positions of used and spare vertices; no copy.");
   skin.def_property_readonly(
       "packed_normals",
       [](const py::object& self) {
         const auto& packed = self.cast<Skin&>().normals;
         return view(packed.data(), {static_cast<py::ssize_t>(packed.size())}, {sizeof(uint32_t)}, self);
       },
-      "(vertices,) uint32, three signed 10-bit fractions, x in the low bits; no copy.");
+      "(vertices,) uint32: normals as three signed 10-bit fractions, x in the low bits; no copy.");
   skin.def_property_readonly(
       "normals", [](const Skin& s) { return given(normals(s), 3); },
-      "(vertices, 3) float32 of length 1, to 1/511; a copy, unpacked.");
+      "(vertices, 3) float32: unpacked normals, of length 1 to within 1/511; a copy.");
   skin.def_property_readonly(
       "triangles", [](const py::object& self) { return rows(self.cast<Skin&>().topology->triangles, 3, self); },
-      "(triangles, 3) uint32 vertices, counter-clockwise from outside; no copy.");
+      "(triangles, 3) uint32: vertices of each triangle, counter-clockwise seen from outside; no copy.");
   skin.def_property_readonly(
       "bodies_of_triangles",
       [](const Skin& s) {
-        return given(ofTriangles<uint32_t>(*s.topology, [](const ShownPatch& p) { return p.body; }), 1);
+        return given(ofTriangles<uint32_t>(*s.topology, [](const VisiblePatch& p) { return p.body; }), 1);
       },
-      "(triangles,) uint32 index of the body; a copy.");
+      "(triangles,) uint32: index of the body; a copy.");
   skin.def_property_readonly(
       "wounds",
       [](const Skin& s) {
-        return given(ofTriangles<uint8_t>(*s.topology, [](const ShownPatch& p) { return p.kind == ShownKind::kWound; }),
+        return given(ofTriangles<uint8_t>(*s.topology,
+                                          [](const VisiblePatch& p) { return p.kind == SurfaceKind::kWound; }),
                      1)
             .attr("view")("bool");
       },
-      "(triangles,) bool: walls that a cut has laid open; a copy.");
+      "(triangles,) bool: whether a triangle is a wall that a cut has opened; a copy.");
   skin.def_property_readonly(
       "used", [](const Skin& s) { return given(usedVertices(*s.topology), 1); },
       "(n,) uint32, ascending: vertices that triangles have now. Other rows of positions_m are kept for edges that a "
@@ -236,7 +237,7 @@ void bindSkin(py::module_& module) {
   });
   skin.def_property_readonly(
       "revision", [](const Skin& s) { return s.topology->revision; },
-      "Another number where other triangles are shown.");
+      "Revision of the triangles; it differs when the triangles differ.");
 }
 
 std::string sessionText(const Stepped& stepped) {
@@ -247,7 +248,7 @@ std::string sessionText(const Stepped& stepped) {
       return "<viscera.Session of '" + session.scene().name + "', tick " + std::to_string(session.tick()) + ", " +
              std::to_string(session.model().activeNodes()) + " nodes, " + session.solver().backend() + ">";
     });
-  } catch (const Error& error) {  // of another process
+  } catch (const Error& error) {  // the session belongs to another process
     return std::string("<viscera.Session: ") + error.what() + ">";
   }
 }
@@ -261,23 +262,22 @@ void bindSteps(Class& session) {
       "step",
       [](const Stepped& s, const py::object& styluses, int64_t n) {
         if (n < 1 || n > kMostTicks)
-          throw py::value_error("n: wanted 1 .. " + std::to_string(kMostTicks) + "; found " + std::to_string(n));
+          throw py::value_error("n: must be 1 .. " + std::to_string(kMostTicks) + "; found " + std::to_string(n));
         const size_t count = s.with(stylusCount);
         s.step(samplesOf(styluses, count), n);
       },
       py::arg("styluses") = py::none(), py::arg("n") = 1,
-      "n ticks with the styluses there. styluses: None, a Stylus, or a list of Stylus or None, one for each of the "
-      "scene's "
-      "at most. The GIL is released.");
-  session.def("reset", &Stepped::reset, "Back to rest, tick 0.");
+      "Steps n ticks with the given styluses: None, a Stylus, or a list of Stylus or None, at most one for each "
+      "stylus of the scene. The GIL is released.");
+  session.def("reset", &Stepped::reset, "Returns the tissue to rest, at tick 0.");
   session.def(
       "state", [](const Stepped& s) { return py::bytes(s.state()); },
       "Saved state as bytes, in the format of `viscera run --save`.");
   session.def(
       "restore", [](const Stepped& s, const py::bytes& state) { s.restore(state); }, py::arg("state"),
-      "Goes on where state() was taken, to the bit; refused where scene, tissue, backend or version differ.");
+      "Continues from a state of state(), bit for bit; raises Error if scene, tissue, backend or version differ.");
   session.def("__repr__", &sessionText);
-  session.def("close", &Stepped::close, "Ends the session; arrays taken from it live on.");
+  session.def("close", &Stepped::close, "Ends the session; arrays taken from it stay valid.");
   session.def_property_readonly("closed", &Stepped::closed);
   session.def("__enter__", [](const py::object& self) { return self; });
   session.def("__exit__", [](Stepped& s, const py::args&) { s.close(); });
@@ -287,7 +287,7 @@ void bindMeasures(Class& session) {
   session.def_property_readonly(
       "hash",
       [](const Stepped& s) { return StateHash::text(s.with([](Stepped::Core& c) { return c.session->stateHash(); })); },
-      "Fingerprint of the state, 16 hexadecimal digits, as `viscera run` prints it.");
+      "Hash of the state, 16 hexadecimal digits, as `viscera run` prints it.");
   session.def_property_readonly(
       "tick", [](const Stepped& s) { return s.with([](Stepped::Core& c) { return c.session->tick(); }); });
   session.def_property_readonly(
@@ -298,7 +298,7 @@ void bindMeasures(Class& session) {
       [](const Stepped& s) {
         return s.with([](Stepped::Core& c) { return static_cast<double>(c.session->tick()) * c.session->tick_s(); });
       },
-      "Simulated since the start or the last reset [s].");
+      "Time simulated since the start or the last reset [s].");
   session.def_property_readonly(
       "wrenches",
       [](const Stepped& s) {
@@ -312,18 +312,18 @@ void bindMeasures(Class& session) {
         const auto [frame, count] = s.with([](Stepped::Core& c) {
           Frame out;
           out.contacts = c.last.contacts, out.stats = c.last.stats, out.has_stats = c.last.has_stats;
-          out.inside = c.last.inside, out.held_back = c.last.held_back, out.reactions = c.last.reactions;
+          out.inside = c.last.inside, out.speed_limited = c.last.speed_limited, out.reactions = c.last.reactions;
           return std::pair(std::move(out), stylusCount(c));
         });
         return contacts(frame, count);
       },
-      "Of each stylus a dict: what its tip met in the last tick, its way, unlimited mean force and torque, nodes "
+      "One dict per stylus: contacts of its tip in the last tick, its motion, unlimited mean force and torque, nodes "
       "touched and held.");
   session.def_property_readonly(
       "diagnostics", [](const Stepped& s) { return diagnostics(s.with(factsOf)); },
       "Dict with the names of metrics.json of `viscera run` (nodes, springs_cut, dt_s, max_stretch ...), a dict for "
       "each "
-      "of threads, clips, burns, bleeding and blades that the scene has, and what /diagnostics has beside: ticks, "
+      "of sutures, clips, burns, bleeding and blades that the scene has, and further values of /diagnostics: ticks, "
       "recovering, strained, kinetic_energy_j, elastic_energy_j, springs_collapsed, cells_inverted; of the last tick: "
       "stretch_now, speed_now_m_per_s.");
 }
@@ -340,21 +340,21 @@ void bindArrays(Class& session) {
       [](const Stepped& s) {
         return given(s.with([](Stepped::Core& c) { return restPositions(c.session->model()); }), 3);
       },
-      "(slots, 3) float32 [m] at rest, NaN in empty slots. A copy.");
+      "(slots, 3) float32 [m]: positions at rest, NaN in empty slots. A copy.");
   session.def_property_readonly(
       "positions_m",
       [](const Stepped& s) {
         const auto state = s.nodes();
         return given(s.with([&](Stepped::Core& c) { return positions(c.session->model(), *state); }), 3);
       },
-      "(slots, 3) float32 [m], NaN in empty slots. A copy: the library holds displacements.");
+      "(slots, 3) float32 [m]: positions, NaN in empty slots. A copy, because the library stores displacements.");
   session.def_property_readonly(
       "displacement_m",
       [](const Stepped& s) {
         const auto state = s.nodes();
         return vec4s(state->displacement_m, state);
       },
-      "(slots, 3) float32 [m] from rest, of this tick; made once a tick from the solver's bricks, then shared, "
+      "(slots, 3) float32 [m]: displacements from rest at this tick; created once per tick, then shared, "
       "read-only.");
   session.def_property_readonly(
       "velocity_m_per_s",
@@ -362,16 +362,16 @@ void bindArrays(Class& session) {
         const auto state = s.nodes();
         return vec4s(state->velocity_m_per_s, state);
       },
-      "(slots, 3) float32 [m/s], as displacement_m.");
+      "(slots, 3) float32 [m/s]: velocities, shared as displacement_m.");
   session.def(
       "skin", [](const Stepped& s) { return std::const_pointer_cast<SurfaceFrame>(s.skin()); },
-      "The deformed skin of now.");
+      "The deformed skin at the present tick.");
   session.def(
       "fields", &fields, py::arg("of") = "lattice",
       "Dict of points, cells and their fields, as `viscera run --export` writes them: stress, strain energy ... "
-      "of: 'lattice' or 'network'. The arrays own what was made for them.");
+      "of: 'lattice' or 'network'. The arrays own their memory.");
   session.def("picture", &picture, py::arg("camera") = 0, py::arg("kind") = "color",
-              "What a camera of the scene sees now. kind: color, right: (h, w, 3) uint8; depth: (h, w) float32 [m]; "
+              "Image of a camera at the present tick. kind: color, right: (h, w, 3) uint8; depth: (h, w) float32 [m]; "
               "labels: (h, w) uint8. Needs pictures=True.");
 }
 
@@ -379,18 +379,17 @@ void bindArrays(Class& session) {
 
 void bindSession(py::module_& module) {
   bindSkin(module);
-  Class session(module, "Session",
-                "A scene that is stepped. Calls may come from any thread; they wait for each other.");
+  Class session(module, "Session", "A running scene. Calls may come from any thread; they wait for each other.");
   session.def(
       py::init([](const SceneSource& scene, const std::optional<std::string>& backend, int threads, bool pictures) {
         if (threads < 0 || threads > kMostThreads)
-          throw py::value_error("threads: wanted 0 .. " + std::to_string(kMostThreads) + "; found " +
+          throw py::value_error("threads: must be 0 .. " + std::to_string(kMostThreads) + "; found " +
                                 std::to_string(threads));
         return std::make_shared<Stepped>(scene, backend, threads, pictures);
       }),
       py::arg("scene"), py::arg("backend") = py::none(), py::arg("threads") = 0, py::arg("pictures") = false,
-      "backend: as solver.backend; None: what the scene says, without pictures the processor unless it says gpu. "
-      "threads: 0 as the scene says. pictures: with OpenGL, used by this thread alone then.");
+      "backend: as solver.backend; None: as in the scene, and without pictures the CPU unless the scene says gpu. "
+      "threads: 0: as in the scene. pictures: creates an OpenGL context, which each call makes current.");
   bindSteps(session);
   bindMeasures(session);
   bindArrays(session);

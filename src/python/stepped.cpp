@@ -13,9 +13,9 @@ namespace py = pybind11;
 
 namespace {
 
-constexpr auto kSignalsEvery = std::chrono::milliseconds(50);  // as fast as a person sees an answer to Ctrl-C
+constexpr auto kSignalsEvery = std::chrono::milliseconds(50);  // Ctrl-C appears immediate to a user
 
-void forget(Stepped::Core& core) {
+void clear(Stepped::Core& core) {
   core.last = Frame();
   core.nodes.reset();
 }
@@ -29,7 +29,7 @@ bool HomeProcess::isHere() const {
 void HomeProcess::require(const char* what) const {
   if (isHere()) return;
   throw Error(std::string(what) + " belongs to process " + std::to_string(id_) +
-              ", from which this one was forked without its threads; make another one here, or start processes by "
+              ", from which this one was forked without its threads; create another one here, or start processes with "
               "multiprocessing.get_context(\"spawn\")");
 }
 
@@ -66,7 +66,7 @@ void Stepped::close() {
 void Stepped::step(const StylusSamples& hands, int64_t ticks) const {
   with([&](Core& core) {
     auto heard = std::chrono::steady_clock::now();
-    const Wants nothing;
+    const FrameRequest nothing;
     for (int64_t t = 0; t < ticks; ++t) {
       core.nodes.reset();
       core.last = core.session->step(hands, nothing);
@@ -78,9 +78,9 @@ void Stepped::step(const StylusSamples& hands, int64_t ticks) const {
   });
 }
 
-/// Lets Python's signal handlers run between two ticks, in which they may do with the session what they like.
+/// Runs Python's signal handlers between two ticks; they may use the session.
 void Stepped::hearSignals(const Core& core) const {
-  std::optional<gpu::ContextScope> ours;  // whatever context they leave behind
+  std::optional<gpu::ContextScope> ours;  // restores the context after they changed it
   if (core.context) ours.emplace();
   const py::gil_scoped_acquire held;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -88,7 +88,7 @@ void Stepped::hearSignals(const Core& core) const {
 }
 
 void Stepped::resetCore(Core& core) {
-  forget(core);
+  clear(core);
   core.session->reset();
 }
 
@@ -106,7 +106,7 @@ std::string Stepped::state() const {
 
 void Stepped::restoreCore(Core& core, const std::string& state) {
   Archive archive(readStateBytes(state, "restore"));
-  forget(core);
+  clear(core);
   core.session->restore(archive, "restore");
 }
 
@@ -123,10 +123,10 @@ std::shared_ptr<const HostState> Stepped::nodes() const {
 
 std::shared_ptr<const SurfaceFrame> Stepped::skin() const {
   return with([](Core& core) {
-    Wants wants;
+    FrameRequest wants;
     wants.surface = true;
     Pictures pictures = core.session->show(wants);
-    if (!pictures.surface) throw Error("the skin of tick " + std::to_string(core.session->tick()) + " did not come");
+    if (!pictures.surface) throw Error("the skin of tick " + std::to_string(core.session->tick()) + " is missing");
     return std::shared_ptr<const SurfaceFrame>(std::move(pictures.surface));
   });
 }
@@ -134,9 +134,12 @@ std::shared_ptr<const SurfaceFrame> Stepped::skin() const {
 ImageFrame Stepped::picture(size_t camera, PictureKind kind) const {
   return with([&](Core& core) {
     const size_t cameras = core.session->scene().cameras.size();
-    if (!core.context) throw Error("picture: the session was made without pictures: Session(scene, pictures=True)");
-    if (camera >= cameras) throw Error("picture: camera " + std::to_string(camera) + " of " + std::to_string(cameras));
-    Wants wants;
+    if (!core.context)
+      throw Error("picture: the session was created without pictures; use Session(scene, pictures=True)");
+    if (camera >= cameras)
+      throw Error("picture: there is no camera " + std::to_string(camera) + "; the scene has " +
+                  std::to_string(cameras));
+    FrameRequest wants;
     wants.every_image = true;
     wants.of(kind).resize(cameras);
     wants.of(kind)[camera] = true;
@@ -144,7 +147,7 @@ ImageFrame Stepped::picture(size_t camera, PictureKind kind) const {
     for (ImageFrame& image : pictures.images) {
       if (image.camera == camera && image.kind == kind) return std::move(image);
     }
-    throw Error("picture: camera '" + core.session->scene().cameras[camera].name + "' has none of this kind");
+    throw Error("picture: camera '" + core.session->scene().cameras[camera].name + "' has no picture of this kind");
   });
 }
 

@@ -20,18 +20,19 @@
 
 namespace viscera::python {
 
-/// Process that something with threads or OpenGL was made in. fork() copies neither to the child.
+/// The process in which an object with threads or OpenGL was created. fork() copies neither to the child.
 class HomeProcess {
  public:
   bool isHere() const;
-  /// @param what  for the message, such as "the session"   @throws Error  this process was forked from that one
+  /// Checks that this is the process.
+  /// @param what  for the message, such as "the session"   @throws Error  this process was forked from it
   void require(const char* what) const;
 
  private:
   int id_ = getpid();
 };
 
-/// Makes a T that only the process that made it destroys: a forked one would wait for threads that it does not have.
+/// Creates a T that only the creating process destroys: a forked one would wait for threads that it does not have.
 template <class T>
 std::shared_ptr<T> makeHere() {
   return {new T, [home = HomeProcess()](T* made) {
@@ -39,37 +40,38 @@ std::shared_ptr<T> makeHere() {
           }};
 }
 
-/// A session with what Python asks of it: calls from any thread, one at a time, after close() an error.
+/// A session for Python: any thread may call, one at a time; after close() calls fail.
 class Stepped {
  public:
-  /// All that a call needs; lives on through a call in which another thread closes the session. Of makeHere().
+  /// The data of a call; it stays alive in a call during which another thread closes the session. Created by
+  /// makeHere().
   struct Core {
-    std::unique_ptr<gpu::Context> context;  ///< outlives the session
+    std::unique_ptr<gpu::Context> context;  ///< must outlive the session
     std::unique_ptr<Session> session;
-    Frame last;                              ///< of the newest tick; empty after a reset
-    std::shared_ptr<const HostState> nodes;  ///< of now, once it was asked for
-    std::recursive_mutex mutex;              ///< signal handlers of Python use the session within step()
+    Frame last;                              ///< frame of the newest tick; empty after a reset
+    std::shared_ptr<const HostState> nodes;  ///< current state, after it was requested
+    std::recursive_mutex mutex;              ///< recursive: signal handlers may use the session in step()
     HomeProcess home;
 
     ~Core();
-    /// Returns whether calls need the context on their own thread; a view on a thread of its own keeps it otherwise.
+    /// Returns whether calls need the context on their own thread; otherwise a view with its own thread has it.
     bool callsNeedContext() const { return context && session && !session->solver().onHost(); }
   };
 
-  /// What reset() and restore() do, without the GIL and with the mutex held. @throws Error
+  /// Implements reset() and restore(), without the GIL and with the mutex held. @throws Error
   static void resetCore(Core& core);
   static void restoreCore(Core& core, const std::string& state);
 
   Stepped(const SceneSource& scene, const std::optional<std::string>& backend, int threads, bool pictures);
-  /// Another door to a session.
+  /// Wraps the core of an existing session.
   explicit Stepped(std::shared_ptr<Core> core) : core_(std::move(core)) {}
   ~Stepped() { close(); }
   void close();
   bool closed() const { return !core_; }
 
-  /// Runs `work(core)` without the GIL, which it must not need, and hands on what it returns. The session's context is
-  /// current meanwhile, if it has one, and then the former one again.
-  /// @throws Error  the session is closed, or of a process that this one was forked from
+  /// Runs `work(core)` without the GIL and returns its result. The session's context, if it has one, is current during
+  /// the call; afterwards the previous one is.
+  /// @throws Error  the session is closed, or belongs to a process from which this one was forked
   template <class Work>
   auto with(Work&& work) const {
     const std::shared_ptr<Core> core = core_;
@@ -82,17 +84,17 @@ class Stepped {
     return work(*core);
   }
 
-  /// n ticks with the same hands; signals such as Ctrl-C are heard, and their handlers may use the session.
-  /// @throws Error, and what Python's handlers raise
+  /// Steps n ticks with the same samples. Handles signals such as Ctrl-C; their handlers may use the session.
+  /// @throws Error, and exceptions of Python's handlers
   void step(const StylusSamples& hands, int64_t ticks) const;
   void reset() const;
-  /// A saved state as bytes. @throws Error
+  /// Returns a saved state as bytes. @throws Error
   std::string state() const;
   void restore(const std::string& state) const;
   std::shared_ptr<const HostState> nodes() const;
-  /// The skin of now. @throws Error
+  /// Returns the current surface mesh. @throws Error
   std::shared_ptr<const SurfaceFrame> skin() const;
-  /// @throws Error  no pictures, no such camera, or this camera has none of this kind
+  /// Returns an image. @throws Error  there are no images, no such camera, or it has no image of this kind
   ImageFrame picture(size_t camera, PictureKind kind) const;
 
  private:

@@ -15,7 +15,7 @@ namespace py = pybind11;
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
-constexpr std::chrono::nanoseconds kVectorSignalsEvery{50'000'000};  // as fast as a person sees an answer to Ctrl-C
+constexpr std::chrono::nanoseconds kVectorSignalsEvery{50'000'000};  // Ctrl-C appears immediate to a user
 
 std::shared_ptr<Stepped::Core> coreOf(const Scene& scene, const SessionOptions& options) {
   auto core = makeHere<Stepped::Core>();
@@ -23,7 +23,7 @@ std::shared_ptr<Stepped::Core> coreOf(const Scene& scene, const SessionOptions& 
   return core;
 }
 
-/// Errors say which session they are of.
+/// Runs work; errors name the session.
 template <class Work>
 void numbered(size_t session, const Work& work) {
   try {
@@ -39,7 +39,7 @@ SteppedVector::SteppedVector(const SceneSource& source, size_t sessions, int thr
   const py::gil_scoped_release released;
   const auto group = makeHere<Group>();
   SessionOptions options;
-  options.threads = makeThreadPool(1);  // no thread but the caller
+  options.threads = makeThreadPool(1);  // no thread except the caller
   group->cores.push_back(coreOf(source.scene, options));
   const std::shared_ptr<Stepped::Core> first = group->cores[0];
   options.model = {first, &first->session->model()};
@@ -62,7 +62,7 @@ void SteppedVector::step(const std::vector<StylusSamples>& hands, std::vector<in
   const py::gil_scoped_release released;
   const size_t sessions = group->cores.size();
   const auto share = kVectorSignalsEvery * group->threads->threads() / static_cast<int>(sessions);
-  const Wants nothing;
+  const FrameRequest nothing;
   std::vector<size_t> waiting(sessions);
   std::iota(waiting.begin(), waiting.end(), size_t{0});
   const auto done = [&](size_t s) { return left[s] <= 0; };

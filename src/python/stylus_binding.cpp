@@ -15,13 +15,14 @@ namespace viscera::python {
 
 namespace {
 
-constexpr double kFarthest_m = 1000;      // of a tip from the origin: beyond, float32 no longer tells nodes apart
-constexpr double kUnitWithin = 1e-9;      // of a quaternion's length: as it is, so that poses of files keep their bits
-constexpr double kNearUnitWithin = 1e-2;  // rounded to few digits: made one; further off it is no orientation
+constexpr double kFarthest_m = 1000;      // distance of a tip from the origin, limited by the resolution of float32
+constexpr double kUnitWithin = 1e-9;      // tolerance of a unit quaternion, which is kept as it is, so that poses from
+                                          // files keep their bits
+constexpr double kNearUnitWithin = 1e-2;  // tolerance of a rounded quaternion, which is normalised; others are refused
 
-/// @throws TypeError, ValueError
+/// Returns an array of `count` numbers. @throws TypeError, ValueError
 Given<double> numbersOf(const py::object& given, py::ssize_t count, const char* what) {
-  const std::string wanted = std::string(what) + ": wanted " + std::to_string(count) + " numbers in one row";
+  const std::string wanted = std::string(what) + ": must be " + std::to_string(count) + " numbers in one row";
   Given<double> out;
   try {
     out = Given<double>(given, "float64");
@@ -35,7 +36,7 @@ Given<double> numbersOf(const py::object& given, py::ssize_t count, const char* 
 void requireWithin(const double* values, int count, const char* what, double most) {
   for (int i = 0; i < count; ++i) {
     if (!(std::abs(values[i]) <= most))
-      throw py::value_error(std::string(what) + ": wanted numbers -" + numberText(most) + " .. " + numberText(most) +
+      throw py::value_error(std::string(what) + ": must be numbers -" + numberText(most) + " .. " + numberText(most) +
                             "; found " + numberText(values[i]));
   }
 }
@@ -48,12 +49,12 @@ StylusSample makeSample(const py::object& position_m, const py::object& quaterni
   out.button2 = button2;
   if (!jaw_rad) return out;
   if (!(*jaw_rad >= 0 && *jaw_rad <= kWidestJaw_rad))
-    throw py::value_error("jaw_rad: wanted 0 .. " + numberText(kWidestJaw_rad) + "; found " + numberText(*jaw_rad));
+    throw py::value_error("jaw_rad: must be 0 .. " + numberText(kWidestJaw_rad) + "; found " + numberText(*jaw_rad));
   out.jaw_rad = static_cast<float>(*jaw_rad);
   return out;
 }
 
-/// As Python would make it.
+/// Returns the Python expression of a stylus.
 std::string stylusText(const StylusSample& sample) {
   const auto shown = [](double value) { return std::string(py::repr(py::float_(value))); };
   const Vector3d& at = sample.pose.position_m;
@@ -77,19 +78,19 @@ StylusSample sampleOf(const double* position_m, const double* quaternion) {
   out.pose.position_m = {position_m[0], position_m[1], position_m[2]};
   out.pose.orientation = {quaternion[3], quaternion[0], quaternion[1], quaternion[2]};
   const double off = std::abs(out.pose.orientation.norm() - 1);
-  if (!(off <= kNearUnitWithin)) throw py::value_error("quaternion: wanted x, y, z, w of length 1, to 0.01");
+  if (!(off <= kNearUnitWithin)) throw py::value_error("quaternion: must be x, y, z, w with length 1, within 0.01");
   if (off > kUnitWithin) out.pose.orientation.normalize();
   return out;
 }
 
 void bindStylus(py::module_& module) {
   auto stylus = py::class_<StylusSample>(module, "Stylus",
-                                         "Where a stylus is: the pose of its tip in the tissue frame, and its "
+                                         "State of a stylus: the pose of its tip in the tissue frame, and its "
                                          "buttons. The shaft points along -z.");
   stylus.def(py::init(&makeSample), py::arg("position_m"), py::arg("quaternion") = py::make_tuple(0, 0, 0, 1),
              py::arg("button1") = false, py::arg("button2") = false, py::arg("jaw_rad") = py::none(),
-             "position_m: (3,) [m], -1000 .. 1000. quaternion: (4,) x, y, z, w of length 1. jaw_rad: how far the "
-             "tool's jaws are open [rad], 0 .. 3.1416; None: buttons close them.");
+             "position_m: (3,) [m], -1000 .. 1000. quaternion: (4,) x, y, z, w of length 1. jaw_rad: opening "
+             "of the tool's jaws [rad], 0 .. 3.1416; None: buttons close them.");
   stylus.def_property_readonly(
       "position_m",
       [](const StylusSample& s) {
@@ -108,7 +109,7 @@ void bindStylus(py::module_& module) {
   stylus.def_property_readonly(
       "jaw_rad",
       [](const StylusSample& s) { return s.jaw_rad < 0 ? std::optional<double>() : std::optional<double>(s.jaw_rad); },
-      "How far the jaws are open [rad], or None.");
+      "Opening of the jaws [rad], or None.");
   stylus.def("__repr__", &stylusText);
 }
 
@@ -129,7 +130,7 @@ StylusSamples samplesOf(const py::object& given, size_t styluses) {
     size_t at = 0;
     for (const py::handle one : given) put(at++, one);
   } catch (const py::cast_error&) {
-    throw py::type_error("styluses: wanted None, a Stylus, or a list of these");
+    throw py::type_error("styluses: must be None, a Stylus, or a list of these");
   }
   return out;
 }

@@ -9,10 +9,9 @@
 namespace viscera::python {
 
 void bindStylus(pybind11::module_& module);
-/// A stylus that is there. @param position_m, quaternion  3 numbers; x, y, z, w   @throws ValueError
+/// Returns a valid sample. @param position_m, quaternion  3 numbers; x, y, z, w   @throws ValueError
 StylusSample sampleOf(const double* position_m, const double* quaternion);
-/// @param given  None, a Stylus, or a sequence of these: one for each of the scene's at most
-/// @throws ValueError, TypeError
+/// Returns the samples. @param given  None, a Stylus, or a sequence of at most one for each stylus of the scene
 StylusSamples samplesOf(const pybind11::object& given, size_t styluses);
 
 }  // namespace viscera::python

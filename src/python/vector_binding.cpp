@@ -15,23 +15,23 @@ namespace viscera::python {
 namespace {
 
 constexpr int kMostSessions = 4096, kMostVectorThreads = 1024;
-constexpr int64_t kMostVectorTicks = 1'000'000'000;  // of one call: eleven days at 1 kHz
+constexpr int64_t kMostVectorTicks = 1'000'000'000;  // limit of one call: eleven days at 1 kHz
 constexpr py::ssize_t kPlaceNumbers = 3, kPoseNumbers = 7, kVectorButtons = 2;
 
 using VectorClass = py::class_<SteppedVector>;
 using Group = SteppedVector::Group;
 
-/// As Python has it.
+/// Returns a shape in Python's format.
 std::string shapeOf(const std::vector<py::ssize_t>& shape) {
   return py::str(py::tuple(py::cast(shape)));
 }
 
-/// An array of exactly this shape, of True and False or of numbers. @throws ValueError, TypeError
+/// Returns an array of exactly this shape, of booleans or of numbers. @throws ValueError, TypeError
 template <class T>
 Given<T> shaped(const py::object& given, const std::vector<py::ssize_t>& shape, const char* what) {
   constexpr bool kFlags = std::is_same_v<T, bool>;
   const auto refused = [&] {
-    return py::type_error(std::string(what) + ": wanted an array of " + (kFlags ? "True and False" : "whole numbers"));
+    return py::type_error(std::string(what) + ": must be an array of " + (kFlags ? "True and False" : "whole numbers"));
   };
   Given<T> out;
   try {
@@ -43,7 +43,8 @@ Given<T> shaped(const py::object& given, const std::vector<py::ssize_t>& shape, 
     throw refused();
   }
   if (out.shape() != shape)
-    throw py::value_error(std::string(what) + ": wanted shape " + shapeOf(shape) + "; found " + shapeOf(out.shape()));
+    throw py::value_error(std::string(what) + ": must have shape " + shapeOf(shape) + "; found " +
+                          shapeOf(out.shape()));
   return out;
 }
 
@@ -59,11 +60,11 @@ std::vector<StylusSamples> handsOf(const Group& group, const py::object& poses, 
   try {
     numbers = Given<double>(poses, "float64");
   } catch (const py::error_already_set&) {
-    throw py::type_error("poses: wanted an array of numbers");
+    throw py::type_error("poses: must be an array of numbers");
   }
   const py::ssize_t width = numbers.ndim() == 3 ? numbers.shape(2) : 0;
   if ((width != kPlaceNumbers && width != kPoseNumbers) || numbers.shape(0) != count || numbers.shape(1) != styluses)
-    throw py::value_error("poses: wanted shape (" + std::to_string(count) + ", " + std::to_string(styluses) +
+    throw py::value_error("poses: must have shape (" + std::to_string(count) + ", " + std::to_string(styluses) +
                           ", 3 or 7); found " + shapeOf(numbers.shape()));
   Given<bool> pressed, there;
   if (!buttons.is_none()) pressed = shaped<bool>(buttons, {count, styluses, kVectorButtons}, "buttons");
@@ -91,12 +92,12 @@ std::vector<int64_t> ticksOf(const Group& group, const py::object& given) {
   }
   for (const int64_t ticks : out) {
     if (ticks < 0 || ticks > kMostVectorTicks)
-      throw py::value_error("n: wanted 0 .. " + std::to_string(kMostVectorTicks) + "; found " + std::to_string(ticks));
+      throw py::value_error("n: must be 0 .. " + std::to_string(kMostVectorTicks) + "; found " + std::to_string(ticks));
   }
   return out;
 }
 
-/// Of None all, of a mask those that are True.
+/// Returns the chosen sessions: all for None, or those that are True in a mask.
 std::vector<size_t> chosen(const Group& group, const py::object& which) {
   std::vector<size_t> out;
   Given<bool> mask;
@@ -107,7 +108,8 @@ std::vector<size_t> chosen(const Group& group, const py::object& which) {
   return out;
 }
 
-/// Of all sessions what `of` gives for one, as many values for each, with the sessions as leading axis.
+/// Returns an array of the values of all sessions, with the sessions as leading axis. `of` returns the same number of
+/// values for each.
 template <class Of>
 py::object stacked(const SteppedVector& vector, std::vector<py::ssize_t> shape, const Of& of) {
   using T = typename std::invoke_result_t<Of, Stepped::Core&>::value_type;
@@ -126,7 +128,7 @@ py::object one(const SteppedVector& vector, const Of& of) {
   return stacked(vector, {}, [&](Stepped::Core& core) { return std::vector{of(core)}; });
 }
 
-/// [styluses] of the last tick.
+/// Returns [styluses] values of the last tick.
 template <class Of>
 auto ofStyluses(const Stepped::Core& core, const Of& of) {
   std::vector<std::invoke_result_t<Of, const Frame&, size_t>> out;
@@ -158,16 +160,16 @@ void bindVectorSteps(VectorClass& vector) {
         v.step(handsOf(*group, poses, buttons, present), ticksOf(*group, n));
       },
       py::arg("poses") = py::none(), py::arg("buttons") = py::none(), py::arg("present") = py::none(), py::arg("n") = 1,
-      "Ticks of all sessions, side by side, with hands that stay where they are; the GIL is released.\n"
+      "Steps all sessions, side by side, with styluses that stay where they are; the GIL is released.\n"
       "poses: None, or (sessions, styluses, 3) positions [m], or (sessions, styluses, 7) with quaternions x, y, z, w. "
-      "buttons: (sessions, styluses, 2) bool. present: (sessions, styluses) bool; the others are not there. "
-      "n: ticks, one number or (sessions,); 0 is none.");
+      "buttons: (sessions, styluses, 2) bool. present: (sessions, styluses) bool: which styluses are tracked. "
+      "n: number of ticks, one number or (sessions,); 0: no tick.");
   vector.def(
       "reset",
       [](const SteppedVector& v, const py::object& which) {
         v.each(chosen(*v.group(), which), [](Stepped::Core& core, size_t) { Stepped::resetCore(core); });
       },
-      py::arg("which") = py::none(), "Back to rest, tick 0. which: (sessions,) bool; None: all.");
+      py::arg("which") = py::none(), "Returns the tissue to rest, at tick 0. which: (sessions,) bool; None: all.");
   vector.def(
       "restore",
       [](const SteppedVector& v, const py::bytes& state, const py::object& which) {
@@ -175,8 +177,8 @@ void bindVectorSteps(VectorClass& vector) {
         v.each(chosen(*v.group(), which), [&](Stepped::Core& core, size_t) { Stepped::restoreCore(core, bytes); });
       },
       py::arg("state"), py::arg("which") = py::none(),
-      "A saved state, as of vector[0].state(), in those of `which`, (sessions,) bool; None: all.");
-  vector.def("close", &SteppedVector::close, "Ends the sessions; those taken out and arrays live on.");
+      "Restores a saved state, as from vector[0].state(), in the sessions of `which`, (sessions,) bool; None: all.");
+  vector.def("close", &SteppedVector::close, "Ends the vector; sessions taken out of it and arrays stay valid.");
   vector.def_property_readonly("closed", &SteppedVector::closed);
   vector.def("__enter__", [](const py::object& self) { return self; });
   vector.def("__exit__", [](SteppedVector& v, const py::args&) { v.close(); });
@@ -194,7 +196,7 @@ void bindVectorSteps(VectorClass& vector) {
           throw py::index_error("session " + std::to_string(s) + " of " + std::to_string(count));
         return std::make_shared<Stepped>(group->cores[static_cast<size_t>(s < 0 ? s + count : s)]);
       },
-      "One of the sessions, as a Session: what is done with it is done in the vector.");
+      "One of the sessions, as a Session; changes to it are changes in the vector.");
 }
 
 void bindVectorArrays(VectorClass& vector) {
@@ -207,17 +209,17 @@ void bindVectorArrays(VectorClass& vector) {
                [&](Core& c, size_t s) { out[s] = StateHash::text(c.session->stateHash()); });
         return out;
       },
-      "List of the sessions' hashes.");
+      "List of the hashes of all sessions.");
   vector.def_property_readonly(
       "ticks", [](const SteppedVector& v) { return one(v, [](Core& c) { return c.session->tick(); }); },
-      "(sessions,) uint64 since the start or the last reset.");
+      "(sessions,) uint64: ticks since the start or the last reset.");
   vector.def_property_readonly(
       "wrenches",
       [](const SteppedVector& v) {
         return stacked(v, {static_cast<py::ssize_t>(v.group()->styluses), 6},
                        [](Core& c) { return wrenchesOf(c.last, c.session->styluses().size()); });
       },
-      "(sessions, styluses, 6) float64, as Session.wrenches.");
+      "(sessions, styluses, 6) float64: wrenches, as Session.wrenches.");
   vector.def_property_readonly(
       "touched",
       [](const SteppedVector& v) {
@@ -236,45 +238,45 @@ void bindVectorArrays(VectorClass& vector) {
       "(sessions, styluses) uint32: nodes that each tip holds.");
   vector.def_property_readonly(
       "rollbacks",
-      [](const SteppedVector& v) { return one(v, [](Core& c) { return c.session->extremes().governor_trips; }); },
-      "(sessions,) uint64: ticks that the governor rolled back.");
+      [](const SteppedVector& v) { return one(v, [](Core& c) { return c.session->extremes().roll_backs; }); },
+      "(sessions,) uint64: ticks that the stability monitor rolled back.");
   vector.def_property_readonly(
       "positions_m",
       [](const SteppedVector& v) {
         return stacked(v, {-1, 3}, [](Core& c) { return positions(c.session->model(), stateOf(c)); });
       },
-      "(sessions, slots, 3) float32 [m], NaN in empty slots. A copy.");
+      "(sessions, slots, 3) float32 [m]: positions, NaN in empty slots. A copy.");
   vector.def_property_readonly(
       "displacement_m",
       [](const SteppedVector& v) {
         return stacked(v, {-1, 3}, [](Core& c) { return threes(stateOf(c).displacement_m); });
       },
-      "(sessions, slots, 3) float32 [m] from rest. A copy.");
+      "(sessions, slots, 3) float32 [m]: displacements from rest. A copy.");
   vector.def_property_readonly(
       "velocity_m_per_s",
       [](const SteppedVector& v) {
         return stacked(v, {-1, 3}, [](Core& c) { return threes(stateOf(c).velocity_m_per_s); });
       },
-      "(sessions, slots, 3) float32 [m/s]. A copy.");
+      "(sessions, slots, 3) float32 [m/s]: velocities. A copy.");
 }
 
 }  // namespace
 
 void bindVector(py::module_& module) {
   VectorClass vector(module, "VectorSession",
-                     "Sessions of one scene that are stepped by one call, side by side on the processor; vector[i] is "
-                     "one of them. Arrays have the sessions as leading axis.");
+                     "Sessions of one scene that one call steps side by side on the CPU; vector[i] is one of them. "
+                     "Arrays have the sessions as leading axis.");
   vector.def(py::init([](const SceneSource& scene, int64_t sessions, int threads) {
                if (sessions < 1 || sessions > kMostSessions)
-                 throw py::value_error("sessions: wanted 1 .. " + std::to_string(kMostSessions) + "; found " +
+                 throw py::value_error("sessions: must be 1 .. " + std::to_string(kMostSessions) + "; found " +
                                        std::to_string(sessions));
                if (threads < 0 || threads > kMostVectorThreads)
-                 throw py::value_error("threads: wanted 0 .. " + std::to_string(kMostVectorThreads) + "; found " +
+                 throw py::value_error("threads: must be 0 .. " + std::to_string(kMostVectorThreads) + "; found " +
                                        std::to_string(threads));
                return std::make_unique<SteppedVector>(scene, static_cast<size_t>(sessions), threads);
              }),
              py::arg("scene"), py::arg("sessions"), py::arg("threads") = 0,
-             "threads: of all sessions together, 0: one per processor; how many changes no result.");
+             "threads: number for all sessions together, 0: one per processor; it does not change results.");
   bindVectorSteps(vector);
   bindVectorArrays(vector);
 }

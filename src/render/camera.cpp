@@ -11,9 +11,9 @@ namespace viscera {
 namespace {
 constexpr double kNearOverDistance = 0.01;
 constexpr double kFarOverDistance = 100;
-constexpr double kSmallestSine = 1e-6;  // between up and the line of sight: below it the image has no upright
-constexpr double kSamePlace = 1e-9;     // tangent: where an image folds over, others are shown as well
-constexpr int kBeside_px = 1;           // so that what is mixed at a border is all of the picture
+constexpr double kSmallestSine = 1e-6;  // between `up` and the line of sight; below it no direction is upright
+constexpr double kSamePlace = 1e-9;     // tangent: where an image folds over, it shows other points as well
+constexpr int kBeside_px = 1;           // margin, so that interpolation at a border uses pixels of the image only
 }  // namespace
 
 Intrinsics intrinsics(const CameraConfig& camera) {
@@ -47,7 +47,7 @@ Vector3d lineOfSight(const CameraConfig& camera, const Eigen::Vector2d& pixel) {
 CameraConfig pinholeOf(const CameraConfig& camera) {
   CameraConfig out = camera;
   if (!camera.distortion.any()) return out;
-  // What the lens shows at the image's border is around all that it shows within.
+  // What the lens shows at the image's border surrounds all that it shows within.
   Eigen::Vector2d farthest = Eigen::Vector2d::Zero();
   const auto reach = [&](int column, int row) {
     farthest = farthest.cwiseMax(lineOfSight(camera, Eigen::Vector2d(column, row)).head<2>().cwiseAbs());
@@ -80,7 +80,7 @@ Pose opticalPose(const CameraConfig& camera) {
   const Vector3d right = forward.cross(camera.up.normalized());
   if (!(right.norm() > kSmallestSine)) {
     throw SceneError("camera '" + camera.name +
-                     "': up must be non-zero and not along the line from position_m to "
+                     "': up must be non-zero and not parallel to the line from position_m to "
                      "target_m");
   }
   Eigen::Matrix3d axes;

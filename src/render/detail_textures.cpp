@@ -17,14 +17,14 @@ namespace viscera {
 namespace {
 
 constexpr int kLargestSide_px = 4096;  // of an array: 16 layers of it are 1.4 GB with their mipmaps
-// Texels along the line of sight where a surface is seen at a slant: sharp there. A software rasteriser pays for each.
+// Texels along the line of sight, for sharpness at a slant. A software rasteriser pays for each.
 constexpr float kAnisotropy = 4;
 
 layout::vec4 texel(float x, float y, float z, float w) {
   return {x, y, z, w};
 }
 
-/// Texel (x, y) of a picture brought to another size: bilinear, with what lies beyond a side on the other.
+/// Computes texel (x, y) of an image resized to another size: bilinear, periodic.
 void resampled(const TextureImage& image, int width, int height, int x, int y, uint8_t* out) {
   const auto split = [](double at, int count) {
     const double lower = std::floor(at);
@@ -73,9 +73,9 @@ TextureArray::TextureArray(int width_px, int height_px, size_t layers, bool srgb
   glTextureStorage3D(id_, levels, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, width_px, height_px, static_cast<GLsizei>(layers));
   const GLenum code = glGetError();
   if (code != GL_NO_ERROR) {
-    throw GpuError("no texture of " + std::to_string(layers) + " pictures of " + std::to_string(width_px) + " x " +
-                   std::to_string(height_px) + " pixels: " + gpu::glErrorText(code) +
-                   "; smaller pictures, or bodies[].textures: false, need less");
+    throw GpuError("cannot create a texture of " + std::to_string(layers) + " images of " + std::to_string(width_px) +
+                   " x " + std::to_string(height_px) + " pixels: " + gpu::glErrorText(code) +
+                   "; use smaller images, or bodies[].textures: false");
   }
   glTextureParameteri(id_, GL_TEXTURE_WRAP_S, GL_REPEAT);
   glTextureParameteri(id_, GL_TEXTURE_WRAP_T, GL_REPEAT);
@@ -132,8 +132,9 @@ float DetailTextures::layerOf(const Layer& layer, std::vector<Layer>& layers) {
   return static_cast<float>(index);
 }
 
-/// Three texels of a material: linear colour and roughness; layers of colours and reliefs, scale of the relief, has it
-/// a colour (1), or does its picture cover the body's own (2); how coordinates wrap, of colours and of reliefs.
+/// Adds three texels per material: linear colour and roughness; layers of colours and reliefs, scale of the relief, and
+/// whether it has a colour (1) or its image covers the body's own colour (2); how coordinates wrap, of colours and of
+/// reliefs.
 void DetailTextures::addBody(const SurfaceDetail& detail) {
   const auto picture = [&](const MaterialTexture& of) {
     return of.image < 0 ? nullptr : &detail.images[static_cast<size_t>(of.image)];
@@ -155,7 +156,7 @@ void DetailTextures::addBody(const SurfaceDetail& detail) {
   materials_before_ += static_cast<uint32_t>(detail.materials.size());
 }
 
-/// One texel where there is no layer: samplers want something to be bound.
+/// Returns an array of the layers, or one texel where there are none, as samplers must be bound.
 TextureArray DetailTextures::arrayOf(const std::vector<Layer>& layers, bool srgb) {
   GLint most = 0;
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
@@ -170,7 +171,7 @@ TextureArray DetailTextures::arrayOf(const std::vector<Layer>& layers, bool srgb
   TextureArray array(width, height, std::max<size_t>(layers.size(), 1), srgb);
   for (size_t i = 0; i < layers.size(); ++i) {
     std::vector<uint8_t> rgba = resampled(layers[i].picture, width, height);
-    if (!srgb) {  // the normal's alpha is the roughness: green of its own picture
+    if (!srgb) {  // the normal's alpha is the roughness, from green of its own image
       const std::vector<uint8_t> rough =
           layers[i].roughness ? resampled(layers[i].roughness, width, height) : std::vector<uint8_t>();
       for (size_t t = 0; t < rgba.size(); t += 4) rgba[t + 3] = rough.empty() ? 255 : rough[t + 1];

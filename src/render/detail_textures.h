@@ -10,18 +10,18 @@
 
 namespace viscera {
 
-/// A picture for each layer of an array texture, mipmapped. Move-only.
+/// Array texture with mipmaps, one image per layer. Move-only.
 class TextureArray {
  public:
   TextureArray() = default;
-  /// @param srgb  are texels colours for a screen?
-  /// @throws GpuError  the driver takes none so large
+  /// @param srgb  texels are colours for a screen
+  /// @throws GpuError  the driver refuses the size
   TextureArray(int width_px, int height_px, size_t layers, bool srgb);
   ~TextureArray();
   TextureArray(TextureArray&& other) noexcept;
   TextureArray& operator=(TextureArray&& other) noexcept;
 
-  /// @param rgba  [4 * width * height]
+  /// Writes a layer. @param rgba  [4 * width * height]
   void write(size_t layer, const std::vector<uint8_t>& rgba);
   void makeMipmaps();
   int width() const { return width_px_; }
@@ -33,21 +33,21 @@ class TextureArray {
   int width_px_ = 0, height_px_ = 0;
 };
 
-/// Materials, texture charts and pictures of a model's skins on the GPU, numbered as in JoinedSkins::charts. What
-/// shaders/draw/detail.glsl reads.
+/// Materials, texture charts and textures of a model's surface meshes on the GPU, numbered as in JoinedSkins::charts.
+/// shaders/draw/detail.glsl reads them.
 ///
-/// All pictures of a kind are layers of one array, as large as the largest: the others are enlarged.
+/// All images of a kind are layers of one array, as large as the largest: the others are enlarged.
 class DetailTextures {
  public:
   explicit DetailTextures(const Model& model);
-  /// Is there any chart? Else nothing is made, and there is nothing to bind.
+  /// Returns whether there is any chart. Without one nothing is allocated or bound.
   bool any() const { return charts_view_.id() != 0; }
   void bind() const;
 
  private:
   void addBody(const SurfaceDetail& detail);
 
-  /// A layer to be: pictures of one material, or of several that share them.
+  /// A future layer: images of one material, or of several that share them.
   struct Layer {
     const TextureImage* picture = nullptr;    ///< colours, or normals; null: flat
     const TextureImage* roughness = nullptr;  ///< null: 1

@@ -5,7 +5,7 @@
 namespace viscera {
 
 namespace {
-constexpr double kMargin = 1e-4;  // of the distance to what is looked at: float32 rounds far less
+constexpr double kMargin = 1e-4;  // of the distance to the target: float32 rounds far less
 }
 
 Frustum::Frustum(const CameraConfig& camera, const Pose& tissue_from_optical) {

@@ -8,14 +8,15 @@
 
 namespace viscera {
 
-/// What a camera can see: six planes, tissue frame.
+/// Visible volume of a camera: six planes, tissue frame.
 class Frustum {
  public:
   explicit Frustum(const CameraConfig& camera) : Frustum(camera, opticalPose(camera)) {}
-  /// Of a camera that is elsewhere. @param tissue_from_optical  pose of its optical frame
+  /// Makes the frustum of a camera at another pose. @param tissue_from_optical  pose of its optical frame
   Frustum(const CameraConfig& camera, const Pose& tissue_from_optical);
 
-  /// Is nothing of the box in the picture? Never said of a box that may be in it; an empty box is missed.
+  /// Returns whether no part of the box is in the image. Conservative: false for every box that may be in it. True for
+  /// an empty box.
   bool misses(const Eigen::AlignedBox3f& box) const;
 
  private:

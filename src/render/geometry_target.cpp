@@ -26,8 +26,8 @@ GeometryTarget::GeometryTarget(int width, int height)
   const bool complete = glCheckNamedFramebufferStatus(framebuffer_, GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   const GLenum code = glGetError();
   if (complete && code == GL_NO_ERROR) return;
-  throw GpuError("no framebuffer for depths and labels of " + std::to_string(width) + " x " + std::to_string(height) +
-                 " pixels: " + gpu::glErrorText(code));
+  throw GpuError("cannot create a framebuffer for depths and labels of " + std::to_string(width) + " x " +
+                 std::to_string(height) + " pixels: " + gpu::glErrorText(code));
 }
 
 GeometryTarget::~GeometryTarget() {

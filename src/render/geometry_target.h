@@ -6,8 +6,8 @@
 
 namespace viscera {
 
-/// Where depths and labels of one camera are drawn, a pixel per pixel of the image: means of either say nothing.
-/// What is drawn there is drawn with shaders/draw/mesh.vert and geometry.frag.
+/// Render target for depths and labels of one camera, with one sample per pixel of the image, as means of either are
+/// meaningless. Drawn with shaders/draw/mesh.vert and geometry.frag.
 class GeometryTarget {
  public:
   /// @throws GpuError  the driver refuses the size
@@ -16,7 +16,7 @@ class GeometryTarget {
   GeometryTarget(const GeometryTarget&) = delete;
   GeometryTarget& operator=(const GeometryTarget&) = delete;
 
-  /// Makes it the place to draw to, with nothing in it: depth 0, label 0.
+  /// Binds it for drawing and clears it: depth 0, label 0.
   void bindEmpty() const;
   /// Binds one for reading: float, m along the optical axis; or uint8_t (layout/picture_labels.h). 0: nothing is there.
   void bindDepths() const;

@@ -15,7 +15,7 @@ namespace viscera {
 
 namespace {
 
-/// 0..1, the same for the same corner and seed.
+/// Returns a hash of a corner and a seed, 0..1.
 float hashed(uint32_t x, uint32_t y, uint32_t z, uint32_t seed) {
   uint32_t h = x * 0x8da6b343U ^ y * 0xd8163841U ^ z * 0xcb1ab31fU ^ seed * 0x9e3779b9U;
   h = (h ^ h >> 15U) * 0x2c1b3c6dU;
@@ -23,7 +23,7 @@ float hashed(uint32_t x, uint32_t y, uint32_t z, uint32_t seed) {
   return static_cast<float>((h ^ h >> 15U) >> 8U) / 16777216.0F;
 }
 
-/// Adds values at the corners of a grid of `cells` per period, smooth between them, to all texels.
+/// Adds smooth noise to all texels: random values at the corners of a grid of `cells` per period.
 void addNoise(std::vector<float>& sums, int side, const std::array<uint32_t, 3>& cells, uint32_t seed, float strength) {
   std::vector<float> corners;
   corners.reserve(size_t{cells[0]} * cells[1] * cells[2]);
@@ -58,7 +58,7 @@ void addNoise(std::vector<float>& sums, int side, const std::array<uint32_t, 3>&
   }
 }
 
-/// Octaves of such noise, each twice as fine and half as strong, spread over 0..255.
+/// Returns octaves of such noise, each twice as fine and half as strong, scaled to 0..255.
 std::vector<uint8_t> octaves(int side, std::array<uint32_t, 3> cells, int count, uint32_t seed) {
   std::vector<float> sums(static_cast<size_t>(side) * side * side);
   float strength = 1, whole = 0;
@@ -68,7 +68,7 @@ std::vector<uint8_t> octaves(int side, std::array<uint32_t, 3> cells, int count,
     strength /= 2;
     for (uint32_t& of : cells) of *= 2;
   }
-  constexpr float kContrast = 1.6F;  // sums of noise crowd around their mean
+  constexpr float kContrast = 1.6F;  // sums of noise cluster around their mean
   std::vector<uint8_t> out;
   out.reserve(sums.size());
   for (const float sum : sums)
@@ -88,7 +88,7 @@ std::vector<uint8_t> GrainTexture::texels(int side) {
 }
 
 std::vector<uint8_t> GrainTexture::slopes(const std::vector<uint8_t>& texels, int side) {
-  const auto relief = [&](int x, int y, int z) {  // 0..1 stands for -1..1
+  const auto relief = [&](int x, int y, int z) {  // 0..1 encodes -1..1
     const auto wrapped = [side](int i) { return static_cast<size_t>((i + side) % side); };
     const size_t at =
         4 * ((wrapped(z) * static_cast<size_t>(side) + wrapped(y)) * static_cast<size_t>(side) + wrapped(x));
@@ -141,7 +141,7 @@ uint32_t makeGrainTexture(const std::vector<uint8_t>& texels, int side) {
 }  // namespace
 
 GrainTexture::GrainTexture(bool slopes) {
-  static const std::vector<uint8_t> grain = texels();  // of all sessions of a process
+  static const std::vector<uint8_t> grain = texels();  // shared by all sessions of a process
   id_ = makeGrainTexture(grain, kSide);
   if (!slopes) return;
   static const std::vector<uint8_t> rises = GrainTexture::slopes(grain);

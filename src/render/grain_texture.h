@@ -7,22 +7,22 @@
 
 namespace viscera {
 
-/// Noise in space for shaders/draw/grain.glsl: periodic, mipmapped, the same in every run. Move-only.
+/// 3-D noise for shaders/draw/grain.glsl: periodic, mipmapped, the same in every run. Move-only.
 class GrainTexture {
  public:
-  /// Needs a current context. @param slopes  of its relief are wanted too
+  /// Needs a current context. @param slopes  makes slopes of its relief too
   explicit GrainTexture(bool slopes);
   ~GrainTexture();
   GrainTexture(const GrainTexture&) = delete;
   GrainTexture& operator=(const GrainTexture&) = delete;
   void bind() const;
-  void bindSlopes() const;  ///< for shaders/draw/seen_light.frag
+  void bindSlopes() const;  ///< for shaders/draw/deferred_lighting.frag
 
   static constexpr int kSide = 64;
-  /// [4 * side^3] bytes, x fastest: patches, patches and finer ones, fibres along x, 255.
+  /// Returns [4 * side^3] bytes, x fastest: patches, patches with finer ones, fibres along x, 255.
   static std::vector<uint8_t> texels(int side = kSide);
-  /// [4 * side^3] bytes: how the relief of such texels, as reliefAt() in grain.glsl puts it together, rises along x, y
-  /// and z: 128 is 0, 255 kSteepest per period.
+  /// Returns [4 * side^3] bytes: slopes along x, y and z of the relief of such texels, which reliefAt() in grain.glsl
+  /// defines: 128 is 0, 255 kSteepest per period.
   static std::vector<uint8_t> slopes(const std::vector<uint8_t>& texels, int side = kSide);
   static constexpr float kSteepest = 48;
 

@@ -7,25 +7,25 @@
 
 #include "gpu/gl.h"
 #include "layout/seen.h"
-#include "render/seen_light.h"
-#include "render/seen_target.h"
+#include "render/deferred_lighting.h"
+#include "render/g_buffer.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
 
 namespace {
 
-/// @throws GpuError  the driver refuses the size
+/// Returns a new texture. @throws GpuError  the driver refuses the size
 uint32_t checkedTexture(GLenum format, int width, int height, GLenum filter) {
   const uint32_t id = makeTexture(format, width, height, filter);
   const GLenum code = glGetError();
   if (code == GL_NO_ERROR) return id;
   glDeleteTextures(1, &id);
-  throw GpuError("no texture of " + std::to_string(width) + " x " + std::to_string(height) +
-                 " pixels for what a lens with distortion sees: " + gpu::glErrorText(code));
+  throw GpuError("cannot create a texture of " + std::to_string(width) + " x " + std::to_string(height) +
+                 " pixels for a lens with distortion: " + gpu::glErrorText(code));
 }
 
-/// [2 * width * height] where in the picture of its pinhole each pixel of a camera looks [px].
+/// Returns where in the image of its pinhole each pixel of a camera looks [2 * width * height, px].
 std::vector<float> sightsOf(const CameraConfig& camera, const CameraConfig& pinhole) {
   const Intrinsics k = intrinsics(pinhole);
   std::vector<float> out;
@@ -47,7 +47,7 @@ Lens::Lens(const CameraConfig& camera)
   const CameraConfig pinhole = pinholeOf(camera);
   width_ = pinhole.width_px;
   height_ = pinhole.height_px;
-  steepest_ = SeenLight::kSteepest / static_cast<float>(intrinsics(pinhole).fx);
+  steepest_ = DeferredLighting::kSteepest / static_cast<float>(intrinsics(pinhole).fx);
   colors_ = checkedTexture(GL_SRGB8_ALPHA8, width_, height_, GL_LINEAR);
   sights_ = checkedTexture(GL_RG32F, camera.width_px, camera.height_px, GL_NEAREST);
   const std::vector<float> sights = sightsOf(camera, pinhole);

@@ -12,25 +12,25 @@
 
 namespace viscera {
 
-/// Bends what a pinhole sees to what a camera with distortion shows: a line of sight per pixel, worked out once. Owner
-/// of shaders/draw/lens.frag, with whole.vert.
+/// Distorts the image of a pinhole camera to that of a camera with distortion, by one line of sight per pixel, computed
+/// once. Owner of shaders/draw/lens.frag, with whole.vert.
 class Lens {
  public:
-  /// Needs a current context. @param camera  with distortion; what it bends is of pinholeOf(camera)
+  /// Needs a current context. @param camera  with distortion; it distorts images of pinholeOf(camera)
   /// @throws GpuError  a size that the driver refuses
   explicit Lens(const CameraConfig& camera);
   ~Lens();
   Lens(const Lens&) = delete;
   Lens& operator=(const Lens&) = delete;
 
-  /// Bends the image that is bound for reading, and leaves what it becomes bound so.
+  /// Distorts the image that is bound for reading, and binds the result for reading.
   void bend();
-  /// Makes the image that was bent last the place to draw to.
+  /// Binds the last result for drawing.
   void bindForDrawing() const { image_.bindForDrawing(); }
   void bindForReading() const { image_.bindForReading(); }
-  /// Bends depths and labels, which no border mixes.
+  /// Distorts depths and labels, without interpolation across borders.
   void bend(const GeometryTarget& seen);
-  const GeometryTarget& geometry() const { return *geometry_; }  ///< that was bent last
+  const GeometryTarget& geometry() const { return *geometry_; }  ///< the last result
 
  private:
   void draw(const gpu::Program& program) const;
@@ -39,7 +39,7 @@ class Lens {
   float steepest_;      ///< see lens.frag
   gpu::Program bend_, bend_geometry_;
   RenderTarget image_;
-  std::unique_ptr<GeometryTarget> geometry_;  ///< null until one is wanted
+  std::unique_ptr<GeometryTarget> geometry_;  ///< null until requested
   uint32_t sights_ = 0, colors_ = 0, depths_ = 0, labels_ = 0;
   VertexArray nothing_;
 };

@@ -8,7 +8,7 @@
 
 namespace viscera {
 
-/// Draws the triangles of a mesh, run by run. @param inputs  that is bound   @param before  (run) is called first
+/// Draws the triangles of a mesh, run by run. @param inputs  must be bound   @param before  called with the run first
 template <class Before>
 void drawParts(const MeshView& mesh, const VertexArray& inputs, Before before) {
   glVertexArrayElementBuffer(inputs.id(), mesh.indices);

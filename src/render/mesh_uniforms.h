@@ -18,7 +18,7 @@ inline void setMeshMatrices(const gpu::Program& program, const Pose& optical_fro
   program.setMatrix("clip_from_optical", clip_from_optical.data());
 }
 
-/// Tells shaders/draw/shading.glsl what light a camera sees by.
+/// Sets the uniforms of shaders/draw/shading.glsl for the light of a camera.
 inline void setLight(const gpu::Program& program, const CameraConfig& camera) {
   const float light[] = {static_cast<float>((camera.target_m - camera.position_m).norm()),
                          static_cast<float>(std::tan(camera.light_cone_deg * M_PI / 360))};

@@ -11,8 +11,8 @@
 namespace viscera {
 
 namespace {
-constexpr float kBehindSlope = 2, kBehindSteps = 16;  // of depth: per pixel of slope, and least steps of the buffer
-constexpr float kAround = 1.01f;  // triangles of lathes (lathe.h) lie up to 0.7 % of the radius inside their shape
+constexpr float kBehindSlope = 2, kBehindSteps = 16;  // of depth: per pixel of slope, and in least steps of the buffer
+constexpr float kAround = 1.01f;  // triangles of lathes (lathe.h) are up to 0.7 % of the radius inside their shape
 }  // namespace
 
 ObstaclePainter::ObstaclePainter(const std::vector<ObstacleConfig>& obstacles, const std::vector<std::string>& features)
@@ -35,11 +35,11 @@ ObstaclePainter::ObstaclePainter(const std::vector<ObstacleConfig>& obstacles, c
   inputs_.readTools(vertices_.id(), indices_.id());
 }
 
-/// @param begin  (obstacle) sets its program and uniforms
+/// Draws all obstacles. @param begin  sets the program and uniforms of an obstacle
 template <class Begin>
 void ObstaclePainter::drawWith(const std::vector<Pose>& poses, Begin begin) {
   glBindVertexArray(inputs_.id());
-  // Tissue that lies on an obstacle is where its surface is: of the two the tissue is seen.
+  // Where tissue touches an obstacle, both surfaces coincide: the tissue is shown.
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(kBehindSlope, kBehindSteps);
   for (size_t i = 0; i < std::min(poses.size(), ends_.size()); ++i) {
@@ -58,7 +58,7 @@ void ObstaclePainter::draw(const std::vector<Pose>& poses, const Pose& optical_f
   drawWith(poses, [&](size_t i) { setMeshMatrices(program_, optical_from_tissue * poses[i], clip_from_optical); });
 }
 
-/// Triangles a little around the shape, whose pixels the program drops where the shape is not.
+/// Sets up triangles a little outside the shape; the program discards pixels outside the shape.
 const gpu::Program& ObstaclePainter::beginRound(const Round& round, const Pose& optical_from_obstacle,
                                                 const Eigen::Matrix4f& clip_from_optical) {
   if (!round_program_) round_program_ = gpu::Program::graphics("mesh.vert", "geometry.frag", {"ROUND"});

@@ -18,17 +18,17 @@ namespace viscera {
 class ObstaclePainter {
  public:
   ObstaclePainter(const std::vector<ObstacleConfig>& obstacles, const std::vector<std::string>& features);
-  void lightFor(const CameraConfig& camera) { setLight(program_, camera); }  ///< what is drawn from now on
-  /// Draws into the bound framebuffer. @param poses  [obstacles] tissue frame; those that are missing are not drawn
+  void lightFor(const CameraConfig& camera) { setLight(program_, camera); }  ///< for drawing after this call
+  /// Draws into the bound framebuffer. @param poses  [obstacles] tissue frame; obstacles without one are not drawn
   void draw(const std::vector<Pose>& poses, const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical);
 
-  /// Depths and labels, with geometry.frag: of spheres and capsules those of the shape and not of its triangles.
+  /// Draws depths and labels with geometry.frag; spheres and capsules are exact, not their triangles.
   /// @param program  geometry.frag as it is for triangles
   void drawGeometry(const gpu::Program& program, const std::vector<Pose>& poses, const Pose& optical_from_tissue,
                     const Eigen::Matrix4f& clip_from_optical);
 
  private:
-  /// A sphere or a capsule, as its own frame has it; radius 0: neither.
+  /// A sphere or a capsule in its own frame; radius 0: neither.
   struct Round {
     float radius_m = 0, half_length_m = 0;
   };
@@ -38,12 +38,12 @@ class ObstaclePainter {
                                  const Eigen::Matrix4f& clip_from_optical);
 
   gpu::Program program_;
-  gpu::Program round_program_;  ///< made when it is first needed
+  gpu::Program round_program_;  ///< made when first needed
   std::vector<Round> rounds_;   ///< [obstacles]
   VertexArray inputs_;
   gpu::Buffer<ToolVertex> vertices_;
   gpu::Buffer<uint32_t> indices_;
-  std::vector<size_t> ends_;  ///< [obstacles] index behind the last of each
+  std::vector<size_t> ends_;  ///< [obstacles] index after the last of each
 };
 
 }  // namespace viscera

@@ -21,11 +21,11 @@ namespace {
 
 constexpr std::array<float, 4> kSpringColor = {0.95f, 0.95f, 0.85f, 0.9f}, kNormalColor = {0.35f, 0.75f, 1.0f, 0.95f},
                                kForceColor = {1.0f, 0.85f, 0.2f, 0.95f};  // sRGB
-constexpr float kThrough = 0.15f;                                         // alpha of what lies behind tissue
-constexpr double kNearestDepths = 0.01;  // share of the depths for arrows: before all else
+constexpr float kThrough = 0.15f;                                         // alpha behind tissue
+constexpr double kNearestDepths = 0.01;  // share of the depth range for arrows, which are in front of all else
 constexpr std::array<float, 4> kLegend = {0.82f, -0.94f, 0.97f, -0.30f};  // left, top, right, bottom
 
-/// An arrow of length 1 along +z.
+/// Returns an arrow of length 1 along +z.
 ToolShape unitArrow(const std::array<uint8_t, 4>& color) {
   constexpr float kShaft = 0.03f, kHead = 0.09f, kNeck = 0.78f;
   ToolShape shape;
@@ -38,7 +38,7 @@ ToolShape unitArrow(const std::array<uint8_t, 4>& color) {
   return shape;
 }
 
-/// "0.300" as legend.frag takes it: its first four characters.
+/// Returns the first four characters of a number such as "0.300", for legend.frag.
 std::array<float, 4> digitsOf(double value) {
   const std::string text = fixedText(value, value < 1 ? 3 : 2);
   const char* at = text[0] == '0' ? text.c_str() + 1 : text.c_str();  // ".300", "1.50", "10.0"
@@ -85,12 +85,12 @@ OverlayPainter::OverlayPainter(const Model& model)
   glVertexArrayElementBuffer(arrow_inputs_.id(), arrow_indices_.id());
 }
 
-void OverlayPainter::follow(const OverlayLook& look) {
+void OverlayPainter::follow(const OverlayStyle& look) {
   if (look.capture != 0 && std::exchange(capture_, look.capture) == look.capture) return;
   nodes_.follow(look.state, *look.surface);
 }
 
-void OverlayPainter::drawStrain(const OverlayLook& look, const MeshView& mesh, const Pose& optical_from_tissue,
+void OverlayPainter::drawStrain(const OverlayStyle& look, const MeshView& mesh, const Pose& optical_from_tissue,
                                 const Eigen::Matrix4f& clip_from_optical) {
   nodes_.makeColors(*look.surface, look.strain_range);
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);
@@ -104,7 +104,7 @@ void OverlayPainter::drawStrain(const OverlayLook& look, const MeshView& mesh, c
   glBindVertexArray(0);
 }
 
-void OverlayPainter::draw(const OverlayLook& look, int supersampling, const Pose& optical_from_tissue,
+void OverlayPainter::draw(const OverlayStyle& look, int supersampling, const Pose& optical_from_tissue,
                           const Eigen::Matrix4f& clip_from_optical) {
   if (look.shown.has(Overlay::kForces) || look.shown.has(Overlay::kWind))
     drawArrows(look, optical_from_tissue, clip_from_optical);
@@ -143,7 +143,7 @@ void OverlayPainter::drawThrough(const Color& color, DrawLines drawLines) {
   glDepthFunc(GL_LESS);
 }
 
-void OverlayPainter::drawSprings(const OverlayLook& look) {
+void OverlayPainter::drawSprings(const OverlayStyle& look) {
   const size_t count = nodes_.makeLines(look.state, look.shown.has(Overlay::kSprings));
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);
   glVertexArrayVertexBuffer(line_inputs_.id(), 0, nodes_.nodes().id(), 0, sizeof(layout::vec4));
@@ -159,7 +159,7 @@ void OverlayPainter::drawSpikes(const gpu::Buffer<layout::vec4>& ends, const Col
   drawThrough(color, [&] { glDrawArrays(GL_LINES, 0, static_cast<GLsizei>(ends.size())); });
 }
 
-void OverlayPainter::drawArrows(const OverlayLook& look, const Pose& optical_from_tissue,
+void OverlayPainter::drawArrows(const OverlayStyle& look, const Pose& optical_from_tissue,
                                 const Eigen::Matrix4f& clip_from_optical) {
   glBindVertexArray(arrow_inputs_.id());
   arrow_.use();

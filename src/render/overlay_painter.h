@@ -8,7 +8,7 @@
 #include "render/shapes/tool_shape.h"
 #include "render/vertex_array.h"
 #include "surface/overlay/node_overlay.h"
-#include "surface/shown_triangles.h"
+#include "surface/visible_triangles.h"
 #include "viscera/model/scene/overlays.h"
 #include "viscera/render/arrow.h"
 #include "viscera/render/camera.h"
@@ -17,44 +17,44 @@ namespace viscera {
 
 struct MeshView;
 
-/// What is drawn over a picture, and what of.
-struct OverlayLook {
+/// Overlays of an image, and the state that they show.
+struct OverlayStyle {
   Overlays shown;
   double strain_range = 1;  ///< the end of the scale
   StateView state;
   const Surface* surface = nullptr;  ///< that follows the state
   const std::vector<Arrow>* arrows = nullptr;
   const IndexRuns* runs = nullptr;  ///< see Renderer::draw
-  uint64_t capture = 0;  ///< pictures of one number are of one state: what they share is worked out once; 0: alone
+  uint64_t capture = 0;  ///< images with equal numbers show one state, and share what is computed from it; 0: alone
 };
 
-/// Draws overlays: strain in place of the tissue's colours, lines that show through it faintly, arrows, a legend.
+/// Draws overlays: strain in place of the tissue's colours, lines that show faintly through it, arrows, a legend.
 class OverlayPainter {
  public:
   /// Needs a current context. @param model  must outlive this   @throws GpuError
   explicit OverlayPainter(const Model& model);
 
-  /// Brings nodes to the state, before anything is drawn.
-  void follow(const OverlayLook& look);
-  /// The surface in the colours of strain: in place of the tissue's. @param mesh  of look.surface
-  void drawStrain(const OverlayLook& look, const MeshView& mesh, const Pose& optical_from_tissue,
+  /// Updates nodes to the state, before anything is drawn.
+  void follow(const OverlayStyle& look);
+  /// Draws the surface in the colours of strain, in place of the tissue's. @param mesh  of look.surface
+  void drawStrain(const OverlayStyle& look, const MeshView& mesh, const Pose& optical_from_tissue,
                   const Eigen::Matrix4f& clip_from_optical);
-  /// All others but the legend, over what is there. @param supersampling  of the image, for the width of lines
-  void draw(const OverlayLook& look, int supersampling, const Pose& optical_from_tissue,
+  /// Draws all others but the legend over the image. @param supersampling  of the image, for the width of lines
+  void draw(const OverlayStyle& look, int supersampling, const Pose& optical_from_tissue,
             const Eigen::Matrix4f& clip_from_optical);
-  /// The scale of strain, at the right of the image.
+  /// Draws the scale of strain at the right of the image.
   void drawLegend(double strain_range);
 
  private:
   using Color = std::array<float, 4>;
   template <class DrawLines>
   void drawThrough(const Color& color, DrawLines drawLines);
-  void drawSprings(const OverlayLook& look);
+  void drawSprings(const OverlayStyle& look);
   void drawSpikes(const gpu::Buffer<layout::vec4>& ends, const Color& color);
-  void drawArrows(const OverlayLook& look, const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical);
+  void drawArrows(const OverlayStyle& look, const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical);
 
   NodeOverlay nodes_;
-  uint64_t capture_ = 0;  ///< that nodes_ follow
+  uint64_t capture_ = 0;  ///< capture of nodes_
   gpu::Program line_, strain_, arrow_, legend_;
   VertexArray mesh_inputs_, line_inputs_, arrow_inputs_, no_inputs_;
   gpu::Buffer<ToolVertex> arrow_vertices_;

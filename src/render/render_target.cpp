@@ -47,9 +47,9 @@ RenderTarget::RenderTarget(int width, int height, int supersampling) : RenderTar
   if (complete && code == GL_NO_ERROR) return;
   GLint largest = 0;
   glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
-  throw GpuError("no framebuffer for an image of " + std::to_string(width) + " x " + std::to_string(height) +
-                 " pixels: the driver takes 1 to " + std::to_string(largest / supersampling) + " along each axis; " +
-                 gpu::glErrorText(code));
+  throw GpuError("cannot create a framebuffer for an image of " + std::to_string(width) + " x " +
+                 std::to_string(height) + " pixels; the driver accepts 1 to " +
+                 std::to_string(largest / supersampling) + " along each axis; " + gpu::glErrorText(code));
 }
 
 RenderTarget::~RenderTarget() {

@@ -6,7 +6,7 @@
 
 namespace viscera {
 
-/// Where one camera's image is drawn: sRGB colour and depth, drawn larger than the image on request. Move-only.
+/// Render target for one camera's image: sRGB colour and depth, larger than the image on request. Move-only.
 class RenderTarget {
  public:
   /// @param width, height   of the image [px]
@@ -17,11 +17,11 @@ class RenderTarget {
   RenderTarget(RenderTarget&& other) noexcept;
   RenderTarget& operator=(RenderTarget&& other) noexcept;
 
-  /// Makes it the place to draw to.
+  /// Binds it for drawing.
   void bindForDrawing() const;
-  /// Averages the drawn pixels of each image pixel in linear light and binds the image for reading.
+  /// Averages the drawn pixels of each image pixel in linear light, and binds the image for reading.
   void resolve() const;
-  /// Binds the image resolved last for reading.
+  /// Binds the last resolved image for reading.
   void bindForReading() const;
 
   int width() const { return width_; }

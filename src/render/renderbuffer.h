@@ -6,7 +6,7 @@
 
 namespace viscera {
 
-/// Pixels that are drawn into and read back, and never sampled. The caller deletes it, and asks for errors.
+/// Returns pixels that are drawn and read back, and never sampled. The caller deletes it and checks for errors.
 inline uint32_t makeRenderbuffer(GLenum format, int width, int height) {
   uint32_t id = 0;
   glCreateRenderbuffers(1, &id);

@@ -11,19 +11,19 @@
 #include "gpu/stage_clock.h"
 #include "render/obstacle_painter.h"
 #include "render/overlay_painter.h"
-#include "render/thread_painter.h"
 #include "render/tissue_painter.h"
 #include "render/tool_painter.h"
+#include "render/tube_painter.h"
 
 namespace viscera {
 
 namespace {
 
-constexpr int kSamples = 2;  // of a pixel along each axis, where a camera does not say
+constexpr int kSamples = 2;                                         // of a pixel along each axis, by default
 constexpr float kBackground[] = {0.0056f, 0.0066f, 0.0080f, 1.0f};  // linear light: a neutral, slightly cool near-black
 
 void prepareDrawing() {
-  glDisable(GL_SCISSOR_TEST);  // clearing and resolving heed it
+  glDisable(GL_SCISSOR_TEST);  // it affects clearing and resolving
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDisable(GL_BLEND);
   glEnable(GL_DEPTH_TEST);
@@ -31,8 +31,8 @@ void prepareDrawing() {
   glDepthMask(GL_TRUE);
   glDepthRange(0, 1);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-  glDisable(GL_CULL_FACE);  // tissue is seen from inside through a cut
-  glFrontFace(GL_CW);       // the image is drawn upside down, which turns every winding
+  glDisable(GL_CULL_FACE);  // a cut shows tissue from inside
+  glFrontFace(GL_CW);       // the image is drawn upside down, which reverses every winding
 }
 
 void clearImage() {
@@ -42,7 +42,7 @@ void clearImage() {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-/// No overlays.
+/// Draws no overlays.
 struct Nothing {
   template <class View>
   void operator()(const View&, bool) const {}
@@ -59,7 +59,7 @@ Renderer::Renderer(const std::vector<CameraConfig>& cameras, const std::vector<S
   }
   const bool software = gpu::isSoftware();
   const auto lightsPixels = [&](const CameraConfig& camera) {
-    return camera.supersampling == 0 && software && camera.width_px * camera.height_px <= SeenTarget::kMostPixels;
+    return camera.supersampling == 0 && software && camera.width_px * camera.height_px <= GBuffer::kMostPixels;
   };
   const auto any = [this](auto asks) { return std::any_of(cameras_.begin(), cameras_.end(), asks); };
   if (any([](const CameraConfig& camera) { return camera.light == CameraLight::kLens; }))
@@ -76,7 +76,7 @@ Renderer::Renderer(const std::vector<CameraConfig>& cameras, const std::vector<S
     targets_.emplace_back();
     lit_targets_.emplace_back();
     if (lightsPixels(camera) && tissue_->lightsPixels()) {
-      lit_targets_.back() = std::make_unique<SeenTarget>(camera.width_px, camera.height_px);
+      lit_targets_.back() = std::make_unique<GBuffer>(camera.width_px, camera.height_px);
     }
     if (camera.supersampling == 0) camera.supersampling = kSamples;
     if (!lit_targets_.back())
@@ -86,11 +86,11 @@ Renderer::Renderer(const std::vector<CameraConfig>& cameras, const std::vector<S
 
 Renderer::~Renderer() = default;
 
-void Renderer::addThreads(const std::vector<ThreadLook>& threads) {
-  threads_ = std::make_unique<ThreadPainter>(threads, light_features_);
+void Renderer::addTubes(const std::vector<TubeStyle>& sutures) {
+  sutures_ = std::make_unique<TubePainter>(sutures, light_features_);
 }
 
-/// Its width at a distance of 1.
+/// Returns the width of a pixel at a distance of 1.
 double Renderer::pixelOf(size_t camera) const {
   return 1 / intrinsics(cameras_[camera]).fy;
 }
@@ -103,12 +103,12 @@ void Renderer::draw(size_t camera, const MeshView& mesh, const ToolMotions& moti
   drawImage(camera, mesh, motions, true, Nothing{});
 }
 
-void Renderer::draw(size_t camera, const Model& model, const OverlayLook& look, const ToolMotions& motions) {
+void Renderer::draw(size_t camera, const Model& model, const OverlayStyle& look, const ToolMotions& motions) {
   if (!overlays_) overlays_ = std::make_unique<OverlayPainter>(model);
   overlays_->follow(look);
   const MeshView mesh = meshOf(*look.surface, look.runs);
   const bool strain = look.shown.has(Overlay::kStrain);
-  const Lens* lens = lenses_[camera].get();  // bends no writing
+  const Lens* lens = lenses_[camera].get();  // not for legends
   drawImage(camera, mesh, motions, !strain, [&](const View& view, bool before_tools) {
     if (before_tools) {
       if (strain) overlays_->drawStrain(look, mesh, view.optical_from_tissue, view.clip_from_optical);
@@ -132,7 +132,8 @@ Renderer::View Renderer::viewOf(size_t camera) const {
   return {camera, camera_poses_[camera].inverse(), clipFromOptical(cameras_[camera])};
 }
 
-/// @param tissue  is drawn   @param drawOver  (view, is it before obstacles and tools or after them?)
+/// Draws an image. @param tissue  draw it   @param drawOver  called with the view, and whether it is before obstacles
+/// and tools or after
 template <class DrawOver>
 void Renderer::drawImage(size_t camera, const MeshView& mesh, const ToolMotions& motions, bool tissue,
                          DrawOver drawOver) {
@@ -157,7 +158,7 @@ void Renderer::lightFor(const CameraConfig& camera) {
   tissue_->lightFor(camera);
   tools_->lightFor(camera);
   if (obstacles_) obstacles_->lightFor(camera);
-  if (threads_) threads_->lightFor(camera);
+  if (sutures_) sutures_->lightFor(camera);
 }
 
 template <class DrawOver>
@@ -172,11 +173,11 @@ void Renderer::drawSamples(const View& view, const MeshView& mesh, const ToolMot
   target.resolve();
 }
 
-/// Tissue lit pixel by pixel, then all else, samples of which are put over it.
+/// Draws tissue with lighting per pixel, then all else, with supersampling, over it.
 template <class DrawOver>
 void Renderer::drawPixels(const View& view, const MeshView& mesh, const ToolMotions& motions, bool tissue,
                           DrawOver drawOver) {
-  const SeenTarget& target = *lit_targets_[view.camera];
+  const GBuffer& target = *lit_targets_[view.camera];
   glEnable(GL_FRAMEBUFFER_SRGB);
   const bool by_pixels = tissue && mesh.rests != 0;
   if (by_pixels) {
@@ -189,7 +190,7 @@ void Renderer::drawPixels(const View& view, const MeshView& mesh, const ToolMoti
     glClearBufferfv(GL_COLOR, 0, kBackground);
   }
   const bool any_over =
-      !by_pixels || obstacles_ || threads_ || tools_->showsAny(motions) || !std::is_same_v<DrawOver, Nothing>;
+      !by_pixels || obstacles_ || sutures_ || tools_->showsAny(motions) || !std::is_same_v<DrawOver, Nothing>;
   if (any_over) {
     if (by_pixels && pause_ && std::is_same_v<DrawOver, Nothing>) pause_();
     target.bindOver();
@@ -201,14 +202,14 @@ void Renderer::drawPixels(const View& view, const MeshView& mesh, const ToolMoti
   target.bindForReading();
 }
 
-/// Lit where it is drawn.
+/// Draws tissue with lighting per sample.
 void Renderer::drawTissue(const View& view, const MeshView& mesh, const ToolMotions& motions) {
   const gpu::TimedStage timed(gpu::Stage::kTissue);
   tissue_->draw(mesh, toolShadows(motions, styluses_, cameras_[view.camera], view.optical_from_tissue),
                 view.optical_from_tissue, view.clip_from_optical);
 }
 
-/// Everything but tissue.
+/// Draws everything but tissue.
 template <class DrawOver>
 void Renderer::drawRest(const View& view, const ToolMotions& motions, DrawOver drawOver) {
   {
@@ -218,8 +219,8 @@ void Renderer::drawRest(const View& view, const ToolMotions& motions, DrawOver d
   {
     const gpu::TimedStage tools(gpu::Stage::kTools);
     if (obstacles_) obstacles_->draw(obstacle_poses_, view.optical_from_tissue, view.clip_from_optical);
-    if (threads_)
-      threads_->draw(shown_threads_, view.optical_from_tissue, view.clip_from_optical, pixelOf(view.camera));
+    if (sutures_)
+      sutures_->draw(visible_tubes_, view.optical_from_tissue, view.clip_from_optical, pixelOf(view.camera));
     tools_->draw(motions, view.optical_from_tissue, view.clip_from_optical);
   }
   const gpu::TimedStage after(gpu::Stage::kOverlays);
@@ -244,8 +245,8 @@ void Renderer::drawGeometry(size_t camera, const MeshView& mesh, const ToolMotio
   if (obstacles_) {
     obstacles_->drawGeometry(geometry_program_, obstacle_poses_, optical_from_tissue, clip_from_optical);
   }
-  if (threads_) {
-    threads_->drawGeometry(geometry_program_, shown_threads_, optical_from_tissue, clip_from_optical, pixelOf(camera));
+  if (sutures_) {
+    sutures_->drawGeometry(geometry_program_, visible_tubes_, optical_from_tissue, clip_from_optical, pixelOf(camera));
   }
   tools_->drawGeometry(geometry_program_, motions, optical_from_tissue, clip_from_optical);
   if (lenses_[camera]) lenses_[camera]->bend(*target);

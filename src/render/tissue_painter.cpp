@@ -31,7 +31,7 @@ Vector3f linear(const Vector3d& srgb) {
   return srgb.unaryExpr(&linearFromSrgb).cast<float>();
 }
 
-/// Tells shaders/draw/grain.glsl how the bodies look.
+/// Sets the uniforms of shaders/draw/grain.glsl for the bodies.
 void setFinishes(const gpu::Program& program, const Model& model) {
   constexpr size_t kLayers = 4;  // of a body in grain.glsl, and at most in a scene
   std::vector<float> finishes(4 * layout::kMaxBodies), walls(finishes), layers(4 * kLayers * layout::kMaxBodies);
@@ -39,10 +39,10 @@ void setFinishes(const gpu::Program& program, const Model& model) {
     const Body& body = model.bodies[b];
     const size_t count = std::min(body.layers.size(), kLayers);
     finishes[4 * b] = static_cast<float>(body.roughness);
-    finishes[4 * b + 1] = static_cast<float>(body.mottling);
+    finishes[4 * b + 1] = static_cast<float>(body.color_variation);
     finishes[4 * b + 2] = static_cast<float>(count);
-    finishes[4 * b + 3] = static_cast<float>(body.wetness);
-    walls[4 * b] = static_cast<float>(body.wall_grain);
+    finishes[4 * b + 3] = static_cast<float>(body.specular_wetness);
+    walls[4 * b] = static_cast<float>(body.cut_wall_texture);
     for (size_t i = 0; i < count; ++i) {
       const Vector3f color = linear(body.layers[i].color);
       std::copy_n(color.data(), 3, &layers[4 * (kLayers * b + i)]);
@@ -82,11 +82,11 @@ TissuePainter::TissuePainter(const Model* model, bool samples, bool pixels, std:
   const auto any = [model](double Body::*look) {
     return std::any_of(model->bodies.begin(), model->bodies.end(), [look](const Body& body) { return body.*look > 0; });
   };
-  if (any(&Body::wetness)) features.emplace_back("FILM");
-  if (any(&Body::wall_grain)) features.emplace_back("WALL_GRAIN");
+  if (any(&Body::specular_wetness)) features.emplace_back("FILM");
+  if (any(&Body::cut_wall_texture)) features.emplace_back("WALL_GRAIN");
   if (detail_) features.emplace_back("DETAIL");
   if (pixels) {
-    light_ = std::make_unique<SeenLight>(features);
+    light_ = std::make_unique<DeferredLighting>(features);
     for (const gpu::Program* program : light_->programs()) {
       if (!grain_) continue;
       setFinishes(*program, *model);
@@ -100,7 +100,7 @@ TissuePainter::TissuePainter(const Model* model, bool samples, bool pixels, std:
     if (grain_) setFinishes(tissue_program_, *model);
   }
   features.emplace_back("SRGB");
-  if (pixels) seen_program_ = gpu::Program::graphics("mesh.vert", "tissue_seen.frag", features);
+  if (pixels) seen_program_ = gpu::Program::graphics("mesh.vert", "tissue_g_buffer.frag", features);
 }
 
 void TissuePainter::lightFor(const CameraConfig& camera) {
@@ -110,7 +110,7 @@ void TissuePainter::lightFor(const CameraConfig& camera) {
   for (const gpu::Program* program : light_->programs()) setLight(*program, camera);
 }
 
-/// With its places at rest, and textures.
+/// Binds a mesh with its rest positions, and textures.
 void TissuePainter::bindAtRest(const MeshView& mesh) const {
   bindMesh(tissue_inputs_, mesh);
   glVertexArrayVertexBuffer(tissue_inputs_.id(), kRestInput, mesh.rests, 0, 4 * sizeof(float));
@@ -119,7 +119,7 @@ void TissuePainter::bindAtRest(const MeshView& mesh) const {
   glBindVertexArray(tissue_inputs_.id());
 }
 
-/// What bindAtRest() has bound, with the program in use.
+/// Draws what bindAtRest() has bound, with the program in use.
 void TissuePainter::drawAtRest(const gpu::Program& program, const MeshView& mesh) const {
   if (detail_) glBindTextureUnit(layout::kUnitShownCharts, mesh.charts);
   drawParts(mesh, tissue_inputs_, [&](const IndexRun& run) {
@@ -148,7 +148,7 @@ void TissuePainter::draw(const MeshView& mesh, const ToolShadows& shadows, const
   glBindVertexArray(0);
 }
 
-void TissuePainter::drawPixels(const SeenTarget& target, const CameraConfig& camera, const MeshView& mesh,
+void TissuePainter::drawPixels(const GBuffer& target, const CameraConfig& camera, const MeshView& mesh,
                                const ToolShadows& shadows, const Pose& optical_from_tissue,
                                const Eigen::Matrix4f& clip_from_optical, const float (&background)[4],
                                const std::function<void()>& pause) {

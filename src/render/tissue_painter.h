@@ -7,36 +7,37 @@
 #include <vector>
 
 #include "gpu/program.h"
+#include "render/deferred_lighting.h"
 #include "render/detail_textures.h"
 #include "render/grain_texture.h"
 #include "render/renderer.h"
-#include "render/seen_light.h"
 #include "render/tool_shadows.h"
 #include "render/vertex_array.h"
 
 namespace viscera {
 
-/// Draws the skin: lit, wet, two-sided, with the tools' shadows. Owner of shaders/draw/tissue.frag, with mesh.vert.
+/// Draws the surface mesh: lit, wet, two-sided, with the tools' shadows. Owner of shaders/draw/tissue.frag, with
+/// mesh.vert.
 class TissuePainter {
  public:
-  /// @param model  whose textures are drawn; null: none are   @param samples, pixels  which ways to draw are to be
-  /// there for what has them: lit sample by sample, or pixel by pixel   @param features  LENS_LIGHT, CONTACTS
+  /// @param model  of the drawn textures; null: none   @param samples, pixels  makes programs for lighting per sample,
+  /// or per pixel   @param features  LENS_LIGHT, CONTACTS
   /// @throws GpuError  file, line and driver log of a shader that does not compile
   TissuePainter(const Model* model, bool samples, bool pixels, std::vector<std::string> features);
-  void lightFor(const CameraConfig& camera);  ///< what is drawn from now on
+  void lightFor(const CameraConfig& camera);  ///< for drawing after this call
   /// Draws into the bound framebuffer; depth test, front face and blending are the caller's.
   void draw(const MeshView& mesh, const ToolShadows& shadows, const Pose& optical_from_tissue,
             const Eigen::Matrix4f& clip_from_optical);
 
-  /// Can it light pixels? Where nothing is but cloth there is little to be lit.
+  /// Returns whether it can light per pixel. It cannot if all bodies are cloth, where that would save little.
   bool lightsPixels() const { return light_ != nullptr; }
-  /// Draws what a mesh with places at rest looks like into a target's samples, and lights its image.
-  void drawPixels(const SeenTarget& target, const CameraConfig& camera, const MeshView& mesh,
-                  const ToolShadows& shadows, const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical,
+  /// Draws a mesh with rest positions into a target's samples, and lights its image.
+  void drawPixels(const GBuffer& target, const CameraConfig& camera, const MeshView& mesh, const ToolShadows& shadows,
+                  const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical,
                   const float (&background)[4], const std::function<void()>& pause);
-  const SeenLight& light() const { return *light_; }
+  const DeferredLighting& light() const { return *light_; }
 
-  /// The same with another program: geometry.frag.
+  /// Draws with another program: geometry.frag.
   void drawGeometry(const gpu::Program& program, const MeshView& mesh, const Pose& optical_from_tissue,
                     const Eigen::Matrix4f& clip_from_optical);
 
@@ -46,12 +47,12 @@ class TissuePainter {
   void useWith(const gpu::Program& program, const ToolShadows& shadows, const Pose& optical_from_tissue,
                const Eigen::Matrix4f& clip_from_optical);
 
-  std::unique_ptr<DetailTextures> detail_;  ///< null where no skin has any
+  std::unique_ptr<DetailTextures> detail_;  ///< null where no surface mesh has any
   std::unique_ptr<GrainTexture> grain_;     ///< null where all is cloth
-  gpu::Program program_, tissue_program_;   ///< the latter for all that has a place at rest
-  gpu::Program depth_program_;              ///< before it, so that what is hidden is not shaded
+  gpu::Program program_, tissue_program_;   ///< the latter for all vertices with a rest position
+  gpu::Program depth_program_;              ///< drawn first, so that hidden fragments are not shaded
   gpu::Program seen_program_;
-  std::unique_ptr<SeenLight> light_;  ///< null: none is wanted, or all is cloth
+  std::unique_ptr<DeferredLighting> light_;  ///< null: not requested, or all is cloth
   VertexArray inputs_, tissue_inputs_;
 };
 

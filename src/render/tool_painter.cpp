@@ -37,7 +37,7 @@ bool ToolPainter::showsAny(const ToolMotions& motions) const {
                      [](const StylusMotion& motion) { return motion.present; });
 }
 
-/// @param before  (stylus) is called first
+/// Draws a part of all styluses. @param before  called with the stylus first
 template <class Before>
 void ToolPainter::drawPart(const gpu::Program& program, Part part, const ToolMotions& motions,
                            const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical, Before before) {

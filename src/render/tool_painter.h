@@ -20,18 +20,18 @@ namespace viscera {
 class ToolPainter {
  public:
   ToolPainter(const std::vector<StylusConfig>& styluses, const std::vector<std::string>& features);
-  void lightFor(const CameraConfig& camera) { setLight(program_, camera); }  ///< what is drawn from now on
-  /// Draws into the bound framebuffer, where the tissue already is: the outlines of tools let it shine through.
+  void lightFor(const CameraConfig& camera) { setLight(program_, camera); }  ///< for drawing after this call
+  /// Draws into the bound framebuffer, after the tissue, which shows through the outlines of tools.
   void draw(const ToolMotions& motions, const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical);
 
   bool showsAny(const ToolMotions& motions) const;
 
-  /// Draws what is solid with another program: geometry.frag.
+  /// Draws solid parts with another program: geometry.frag.
   void drawGeometry(const gpu::Program& program, const ToolMotions& motions, const Pose& optical_from_tissue,
                     const Eigen::Matrix4f& clip_from_optical);
 
  private:
-  /// Of a kind of tool, one after another: what is solid, what is translucent, and one of two fingers.
+  /// Of a kind of tool, in order: solid parts, translucent parts, and one of two fingers.
   struct Range {
     size_t first_index = 0, solid_indices = 0, translucent_indices = 0, finger_indices = 0;
   };

@@ -12,7 +12,7 @@ namespace viscera {
 
 struct StylusConfig;
 
-/// What of the tools casts a shadow on tissue, as tissue.frag takes it: by its shadow a person sees how far a tool is.
+/// Shadow of the tools on tissue, for tissue.frag. It shows the user how far a tool is.
 struct ToolShadows {
   using Vector4 = std::array<float, 4>;
   int count = 0;

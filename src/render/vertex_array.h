@@ -12,7 +12,7 @@ namespace viscera {
 /// Inputs of shaders/draw/mesh.vert.
 enum MeshInput : GLuint { kPositionInput = 0, kNormalInput = 1, kColorInput = 2, kRestInput = 3 };
 
-/// How vertex inputs are read from buffers; the buffers themselves are bound when drawing.
+/// Formats of vertex inputs; the buffers themselves are bound when drawing.
 class VertexArray {
  public:
   VertexArray() {
@@ -23,13 +23,14 @@ class VertexArray {
   VertexArray(const VertexArray&) = delete;
   VertexArray& operator=(const VertexArray&) = delete;
 
-  /// Input `input` has `size` components of `type`, `offset` bytes into each element of the buffer at `binding`.
+  /// Sets the format of an input: `size` components of `type`, `offset` bytes into each element of the buffer at
+  /// `binding`.
   void describe(GLuint input, GLuint binding, GLint size, GLenum type, GLboolean normalized, GLuint offset) {
     glEnableVertexArrayAttrib(id_, input);
     glVertexArrayAttribFormat(id_, input, size, type, normalized, offset);
     glVertexArrayAttribBinding(id_, input, binding);
   }
-  /// All that mesh.vert reads of tools: vertices that are ToolVertex, and their indices.
+  /// Sets the formats that mesh.vert reads of tools: vertices that are ToolVertex, and their indices.
   void readTools(GLuint vertices, GLuint indices) {
     constexpr GLuint kBinding = 0;
     describe(kPositionInput, kBinding, 3, GL_FLOAT, GL_FALSE, offsetof(ToolVertex, position_m));

@@ -11,7 +11,7 @@ std::array<double, 3> array(const Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-/// How far along a ray the middle of all vertices is.
+/// Returns the distance of the mean of all vertices along a ray.
 double middleAlong(const ScreenRay& ray, const std::vector<float>& positions_m) {
   Vector3d sum = Vector3d::Zero();
   for (size_t i = 0; i + 2 < positions_m.size(); i += 3)
@@ -33,7 +33,7 @@ std::optional<Pose> MouseAim::at(const ScreenRay& ray, const SentSurface& live, 
   if (!distance_m_) distance_m_ = middleAlong(ray, vertices_->positions_m);
   Pose pose;
   pose.position_m = ray.origin_m + (*distance_m_ + depth_m) * ray.direction;
-  const Vector3d hand = (ray.right - ray.up).normalized();  // whose lower right the hand holds the shaft
+  const Vector3d hand = (ray.right - ray.up).normalized();  // the shaft's upper end is at the lower right
   const Vector3d z = -std::cos(tilt_rad) * ray.direction + std::sin(tilt_rad) * hand;
   const Vector3d y = z.cross(ray.right).normalized();
   Eigen::Matrix3d axes;

@@ -10,27 +10,27 @@
 
 namespace viscera::rviz_plugin {
 
-/// A place on the screen as a ray into the scene; lengths 1, at right angles, in the frame of the surface.
+/// A point on the screen as a ray into the scene; unit vectors at right angles, in the frame of the surface.
 struct ScreenRay {
   Vector3d origin_m, direction;
-  Vector3d right, up;  ///< of the camera
+  Vector3d right, up;  ///< axes of the camera
 };
 
-/// Where a tip is that a mouse leads: on the ray, so far before the skin or behind it.
+/// Finds the tip of a stylus that the mouse moves: on the ray, at a given depth before or behind the surface.
 class MouseAim {
  public:
-  /// Skin that a tool pushes gives way, and a ray to it would go after it, deeper and deeper. So from the moment in
-  /// which the tip reaches the skin, or a button is pressed, it is led along the skin as it was then.
-  /// @param depth_m  behind the skin, below 0 before it   @param tilt_rad  of the shaft, from the ray to the lower
-  /// right
-  /// @returns pose of the stylus, its shaft along +z; nothing while no surface is known
+  /// Returns the pose of the stylus. A tool pushes the surface away, and a ray to the live surface would follow it
+  /// deeper and deeper. So the surface is frozen from the moment at which the tip reaches it or a button is pressed.
+  /// @param depth_m  depth behind the surface, below 0 before it [m]
+  /// @param tilt_rad  tilt of the shaft from the ray to the lower right
+  /// @returns the pose, with the shaft along +z; nothing while no surface is known
   std::optional<Pose> at(const ScreenRay& ray, const SentSurface& live, double depth_m, double tilt_rad, bool pressed);
   void clear() { *this = MouseAim(); }
 
  private:
-  std::shared_ptr<const SentTopology> topology_;  ///< of the skin along which it is led
+  std::shared_ptr<const SentTopology> topology_;  ///< topology of the frozen surface
   SurfaceVerticesConstPtr vertices_;
-  std::optional<double> distance_m_;  ///< of the skin, where a ray has met it last
+  std::optional<double> distance_m_;  ///< distance along the ray to the last hit [m]
 };
 
 }  // namespace viscera::rviz_plugin

@@ -19,15 +19,15 @@
 #include <cmath>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "rviz/panel_look.h"
+#include "rviz/panel_style.h"
 #include "rviz/simulator_space.h"
 #include "rviz/stylus_sender.h"
 
 namespace viscera::rviz_plugin {
 namespace {
 
-constexpr double kWheelNotch = 120;  // of Qt's wheel, an eighth of a degree each
-constexpr double kFine = 0.1;        // of a step, with Control
+constexpr double kWheelNotch = 120;  // units of Qt's wheel per notch, an eighth of a degree each
+constexpr double kFine = 0.1;        // factor of a step with Control
 constexpr double kRadians = M_PI / 180;
 
 Vector3d vector(const Ogre::Vector3& v) {
@@ -39,14 +39,15 @@ Vector3d vector(const Ogre::Vector3& v) {
 MouseTool::MouseTool() {
   shortcut_key_ = 'h';
   rviz::Property* all = getPropertyContainer();
-  space_ = new rviz::StringProperty("Namespace", "", "Of the simulator; empty: rviz's own.", all);
-  stylus_ = new rviz::StringProperty("Stylus", "left", "Which stylus of the scene the mouse is.", all);
-  depth_ =
-      new rviz::FloatProperty("Depth", -0.01F, "Of the tip behind the skin [m], below 0 before it. The wheel.", all);
-  step_ = new rviz::FloatProperty("Wheel step", 0.001F, "Of the depth [m], with Control a tenth.", all);
-  speed_ = new rviz::FloatProperty("Speed", 0.2F, "Of the tip, at most [m/s]: a mouse jumps.", all);
-  tilt_ =
-      new rviz::FloatProperty("Tilt", 40, "Of the shaft, from the line of sight to the lower right [degrees].", all);
+  space_ = new rviz::StringProperty("Namespace", "", "Namespace of the simulator; empty: that of rviz.", all);
+  stylus_ = new rviz::StringProperty("Stylus", "left", "Stylus of the scene that the mouse moves.", all);
+  depth_ = new rviz::FloatProperty(
+      "Depth", -0.01F, "Depth of the tip behind the skin [m], negative in front of it. The wheel changes it.", all);
+  step_ = new rviz::FloatProperty("Wheel step", 0.001F,
+                                  "Change of the depth per wheel step [m]; a tenth of it with Control.", all);
+  speed_ = new rviz::FloatProperty("Speed", 0.2F, "Largest speed of the tip [m/s], because a mouse jumps.", all);
+  tilt_ = new rviz::FloatProperty("Tilt", 40, "Tilt of the shaft from the line of sight to the lower right [degrees].",
+                                  all);
   step_->setMin(1e-6F);
   step_->setMax(0.1F);
   speed_->setMin(0.001F);
@@ -66,7 +67,7 @@ void MouseTool::onInitialize() {
   setName("Mouse stylus");
   setIcon(icon(Sign::kMouse));
   sender_ = std::make_unique<StylusSender>();
-  context_->getViewManager()->getRenderPanel()->installEventFilter(this);  // rviz gives tools no releases of keys
+  context_->getViewManager()->getRenderPanel()->installEventFilter(this);  // rviz does not pass key releases to tools
 }
 
 void MouseTool::activate() {
@@ -85,7 +86,7 @@ void MouseTool::deactivate() {
   tell("");
 }
 
-/// Asks for the surface of the simulator.
+/// Subscribes to the surface of the simulator.
 void MouseTool::follow() {
   feed_.unsubscribe();
   feed_.clear();
@@ -97,7 +98,7 @@ void MouseTool::follow() {
     const std::string space = simulatorSpace(space_->getStdString());
     feed_.subscribe(node, space + "surface");
     topics_ = space;
-  } catch (const ros::Exception&) {  // update() says so
+  } catch (const ros::Exception&) {  // update() reports it
   }
 }
 
@@ -112,14 +113,14 @@ void MouseTool::tell(const QString& text) {
 
 void MouseTool::update(float, float) {
   if (!active_) return;
-  // Releases that another window has got.
+  // Releases may have gone to another window.
   if (!QApplication::activeWindow()) keys_ = {};
   if (QApplication::mouseButtons() == Qt::NoButton) mouse_ = {};
   const std::string stylus = stylus_->getStdString();
   std::string wrong;
-  if (topics_.empty()) return tell("no namespace: " + space_->getString());
+  if (topics_.empty()) return tell("not a valid namespace: " + space_->getString());
   if (!ros::names::validate(stylus, wrong) || stylus.empty() || stylus[0] == '/')
-    return tell("no name of a stylus: " + stylus_->getString());
+    return tell("not a valid stylus name: " + stylus_->getString());
   if (feed_.renew()) aim_.clear();
   const std::optional<Pose> tip = aim();
   if (!tip) return sender_->rest();
@@ -139,7 +140,7 @@ void MouseTool::update(float, float) {
                 wanted.buttons[1] ? ", button 2" : ""));
 }
 
-/// Where the tip is to be, in the surface's frame; nothing while that is not known.
+/// Returns the desired pose in the surface's frame; nothing while it is not known.
 std::optional<Pose> MouseTool::aim() {
   const SurfaceVerticesConstPtr& vertices = feed_.surface().vertices();
   const SenderWatch::Senders senders = feed_.senders();
@@ -206,7 +207,7 @@ bool MouseTool::eventFilter(QObject* watched, QEvent* event) {
   return rviz::Tool::eventFilter(watched, event);
 }
 
-/// @returns whether the key is one of ours
+/// Handles a key. @returns whether it is one of ours
 bool MouseTool::press(const QKeyEvent& event, bool down) {
   const int key = event.key() - Qt::Key_1;
   if (key < 0 || key >= static_cast<int>(keys_.size())) return false;

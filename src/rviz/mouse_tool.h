@@ -21,7 +21,8 @@ namespace viscera::rviz_plugin {
 
 class StylusSender;
 
-/// `viscera/Mouse`: the mouse is a stylus. Its tip is where the mouse points on the skin, the wheel pushes it deeper.
+/// Tool `viscera/Mouse`: the mouse moves a stylus. The tip is on the surface under the cursor; the wheel pushes it
+/// deeper.
 class MouseTool : public rviz::Tool {
  public:
   MouseTool();
@@ -37,7 +38,7 @@ class MouseTool : public rviz::Tool {
 
  private:
   struct Place {
-    int x = 0, y = 0;  ///< on the screen [pixels]
+    int x = 0, y = 0;  ///< screen coordinates [pixels]
   };
   bool press(const QKeyEvent& event, bool down);
   void follow();
@@ -49,11 +50,11 @@ class MouseTool : public rviz::Tool {
   rviz::FloatProperty *depth_, *step_, *speed_, *tilt_;
   SurfaceFeed feed_;
   MouseAim aim_;
-  std::optional<Place> place_;  ///< of the mouse; nothing: it has not been there yet
+  std::optional<Place> place_;  ///< mouse position; empty before the mouse entered the window
   std::array<bool, 2> keys_{}, mouse_{};
   bool active_ = false;
   QString told_;
-  std::string topics_;  ///< of the simulator, with a slash at their end; empty: no name
+  std::string topics_;  ///< prefix of the simulator's topics, with a slash at its end; empty: the name is invalid
   std::unique_ptr<StylusSender> sender_;
 };
 

@@ -10,8 +10,8 @@
 namespace viscera::rviz_plugin {
 namespace {
 
-constexpr size_t kMostJobs = 8;                       // as the simulator's queue
-constexpr std::chrono::milliseconds kCloseAgain{20};  // a call that was about to begin is closed the next time
+constexpr size_t kMostJobs = 8;                       // as in the simulator's queue
+constexpr std::chrono::milliseconds kCloseAgain{20};  // retries to close a call that was about to begin
 
 }  // namespace
 
@@ -36,7 +36,7 @@ RosWorker::~RosWorker() {
 
 void RosWorker::add(std::function<std::string()> job) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (jobs_.size() >= kMostJobs) return;  // a person who clicks on and on
+  if (jobs_.size() >= kMostJobs) return;  // the user keeps clicking
   jobs_.push_back(std::move(job));
   changed_.notify_all();
 }
@@ -52,7 +52,7 @@ void RosWorker::main() {
     std::string answer;
     try {
       answer = job();
-    } catch (const ros::Exception& error) {  // no name of a service
+    } catch (const ros::Exception& error) {  // not a valid name of a service
       answer = error.what();
     }
     lock.lock();

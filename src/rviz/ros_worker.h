@@ -14,25 +14,25 @@
 
 namespace viscera::rviz_plugin {
 
-/// Does, one after the other on a thread of its own, what waits for a master or a simulator: an answer may take a
-/// minute, and a window that waits for it is dead.
+/// Runs jobs that wait for a master or a simulator, one after another on a thread of its own. An answer may take a
+/// minute, and a window that waits for it would freeze.
 class RosWorker {
  public:
-  /// @param told  called on that thread with what a person is told: that a call waits, and what has come of it
+  /// The callback gets texts for the user, on that thread: that a call waits, and its result.
   explicit RosWorker(std::function<void(const std::string&)> told);
-  /// Does not wait for answers.
+  /// Ends without waiting for answers.
   ~RosWorker();
 
-  /// @param service  whole name, of a Service whose response has success and message
+  /// Calls a service. @param service  full name of a service with success and message in its response
   template <class Service>
   void call(const std::string& service, const typename Service::Request& request) {
     add([this, service, request] { return ask<Service>(service, request).text; });
   }
   struct Answer {
     bool success = false;
-    std::string text;  ///< what a person is told
+    std::string text;  ///< text for the user
   };
-  /// Calls a service and waits for its answer; within a job.
+  /// Calls a service and waits for its answer. Call it within a job.
   template <class Service>
   Answer ask(const std::string& service, const typename Service::Request& request) {
     told_(service + " ...");
@@ -43,12 +43,12 @@ class RosWorker {
     if (!response.success) return {false, service + ": refused: " + response.message};
     return {true, service + ": " + (response.message.empty() ? "done" : response.message)};
   }
-  /// @param job  @returns what a person is told; empty: nothing
+  /// Adds a job. @param job  @returns a text for the user; empty: none
   void add(std::function<std::string()> job);
 
  private:
   void main();
-  /// One that the end closes, which ends a call that waits.
+  /// Returns a client that the destructor shuts down, which ends a waiting call.
   template <class Service>
   ros::ServiceClient hold(const std::string& service) {
     ros::ServiceClient client = ros::NodeHandle().serviceClient<Service>(service, true);
@@ -63,7 +63,7 @@ class RosWorker {
   std::deque<std::function<std::string()>> jobs_;
   ros::ServiceClient client_;
   bool ending_ = false, ended_ = false;
-  std::thread thread_;  ///< last: it uses all of the above
+  std::thread thread_;  ///< last member: it uses all of the above
 };
 
 }  // namespace viscera::rviz_plugin

@@ -22,7 +22,7 @@ namespace {
 constexpr std::chrono::milliseconds kLookEvery{500};
 constexpr std::chrono::milliseconds kAnswerLimit{300};
 
-/// Asks the master. @returns whether it answered
+/// Queries the master. @returns whether it answered
 bool ask(const char* method, const std::string& argument, XmlRpc::XmlRpcValue& answer) {
   XmlRpc::XmlRpcValue request, response;
   request[0] = ros::this_node::getName();
@@ -30,7 +30,7 @@ bool ask(const char* method, const std::string& argument, XmlRpc::XmlRpcValue& a
   return ros::master::execute(method, request, response, answer, false);
 }
 
-/// Addresses of the nodes that have told the master that they send a topic. @returns nothing if it does not answer
+/// Returns the addresses of the nodes that publish a topic; nothing if the master does not answer.
 std::optional<std::set<std::string>> sendersOf(const std::string& topic) try {
   std::set<std::string> uris;
   XmlRpc::XmlRpcValue state, uri;
@@ -43,7 +43,7 @@ std::optional<std::set<std::string>> sendersOf(const std::string& topic) try {
       if (ask("lookupNode", nodes[n], uri)) uris.insert(static_cast<std::string&>(uri));
   }
   return uris;
-} catch (const XmlRpc::XmlRpcException&) {  // an answer of another form: no master's
+} catch (const XmlRpc::XmlRpcException&) {  // an answer of another form is not a master's
   return std::nullopt;
 }
 

@@ -11,18 +11,18 @@
 
 namespace viscera::rviz_plugin {
 
-/// Returns whether something listens at an address.
-/// @param uri  as in http://host:port/   @param limit  how long an answer is waited for
+/// Returns whether a server accepts connections at an address.
+/// @param uri  as in http://host:port/   @param limit  timeout
 bool listens(const std::string& uri, std::chrono::milliseconds limit);
 
-/// The nodes that send a topic, as the master knows them, and which of them still run: the master keeps a node that was
-/// killed, and roscpp counts it as a publisher. A thread of its own looks twice a second.
+/// The nodes that publish a topic, as the master knows them, and which of them are alive: the master keeps a node that
+/// was killed, and roscpp counts it as a publisher. A separate thread checks twice a second.
 class SenderWatch {
  public:
   struct Senders {
-    std::set<std::string> uris;   ///< of the nodes
-    std::set<std::string> alive;  ///< those that answer
-    bool known = false;           ///< the master answered since the topic was chosen
+    std::set<std::string> uris;   ///< addresses of the nodes
+    std::set<std::string> alive;  ///< addresses that accept connections
+    bool known = false;           ///< whether the master has answered since the topic was chosen
   };
 
   SenderWatch();
@@ -30,7 +30,7 @@ class SenderWatch {
   SenderWatch(const SenderWatch&) = delete;
   SenderWatch& operator=(const SenderWatch&) = delete;
 
-  /// @param topic  whole name; empty: none
+  /// Chooses the topic. @param topic  full name; empty: none
   void follow(const std::string& topic);
   Senders senders() const;
 
@@ -41,9 +41,9 @@ class SenderWatch {
   std::condition_variable changed_;
   std::string topic_;
   Senders senders_;
-  bool anew_ = false;  ///< the topic was chosen and not looked at yet
+  bool anew_ = false;  ///< whether the topic was chosen and not checked yet
   bool ending_ = false;
-  std::thread thread_;  ///< last: it uses all of the above
+  std::thread thread_;  ///< last member: it uses all of the above
 };
 
 }  // namespace viscera::rviz_plugin

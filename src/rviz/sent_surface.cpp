@@ -8,29 +8,29 @@
 namespace viscera::rviz_plugin {
 namespace {
 
-constexpr size_t kMostBodies = 1000;    // a hundred have labels in pictures
-constexpr size_t kTopologiesKept = 4;   // vertices are larger and come later, over a network by more than one change
-constexpr float kFarthest_m = 1e6F;     // beyond it the squares of the renderer's bounds are not numbers
-constexpr float kNormalScale = 511.0F;  // of signed 10-bit fractions
+constexpr size_t kMostBodies = 1000;    // a hundred have labels in images
+constexpr size_t kTopologiesKept = 4;   // vertices are larger and arrive later; over a network, by several changes
+constexpr float kFarthest_m = 1e6F;     // beyond it the squares of the renderer's bounds overflow
+constexpr float kNormalScale = 511.0F;  // scale of signed 10-bit fractions
 
 std::string text(size_t number) {
   return std::to_string(number);
 }
 
-/// Parts and checks of what a message says. @returns what is wrong, or nothing
+/// Completes and checks a topology. @returns an error, or an empty text
 std::string complete(SentTopology& topology, const std::vector<uint32_t>& body_triangles,
                      const std::vector<uint32_t>& wound_triangles) {
   const size_t bodies = topology.bodies.size();
   if (bodies > kMostBodies) return text(bodies) + " bodies, more than " + text(kMostBodies);
   if (body_triangles.size() != bodies || wound_triangles.size() != bodies)
     return "bodies, body_triangles and wound_triangles have " + text(bodies) + ", " + text(body_triangles.size()) +
-           " and " + text(wound_triangles.size()) + " entries, not as many";
+           " and " + text(wound_triangles.size()) + " entries, but need the same number";
   for (const std::vector<uint32_t>* colors : {&topology.body_colors, &topology.wound_colors})
     if (!colors->empty() && colors->size() != bodies)
       return "body_colors and wound_colors have " + text(topology.body_colors.size()) + " and " +
              text(topology.wound_colors.size()) + " entries for " + text(bodies) + " bodies";
   if (topology.triangles.size() % 3 != 0)
-    return text(topology.triangles.size()) + " entries of triangles, not 3 for each";
+    return text(topology.triangles.size()) + " entries in triangles, which is not a multiple of 3";
   size_t first = 0;
   topology.parts.clear();
   for (size_t b = 0; b < bodies; ++b) {
@@ -46,24 +46,25 @@ std::string complete(SentTopology& topology, const std::vector<uint32_t>& body_t
     first += body_triangles[b];
   }
   if (first != topology.triangles.size() / 3)
-    return "body_triangles sum up to " + text(first) + " of " + text(topology.triangles.size() / 3) + " triangles";
+    return "body_triangles sum up to " + text(first) + ", but there are " + text(topology.triangles.size() / 3) +
+           " triangles";
   const auto most = std::max_element(topology.triangles.begin(), topology.triangles.end());
   if (most != topology.triangles.end() && *most >= topology.vertices)
-    return "triangles name vertex " + text(*most) + " of " + text(topology.vertices);
+    return "triangles refer to vertex " + text(*most) + ", but there are only " + text(topology.vertices);
   return {};
 }
 
-/// @returns what is wrong, or nothing
+/// Applies a change. @returns an error, or an empty text
 std::string edit(const std::vector<uint32_t>& before, const SurfaceTopologyChange& change, std::vector<uint32_t>& out) {
   const size_t places = change.kept.size();
   if (change.removed.size() != places || change.added.size() != places)
     return "kept, removed and added have " + text(places) + ", " + text(change.removed.size()) + " and " +
-           text(change.added.size()) + " entries, not as many";
-  size_t at = 0, from = 0;  // numbers of triangles: sums of 32-bit numbers fit
+           text(change.added.size()) + " entries, but need the same number";
+  size_t at = 0, from = 0;  // triangle counts: sums of 32-bit numbers fit
   for (size_t e = 0; e < places; ++e) {
     const size_t kept_end = at + change.kept[e], end = kept_end + change.removed[e], added = from + change.added[e];
     if (end > before.size() / 3 || added > change.triangles.size() / 3)
-      return "place " + text(e) + " goes beyond the triangles that are there";
+      return "place " + text(e) + " goes beyond the existing triangles";
     const auto b = before.begin();
     const auto c = change.triangles.begin();
     out.insert(out.end(), b + static_cast<ptrdiff_t>(3 * at), b + static_cast<ptrdiff_t>(3 * kept_end));
@@ -88,7 +89,7 @@ double dot(const std::array<double, 3>& a, const std::array<double, 3>& b) {
 }  // namespace
 
 std::string SentSurface::take(const SurfaceTopology& message) {
-  // One that was overtaken by changes; of a simulator that was started again the time goes on and versions do not.
+  // Skips one that changes have overtaken. After a restart of the simulator, stamps go on and versions do not.
   if (!known_.empty() && message.version < known_.back()->version && message.header.stamp <= known_.back()->stamp)
     return {};
   auto topology = std::make_shared<SentTopology>();
@@ -114,7 +115,7 @@ std::string SentSurface::take(const SurfaceTopology& message) {
 }
 
 std::string SentSurface::take(const SurfaceTopologyChange& message) {
-  if (known_.empty() || message.version != known_.back()->version + 1) return {};  // the next whole one tells all
+  if (known_.empty() || message.version != known_.back()->version + 1) return {};  // the next whole topology has it all
   const SentTopology& last = *known_.back();
   auto topology = std::make_shared<SentTopology>();
   topology->version = message.version;
@@ -162,7 +163,7 @@ std::string SentSurface::join() {
 }
 
 std::array<float, 3> normalOf(uint32_t packed) {
-  const auto part = [packed](unsigned shift) {  // its sign comes from the top bit
+  const auto part = [packed](unsigned shift) {  // sign-extends from the top bit
     const auto value = static_cast<int32_t>(packed << (22 - shift)) >> 22;
     return std::max(static_cast<float>(value) / kNormalScale, -1.0F);
   };
@@ -180,7 +181,7 @@ std::optional<SurfaceHit> firstHit(const SentTopology& topology, const std::vect
     const std::array<double, 3> a = point(t), ab = minus(point(t + 1), a), ac = minus(point(t + 2), a);
     const std::array<double, 3> p = cross(direction, ac);
     const double volume = dot(ab, p);
-    if (volume == 0) continue;  // edge-on, or without area
+    if (volume == 0) continue;  // edge-on or degenerate
     const std::array<double, 3> ao = minus(origin, a), q = cross(ao, ab);
     const double u = dot(ao, p) / volume, v = dot(direction, q) / volume, distance = dot(ac, q) / volume;
     if (!(u >= 0 && v >= 0 && u + v <= 1 && distance > 0) || (nearest && distance >= nearest->distance_m)) continue;

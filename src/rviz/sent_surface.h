@@ -18,25 +18,25 @@ namespace viscera::rviz_plugin {
 
 /// Triangles of one body that are drawn alike.
 struct SentPart {
-  size_t body = 0;              ///< of SentTopology::bodies
-  bool walls = false;           ///< of wounds
-  size_t first = 0, count = 0;  ///< triangles
-  /// sRGB, red in the low byte; nothing: the sender has not told it
+  size_t body = 0;              ///< index into SentTopology::bodies
+  bool walls = false;           ///< whether they are cut walls
+  size_t first = 0, count = 0;  ///< range of triangles
+  /// sRGB, red in the low byte; empty: the sender has not sent a colour
   std::optional<uint32_t> color = {};
 };
 
-/// A topology whose every number was checked.
+/// A validated topology.
 struct SentTopology {
   uint32_t version = 0, vertices = 0;
   ros::Time stamp;
   std::vector<std::string> bodies;
-  std::vector<uint32_t> body_colors, wound_colors;  ///< of each; both may be empty
-  std::vector<SentPart> parts;                      ///< skin and walls of each body
+  std::vector<uint32_t> body_colors, wound_colors;  ///< [bodies] colours; both may be empty
+  std::vector<SentPart> parts;                      ///< surface and cut walls of each body
   std::vector<uint32_t> triangles;                  ///< 3 vertices each, all below `vertices`
 };
 
-/// The newest surface of a simulator, joined from its topics in whatever order their messages come. Messages that are
-/// wrong change nothing: what take...() returns says why, and is empty of good ones.
+/// The newest surface of a simulator, assembled from its topics in any order of messages. An invalid message changes
+/// nothing: take() returns the error, and an empty text for a valid message.
 class SentSurface {
  public:
   std::string take(const SurfaceTopology& message);
@@ -44,7 +44,7 @@ class SentSurface {
   std::string take(const SurfaceVerticesConstPtr& message);
   void clear() { *this = SentSurface(); }
 
-  /// What is to be shown: vertices, and the topology they belong to; null before there are both.
+  /// Returns the vertices to draw, and below their topology; null until there are both.
   const SurfaceVerticesConstPtr& vertices() const { return vertices_; }
   const std::shared_ptr<const SentTopology>& topology() const { return shown_; }
   bool hasTopology() const { return !known_.empty(); }
@@ -53,22 +53,22 @@ class SentSurface {
   void keep(std::shared_ptr<const SentTopology> topology);
   std::string join();
 
-  std::deque<std::shared_ptr<const SentTopology>> known_;  ///< the newest last
-  SurfaceVerticesConstPtr waiting_;                        ///< for their topology
+  std::deque<std::shared_ptr<const SentTopology>> known_;  ///< known topologies, the newest last
+  SurfaceVerticesConstPtr waiting_;                        ///< vertices without their topology
   SurfaceVerticesConstPtr vertices_;
   std::shared_ptr<const SentTopology> shown_;
 };
 
-/// Signed 10-bit fractions, x in the low bits.
+/// Returns a normal from signed 10-bit fractions, x in the low bits.
 std::array<float, 3> normalOf(uint32_t packed);
 
-/// A point of a ray on the surface.
+/// Intersection of a ray with the surface.
 struct SurfaceHit {
   double distance_m = 0;
-  std::array<double, 3> normal{};  ///< of the triangle, of length 1
+  std::array<double, 3> normal{};  ///< unit normal of the triangle
 };
-/// The nearest triangle before `origin`, from whichever side.
-/// @param direction  of length 1   @param positions_m  3 per vertex of the topology
+/// Returns the nearest intersection in front of `origin`, from either side.
+/// @param direction  unit vector   @param positions_m  3 per vertex of the topology
 std::optional<SurfaceHit> firstHit(const SentTopology& topology, const std::vector<float>& positions_m,
                                    const std::array<double, 3>& origin, const std::array<double, 3>& direction);
 

@@ -24,18 +24,18 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <utility>
 
-#include "rviz/hand_table.h"
-#include "rviz/panel_look.h"
+#include "rviz/panel_style.h"
 #include "rviz/ros_worker.h"
 #include "rviz/simulator_space.h"
 #include "rviz/task_box.h"
+#include "rviz/tool_table.h"
 
 namespace viscera::rviz_plugin {
 namespace {
 
 constexpr int kShowEvery_ms = 250;
-constexpr int kMostTicks = 10000;  // of one call of the service
-constexpr int kStateLines = 4;     // of a narrow dock, with the file of a recording
+constexpr int kMostTicks = 10000;  // limit of one call of the service
+constexpr int kStateLines = 4;     // lines in a narrow dock, with the file of a recording
 constexpr const char* kPause = "Pa&use";
 constexpr const char* kResume = "Res&ume";
 constexpr const char* kRecord = "Re&cord";
@@ -61,7 +61,7 @@ QComboBox* writable(const char* hint) {
 
 }  // namespace
 
-/// Held where the worker's thread makes them.
+/// Shared with the worker's thread, which creates them.
 struct PanelTopics {
   ros::Subscriber diagnostics;
 };
@@ -72,7 +72,7 @@ SessionPanel::SessionPanel(QWidget* parent)
       measures_(wrappedLabel()),
       warnings_(wrappedLabel()),
       answer_(wrappedLabel()),
-      hands_(new HandTable([this](const std::string& stylus, const std::string& which, const std::string& mode) {
+      hands_(new ToolTable([this](const std::string& stylus, const std::string& which, const std::string& mode) {
         SetToolModeRequest request;
         request.stylus = stylus;
         request.which = which;
@@ -90,7 +90,7 @@ SessionPanel::SessionPanel(QWidget* parent)
   task_ = new TaskBox(*worker_);
   makeChoices(rows);
   makeButtons(rows);
-  // What is clicked comes first, and what changes its height last: a button that moves is missed.
+  // Widgets to click come first, and those of variable height last: a button that moves is missed.
   for (QWidget* widget :
        {static_cast<QWidget*>(state_), static_cast<QWidget*>(hands_), static_cast<QWidget*>(answer_),
         static_cast<QWidget*>(warnings_), static_cast<QWidget*>(task_), static_cast<QWidget*>(measures_)})
@@ -99,7 +99,7 @@ SessionPanel::SessionPanel(QWidget* parent)
   auto* scroll = new QScrollArea;  // a dock may be low
   scroll->setWidgetResizable(true);
   scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn);  // one that comes takes room from the buttons
+  scroll->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOn);  // appearing later, it would take room from the buttons
   scroll->setWidget(inside);
   auto* all = new QVBoxLayout(this);
   all->setContentsMargins(0, 0, 0, 0);
@@ -129,7 +129,7 @@ void SessionPanel::makeChoices(QVBoxLayout* rows) {
   connect(load_, &QPushButton::clicked, this, [this] {
     LoadSceneRequest request;
     request.scene = scenes_->currentText().trimmed().toStdString();
-    scenes_->lineEdit()->clearFocus();  // from here on it shows what runs
+    scenes_->lineEdit()->clearFocus();  // from here on it shows the running scene
     call<LoadScene>("load_scene", request);
   });
 }
@@ -173,7 +173,7 @@ void SessionPanel::call(const char* service, const typename Service::Request& re
 
 void SessionPanel::record() {
   if (!now_.recording.empty()) return call<std_srvs::Trigger>("stop_recording");
-  FileCommandRequest request;  // as those of ~record
+  FileCommandRequest request;  // named like those of ~record
   request.file = QDateTime::currentDateTimeUtc().toString("'session_'yyyyMMdd'T'hhmmss'Z.viscera'").toStdString();
   call<FileCommand>("start_recording", request);
 }
@@ -198,7 +198,7 @@ void SessionPanel::onInitialize() {
   chooseSpace(wanted_);
 }
 
-/// On the worker's thread, since a master may be slow to answer.
+/// Subscribes on the worker's thread, since a master may be slow to answer.
 void SessionPanel::follow() {
   worker_->add([this, node = queued(), topics = topics_]() mutable {
     topics->diagnostics = node.subscribe<diagnostic_msgs::DiagnosticArray>(
@@ -209,14 +209,14 @@ void SessionPanel::follow() {
   });
 }
 
-/// Callbacks of what it subscribes are rviz's own thread's.
+/// Returns a handle with callbacks on rviz's own thread.
 ros::NodeHandle SessionPanel::queued() const {
   ros::NodeHandle node;
   node.setCallbackQueue(vis_manager_->getUpdateQueue());
   return node;
 }
 
-/// @param space  as a person writes it
+/// Chooses the namespace. @param space  as the user wrote it
 void SessionPanel::chooseSpace(const std::string& space) {
   const bool changed = std::exchange(wanted_, space) != space;
   const std::string before = space_;
@@ -231,10 +231,10 @@ void SessionPanel::chooseSpace(const std::string& space) {
 }
 
 void SessionPanel::show() {
-  const std::vector<ToldSimulator> told = told_.at(std::chrono::steady_clock::now());
-  std::vector<ToldSimulator> here;
+  const std::vector<DiscoveredSimulator> told = told_.at(std::chrono::steady_clock::now());
+  std::vector<DiscoveredSimulator> here;
   QStringList spaces;
-  for (const ToldSimulator& simulator : told) {
+  for (const DiscoveredSimulator& simulator : told) {
     if (simulator.space() == space_) here.push_back(simulator);
     spaces += QString::fromStdString(simulator.space());
   }
@@ -242,15 +242,15 @@ void SessionPanel::show() {
   offer(spaces_, spaces);
   choose(spaces_, QString::fromStdString(wanted_));
   const std::string scene_before = now_.scene;
-  now_ = here.empty() ? ToldSimulator() : here.front();
+  now_ = here.empty() ? DiscoveredSimulator() : here.front();
   if (now_.scene != scene_before) choose(scenes_, QString::fromStdString(now_.scene));
   write(state_, QString::fromStdString(stateText(here)));
   showSession(here);
 }
 
-std::string SessionPanel::stateText(const std::vector<ToldSimulator>& here) const {
-  if (space_.empty()) return "'" + wanted_ + "' is no name of a namespace";
-  if (here.empty()) return "no simulator in " + space_ + " is heard on /diagnostics";
+std::string SessionPanel::stateText(const std::vector<DiscoveredSimulator>& here) const {
+  if (space_.empty()) return "'" + wanted_ + "' is not a valid namespace";
+  if (here.empty()) return "no simulator in " + space_ + " sends /diagnostics";
   std::string text = now_.node + ": " + now_.state;
   if (!now_.scene.empty()) text += ", scene " + now_.scene;
   if (!now_.tick.empty()) text += ", tick " + now_.tick;
@@ -262,11 +262,11 @@ std::string SessionPanel::stateText(const std::vector<ToldSimulator>& here) cons
   return text;
 }
 
-void SessionPanel::showSession(const std::vector<ToldSimulator>& here) {
+void SessionPanel::showSession(const std::vector<DiscoveredSimulator>& here) {
   QString warnings;
-  for (const ToldSimulator& other : here)
+  for (const DiscoveredSimulator& other : here)
     if (other.node != now_.node)
-      warnings += QString::fromStdString(other.node + " is in this namespace too: services are of the last one\n");
+      warnings += QString::fromStdString(other.node + " is also in this namespace; services belong to the last one\n");
   for (const std::string& warning : now_.warnings) warnings += QString::fromStdString(warning) + "\n";
   warnings_->setText(warnings.trimmed());
   const bool runs = !now_.scene.empty();

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "rviz/told_simulators.h"
+#include "rviz/discovered_simulators.h"
 
 class QComboBox;
 class QLabel;
@@ -19,12 +19,12 @@ class QVBoxLayout;
 
 namespace viscera::rviz_plugin {
 
-class HandTable;
+class ToolTable;
 class RosWorker;
 class TaskBox;
 struct PanelTopics;
 
-/// `viscera/Session`: what the simulator of a namespace tells on /diagnostics, and its services as buttons.
+/// Panel `viscera/Session`: diagnostics of the simulator in a namespace, and buttons for its services.
 class SessionPanel : public rviz::Panel {
  public:
   explicit SessionPanel(QWidget* parent = nullptr);
@@ -41,8 +41,8 @@ class SessionPanel : public rviz::Panel {
   void follow();
   ros::NodeHandle queued() const;
   void show();
-  void showSession(const std::vector<ToldSimulator>& here);
-  std::string stateText(const std::vector<ToldSimulator>& here) const;
+  void showSession(const std::vector<DiscoveredSimulator>& here);
+  std::string stateText(const std::vector<DiscoveredSimulator>& here) const;
   template <class Service>
   void call(const char* service, const typename Service::Request& request = {});
   void record();
@@ -51,14 +51,14 @@ class SessionPanel : public rviz::Panel {
   QLabel *state_, *measures_, *warnings_, *answer_;
   QPushButton *load_, *reset_, *pause_, *step_, *record_;
   QSpinBox* ticks_;
-  HandTable* hands_;
+  ToolTable* hands_;
   TaskBox* task_;
-  std::string wanted_;  ///< namespace as a person wrote it; empty: rviz's own
-  std::string space_;   ///< the same in full, with a slash at its end; empty: it is no name
-  ToldSimulators told_;
-  ToldSimulator now_;  ///< that is shown; without a node: none
+  std::string wanted_;  ///< namespace as the user wrote it; empty: rviz's own
+  std::string space_;   ///< full name of it, with a slash at its end; empty: it is not a valid name
+  DiscoveredSimulators told_;
+  DiscoveredSimulator now_;  ///< simulator that is displayed; without a node: none
   std::shared_ptr<PanelTopics> topics_;
-  std::unique_ptr<RosWorker> worker_;  ///< last: its thread uses what is above
+  std::unique_ptr<RosWorker> worker_;  ///< last member: its thread uses the ones above
 };
 
 }  // namespace viscera::rviz_plugin

@@ -9,8 +9,8 @@
 
 namespace viscera::rviz_plugin {
 
-/// Whole name of a simulator's namespace, with a slash at its end.
-/// @param space  as a person writes it; empty: rviz's own   @throws ros::InvalidNameException
+/// Returns the full name of a simulator's namespace, with a slash at its end.
+/// @param space  as the user wrote it; empty: rviz's own   @throws ros::InvalidNameException
 inline std::string simulatorSpace(const std::string& space) {
   const std::string name = ros::names::resolve(space.empty() ? ros::this_node::getNamespace() : space);
   return name.back() == '/' ? name : name + "/";

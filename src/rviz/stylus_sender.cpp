@@ -15,7 +15,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kPeriod{10};
-constexpr std::chrono::seconds kSilence{1};  // of a window that does not draw
+constexpr std::chrono::seconds kSilence{1};  // time without a call, when the window does not draw
 constexpr double kTurn_rad_per_s = 3;
 
 geometry_msgs::PoseStamped message(const Pose& pose, const std::string& frame) {
@@ -34,7 +34,7 @@ geometry_msgs::PoseStamped message(const Pose& pose, const std::string& frame) {
 
 }  // namespace
 
-/// Those of one stylus, and what was sent on them last.
+/// The topics of one stylus, and what was last sent on them.
 struct StylusSender::Topics {
   explicit Topics(const std::string& prefix) : name(prefix) {
     ros::NodeHandle node;
@@ -56,7 +56,7 @@ struct StylusSender::Topics {
   ros::Publisher pose;
   std::array<ros::Publisher, 2> buttons;
   std::array<bool, 2> down{};
-  std::optional<Pose> tip;  ///< sent last; nothing: it appears again
+  std::optional<Pose> tip;  ///< last pose that was sent; empty: the stylus appears again
 };
 
 StylusSender::StylusSender() : thread_([this] { main(); }) {}
@@ -94,7 +94,7 @@ void StylusSender::main() {
     }
     try {
       if (!topics && !wanted.topics.empty() && ros::master::check()) topics = std::make_unique<Topics>(wanted.topics);
-    } catch (const ros::Exception&) {  // no name of a topic, which the tool says
+    } catch (const ros::Exception&) {  // not a valid name of a topic, which the tool reports
     }
     if (topics && topics->name == wanted.topics) {
       const SteeredSpeed speed{wanted.speed_m_per_s, kTurn_rad_per_s};

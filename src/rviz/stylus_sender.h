@@ -13,23 +13,24 @@
 
 namespace viscera::rviz_plugin {
 
-/// What the mouse wants of a stylus.
+/// Desired state of a stylus that the mouse moves.
 struct WantedStylus {
-  std::string topics;  ///< what measured_cp, button1 and button2 are behind, with its slash; empty: no stylus
-  std::string frame;   ///< of the pose
+  std::string topics;  ///< prefix of measured_cp, button1 and button2, with its slash; empty: no stylus
+  std::string frame;   ///< frame of the pose
   Pose tip;
   std::array<bool, 2> buttons{};
-  double speed_m_per_s = 0.1;  ///< of the tip, at most: a mouse jumps
+  double speed_m_per_s = 0.1;  ///< largest speed of the tip [m/s]: a mouse jumps
 };
 
-/// Publishes a stylus as CRTK devices do, at a steady rate on a thread of its own, as a window may be slow to draw.
+/// Publishes a stylus as CRTK devices do, at a steady rate on a thread of its own, since a window may be slow to draw.
 class StylusSender {
  public:
   StylusSender();
   ~StylusSender();
-  /// To be told again and again: after kSilence nothing more is sent, so that the simulator lets go.
+  /// Sets the desired state. Call it repeatedly: after kSilence without a call nothing is sent, so that the simulator
+  /// stops tracking.
   void want(const WantedStylus& wanted);
-  /// Buttons are let go, and nothing more is sent.
+  /// Releases the buttons and stops sending.
   void rest();
 
  private:
@@ -41,7 +42,7 @@ class StylusSender {
   WantedStylus wanted_;
   std::chrono::steady_clock::time_point told_{};
   bool ending_ = false;
-  std::thread thread_;  ///< last: it uses all of the above
+  std::thread thread_;  ///< last member: it uses all of the above
 };
 
 }  // namespace viscera::rviz_plugin

@@ -33,9 +33,9 @@ namespace {
 
 enum ColorBy { kByBody, kBySent, kByStrain };
 constexpr std::chrono::seconds kTellEvery{1};
-constexpr double kGoldenTurn = 0.618034;  // of the circle of hues: bodies side by side in the list differ most
+constexpr double kGoldenTurn = 0.618034;  // of the circle of hues: neighbouring bodies in the list differ most
 
-/// @param color  sRGB, red in the low byte
+/// Converts a colour. @param color  sRGB, red in the low byte
 Ogre::ColourValue sentColor(uint32_t color, float alpha) {
   constexpr float kMost = 255;
   const auto share = [color](unsigned shift) { return static_cast<float>(color >> shift & 0xffU) / kMost; };
@@ -44,7 +44,7 @@ Ogre::ColourValue sentColor(uint32_t color, float alpha) {
 
 Ogre::ColourValue ofBody(const QColor& color, size_t body, float alpha) {
   QColor turned = color;
-  const double hue = std::max(color.hsvHueF(), 0.0) + kGoldenTurn * static_cast<double>(body);  // of grey it is -1
+  const double hue = std::max(color.hsvHueF(), 0.0) + kGoldenTurn * static_cast<double>(body);  // the hue of grey is -1
   turned.setHsvF(hue - std::floor(hue), color.hsvSaturationF(), color.valueF());
   return Ogre::ColourValue(static_cast<float>(turned.redF()), static_cast<float>(turned.greenF()),
                            static_cast<float>(turned.blueF()), alpha);
@@ -55,17 +55,17 @@ Ogre::ColourValue ofBody(const QColor& color, size_t body, float alpha) {
 SurfaceDisplay::SurfaceDisplay() {
   topic_ = new rviz::RosTopicProperty("Surface topic", "surface", "viscera/SurfaceVertices",
                                       "Vertices; triangles come from the topics that have _topology and "
-                                      "_topology_change behind this name.",
+                                      "_topology_change after this name.",
                                       this);
-  color_ = new rviz::ColorProperty("Color", QColor(184, 64, 56),
-                                   "Of the skin of the first body, where the simulator sends none or Color by is body.",
-                                   this);
-  wall_color_ = new rviz::ColorProperty("Wound color", QColor(120, 20, 24), "Of walls of its wounds.", this);
-  by_body_ = new rviz::BoolProperty("Hues of bodies", true, "Other bodies have other hues.", this);
+  color_ = new rviz::ColorProperty(
+      "Color", QColor(184, 64, 56),
+      "Color of the skin of the first body, if the simulator sends none or Color by is body.", this);
+  wall_color_ = new rviz::ColorProperty("Wound color", QColor(120, 20, 24), "Color of the walls of its wounds.", this);
+  by_body_ = new rviz::BoolProperty("Hues of bodies", true, "Gives each body its own hue.", this);
   color_by_ =
       new rviz::EnumProperty("Color by", "sent",
-                             "sent: the colors of the scene and, where the simulator sends some, of vertices, as "
-                             "of burns; body: the colors here; strain: from blue, none, to yellow, as overlay "
+                             "sent: the colors of the scene, and of vertices if the simulator sends some, as for "
+                             "burns; body: the colors below; strain: from blue (none) to yellow, as in the overlay "
                              "`strain`.",
                              this);
   for (const auto& [name, value] : {std::pair{"body", kByBody}, {"sent", kBySent}, {"strain", kByStrain}})
@@ -73,35 +73,36 @@ SurfaceDisplay::SurfaceDisplay() {
   alpha_ = new rviz::FloatProperty("Alpha", 1, "0 is transparent, 1 opaque.", this);
   alpha_->setMin(0);
   alpha_->setMax(1);
-  fits_view_ = new rviz::BoolProperty("Fit first view", false,
-                                      "The view is moved so that the first surface fits into it, and the first one of "
-                                      "another scene unless the view was moved meanwhile. Not saved in layouts.",
-                                      this);
-  fits_view_->setShouldBeSaved(false);  // a layout that a person saves keeps its view
+  fits_view_ =
+      new rviz::BoolProperty("Fit first view", false,
+                             "Moves the view so that the first surface fits into it, and the first one of another "
+                             "scene unless the view was moved since. Not saved in layouts.",
+                             this);
+  fits_view_->setShouldBeSaved(false);  // a layout that the user saves keeps its view
   for (rviz::Property* property : {static_cast<rviz::Property*>(topic_), static_cast<rviz::Property*>(color_by_)})
     connect(property, &rviz::Property::changed, this, [this] { reset(); });
   for (rviz::Property* property : {static_cast<rviz::Property*>(color_), static_cast<rviz::Property*>(wall_color_),
                                    static_cast<rviz::Property*>(by_body_), static_cast<rviz::Property*>(alpha_)})
     connect(property, &rviz::Property::changed, this, [this] {
-      drawn_vertices_.reset();  // their colours have the alpha
+      drawn_vertices_.reset();  // vertex colours depend on the opacity
       paint();
     });
 }
 
 SurfaceDisplay::~SurfaceDisplay() = default;
 
-/// Of what a person can change of how slowly it is drawn (docs/rviz.md, How fast).
+/// Warns of slow drawing that the user can change (docs/rviz.md, Performance).
 void SurfaceDisplay::warnOfSamples() const {
   const std::string renderer = Ogre::Root::getSingleton().getRenderSystem()->getCapabilities()->getDeviceName();
   const Ogre::RenderWindow* const window = context_->getViewManager()->getRenderPanel()->getRenderWindow();
   if (renderer.find("llvmpipe") == std::string::npos || window->getFSAA() < 2) return;
-  ROS_WARN("%s draws %u samples of every pixel: with --disable-anti-aliasing rviz draws surfaces more often",
+  ROS_WARN("%s draws %u samples per pixel; start rviz with --disable-anti-aliasing to draw surfaces more often",
            renderer.c_str(), window->getFSAA());
 }
 
 void SurfaceDisplay::onInitialize() {
   renewWindowSizes();
-  QTimer::singleShot(0, this, [] { renewWindowSizes(); });  // of displays behind this one in a layout
+  QTimer::singleShot(0, this, [] { renewWindowSizes(); });  // for displays after this one in a layout
   warnOfSamples();
   mesh_ = std::make_unique<SurfaceMesh>(scene_manager_, scene_node_);
   view_ = std::make_unique<ViewFit>(context_);
@@ -126,11 +127,11 @@ void SurfaceDisplay::reset() {
   placed_ = true;
   told_ = {};
   senders_.clear();
-  forget();
+  clear();
   if (isEnabled() && initialized()) subscribe();
 }
 
-void SurfaceDisplay::forget() {
+void SurfaceDisplay::clear() {
   drawn_topology_.reset();
   drawn_vertices_.reset();
   drawn_ = 0;
@@ -143,7 +144,7 @@ void SurfaceDisplay::subscribe() {
   if (topic.empty()) return;
   try {
     feed_.subscribe(update_nh_, topic, color_by_->getOptionInt() == kByStrain);
-  } catch (const ros::Exception& error) {  // no name of a topic
+  } catch (const ros::Exception& error) {  // not a valid name of a topic
     feed_.unsubscribe();
     setStatus(rviz::StatusProperty::Error, "Topic", error.what());
   }
@@ -152,7 +153,7 @@ void SurfaceDisplay::subscribe() {
 void SurfaceDisplay::update(float, float) {
   renewWindowSizes();
   if (feed_.vertices() && feed_.renew()) {
-    forget();
+    clear();
     context_->queueRender();
   }
   const SentSurface& sent = feed_.surface();
@@ -176,7 +177,7 @@ void SurfaceDisplay::update(float, float) {
   if (std::chrono::steady_clock::now() >= told_ + kTellEvery) tell();
 }
 
-/// The status line of the simulator, as soon as something changes.
+/// Updates the status of the simulator when it changes.
 void SurfaceDisplay::tellSenders() {
   using rviz::StatusProperty;
   const ros::Subscriber& vertices = feed_.vertices();
@@ -192,7 +193,7 @@ void SurfaceDisplay::tellSenders() {
   setStatusStd(senders.alive.size() == 1 ? StatusProperty::Ok : StatusProperty::Warn, "Simulator", text);
 }
 
-/// @returns whether it is known where the surface's frame is
+/// Places the surface. @returns whether the pose of its frame is known
 bool SurfaceDisplay::place() {
   const std::string& frame = drawn_vertices_->header.frame_id;
   Ogre::Vector3 position;
@@ -200,7 +201,7 @@ bool SurfaceDisplay::place() {
   if (!context_->getFrameManager()->getTransform(frame, ros::Time(), position, orientation)) {
     if (std::exchange(placed_, false))
       setStatusStd(rviz::StatusProperty::Error, "Transform",
-                   "tf does not join '" + frame + "' to the fixed frame '" + fixed_frame_.toStdString() + "'");
+                   "tf does not connect '" + frame + "' to the fixed frame '" + fixed_frame_.toStdString() + "'");
     return false;
   }
   if (!std::exchange(placed_, true)) deleteStatus("Transform");
@@ -209,7 +210,7 @@ bool SurfaceDisplay::place() {
   return true;
 }
 
-/// Once for each scene.
+/// Fits the view once for each scene.
 void SurfaceDisplay::fitView() {
   if (drawn_topology_->triangles.empty() || fitted_ == drawn_topology_->bodies) return;
   fitted_ = drawn_topology_->bodies;
@@ -229,7 +230,7 @@ void SurfaceDisplay::paint() {
   context_->queueRender();
 }
 
-/// The status lines, once a second.
+/// Updates the status lines, once a second.
 void SurfaceDisplay::tell() {
   using rviz::StatusProperty;
   const auto now = std::chrono::steady_clock::now();
@@ -259,7 +260,7 @@ void SurfaceDisplay::tell() {
     deleteStatus("Message");
   else
     setStatusStd(StatusProperty::Error, "Message", feed_.wrong());
-  if (drawn_ > 0) feed_.forgive();  // later ones were good
+  if (drawn_ > 0) feed_.forgive();  // later messages were valid
   drawn_ = 0;
 }
 

@@ -24,8 +24,8 @@ namespace viscera::rviz_plugin {
 class SurfaceMesh;
 class ViewFit;
 
-/// `viscera/Surface`: the skin of a simulator by `surface` or `surface_strain`, `surface_topology` and
-/// `surface_topology_change`. All of it is done by rviz's own thread.
+/// Display `viscera/Surface`: the surface of a simulator from `surface` or `surface_strain`, `surface_topology` and
+/// `surface_topology_change`. It runs on rviz's own thread.
 class SurfaceDisplay : public rviz::Display {
  public:
   SurfaceDisplay();
@@ -48,7 +48,7 @@ class SurfaceDisplay : public rviz::Display {
   void paint();
   void tell();
   void tellSenders();
-  void forget();
+  void clear();
 
   rviz::RosTopicProperty* topic_;
   rviz::ColorProperty *color_, *wall_color_;
@@ -58,12 +58,12 @@ class SurfaceDisplay : public rviz::Display {
   SurfaceFeed feed_;
   std::unique_ptr<SurfaceMesh> mesh_;
   std::unique_ptr<ViewFit> view_;
-  std::vector<std::string> fitted_;  ///< bodies that the view was fitted to
+  std::vector<std::string> fitted_;  ///< bodies to which the view was fitted
   std::shared_ptr<const SentTopology> drawn_topology_;
   SurfaceVerticesConstPtr drawn_vertices_;
-  size_t drawn_ = 0;     ///< surfaces since told_
-  std::string senders_;  ///< status that is shown of them
-  bool placed_ = true;   ///< no error about the transform is shown
+  size_t drawn_ = 0;     ///< number of surfaces since told_
+  std::string senders_;  ///< displayed status of the senders
+  bool placed_ = true;   ///< whether no error about the transform is displayed
   std::chrono::steady_clock::time_point told_{};
 };
 

@@ -67,7 +67,7 @@ bool SurfaceFeed::renew() {
   if (now.alive.empty()) return false;
   const bool others = std::any_of(senders_.begin(), senders_.end(),
                                   [&now](const std::string& uri) { return now.alive.count(uri) > 0; });
-  dead_ = others ? Stamps{} : *gone_;  // of several it is not known whose came last
+  dead_ = others ? Stamps{} : *gone_;  // with several nodes it is not known which sent the last
   gone_.reset();
   senders_ = std::move(now.alive);
   clear();

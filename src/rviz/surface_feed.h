@@ -14,8 +14,8 @@
 
 namespace viscera::rviz_plugin {
 
-/// The surface of a simulator by its three topics. Callbacks are of the thread that serves the node's queue, and all
-/// else is called there.
+/// Receives the surface of a simulator from its three topics. Callbacks run on the thread that serves the node's queue;
+/// call all functions on that thread.
 class SurfaceFeed {
  public:
   SurfaceFeed() = default;
@@ -23,21 +23,23 @@ class SurfaceFeed {
   SurfaceFeed(const SurfaceFeed&) = delete;
   SurfaceFeed& operator=(const SurfaceFeed&) = delete;
 
-  /// @param topic  of the surface; triangles come from the topics that have _topology and _topology_change behind that
-  /// name   @param strain  vertices come from the one that has _strain behind it
-  /// @throws ros::Exception  it is no name of a topic
+  /// Subscribes to a surface.
+  /// @param topic  topic of the surface; its name with _topology and _topology_change appended gives the topics of
+  /// triangles
+  /// @param strain  whether to take vertices from the topic with _strain appended
+  /// @throws ros::Exception  it is not a valid name of a topic
   void subscribe(ros::NodeHandle& node, const std::string& topic, bool strain = false);
   void unsubscribe();
-  /// Forgets what was sent.
+  /// Discards the surface.
   void clear();
-  /// Forgets what was sent and subscribes again if a simulator that sent it has gone and another is there.
-  /// @returns whether that was so   @throws ros::Exception
+  /// Discards the surface and subscribes again if the simulator that sent it has ended and another is there.
+  /// @returns whether it did   @throws ros::Exception
   bool renew();
 
   const SentSurface& surface() const { return surface_; }
   const ros::Subscriber& vertices() const { return vertices_; }
   SenderWatch::Senders senders() const { return watch_.senders(); }
-  /// What was wrong with the last message that was left out; empty: nothing since it was taken.
+  /// Returns the error of the last message that was rejected; empty if there is none since forgive().
   const std::string& wrong() const { return wrong_; }
   void forgive() { wrong_.clear(); }
 
@@ -51,7 +53,7 @@ class SurfaceFeed {
   void connect();
 
   struct Stamps {
-    ros::Time whole = ros::TIME_MAX, vertices = ros::TIME_MAX;  ///< of messages; TIME_MAX: of none
+    ros::Time whole = ros::TIME_MAX, vertices = ros::TIME_MAX;  ///< stamps of messages; TIME_MAX: none
   };
 
   ros::NodeHandle node_;
@@ -59,10 +61,10 @@ class SurfaceFeed {
   bool strain_ = false;
   ros::Subscriber whole_, changes_, vertices_;
   SenderWatch watch_;
-  std::set<std::string> senders_;  ///< that were alive when all of them were seen last
-  Stamps last_;                    ///< of what came last
-  std::optional<Stamps> gone_;     ///< last_ as one of senders_ was missed first
-  Stamps dead_;                    ///< of the last of one that has gone: what was latched roscpp hands out again
+  std::set<std::string> senders_;  ///< nodes that were alive when all of them were last seen
+  Stamps last_;                    ///< stamps of the last messages
+  std::optional<Stamps> gone_;     ///< value of last_ when one of senders_ was first missing
+  Stamps dead_;                    ///< last stamps of an ended node: roscpp delivers its latched messages again
   SentSurface surface_;
   std::string wrong_;
 };

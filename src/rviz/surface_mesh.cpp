@@ -18,16 +18,16 @@
 namespace viscera::rviz_plugin {
 namespace {
 
-constexpr const char* kGroup = "General";  // of resources: Ogre's own, which is always there
+constexpr const char* kGroup = "General";  // Ogre's own resource group, which always exists
 constexpr size_t kVectorBytes = 3 * sizeof(float);
-// Of the colour, seen whatever the direction, and as much again by rviz's light, which comes from the eye: the top of a
-// flat pad that is seen from low down is brighter than half of what faces the eye.
+// Half of the colour is ambient; the other half is lit by rviz's light, which is at the camera. So the top of a flat
+// pad seen at a grazing angle has more than half of the brightness of surfaces that face the camera.
 constexpr float kOfEach = 0.5F;
-constexpr float kSpecular = 0.15F;  // wet, not plastic
+constexpr float kSpecular = 0.15F;  // appears wet, not like plastic
 constexpr float kShininess = 30;
 
-/// Two passes: what is seen whatever the direction, and the light on it. In one, GL takes vertices' colours for one of
-/// the two.
+/// Uses two passes, one for ambient and one for lit colour: in a single pass, GL applies vertex colours to only one of
+/// them.
 void makeColored(Ogre::Technique& technique) {
   technique.getPass(0)->setLightingEnabled(false);
   technique.createPass()->setVertexColourTracking(Ogre::TVC_DIFFUSE);
@@ -35,7 +35,7 @@ void makeColored(Ogre::Technique& technique) {
 
 size_t withRoom(size_t count) {
   return std::max<size_t>(count + count / 4, 64);
-}  // cuts add some in every tick
+}  // a cut adds some in every tick
 
 std::string uniqueName() {
   static size_t made = 0;
@@ -69,7 +69,7 @@ void SurfaceMesh::make(size_t parts, bool colored) {
   clear();
   colored_ = colored;
   mesh_ = Ogre::MeshManager::getSingleton().createManual(name_, kGroup);
-  mesh_->sharedVertexData = new Ogre::VertexData;  // the mesh's to delete
+  mesh_->sharedVertexData = new Ogre::VertexData;  // the mesh deletes it
   Ogre::VertexDeclaration& layout = *mesh_->sharedVertexData->vertexDeclaration;
   layout.addElement(0, 0, Ogre::VET_FLOAT3, Ogre::VES_POSITION);
   layout.addElement(1, 0, Ogre::VET_FLOAT3, Ogre::VES_NORMAL);
@@ -80,7 +80,7 @@ void SurfaceMesh::make(size_t parts, bool colored) {
     material->setReceiveShadows(false);
     material->setLightingEnabled(true);
     if (colored) makeColored(*material->getTechnique(0));
-    material->setCullingMode(Ogre::CULL_NONE);  // into what is cut open one looks from behind
+    material->setCullingMode(Ogre::CULL_NONE);  // back faces are visible inside a cut
     materials_.push_back(material);
     Ogre::SubMesh* shown = mesh_->createSubMesh();
     shown->useSharedVertices = true;

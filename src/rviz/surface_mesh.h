@@ -23,8 +23,9 @@ class SceneNode;
 
 namespace viscera::rviz_plugin {
 
-/// A surface as Ogre draws it: one mesh, written over in place; a part, a material and a draw call per body and its
-/// walls. Vertices that walls and skin share are smooth by the normals that were sent.
+/// Draws a surface with Ogre: one mesh that is updated in place, with a sub-mesh, a material and a draw call for each
+/// body and for its cut walls. Vertices shared by cut walls and surface are shaded smoothly with the normals that were
+/// sent.
 class SurfaceMesh {
  public:
   SurfaceMesh(Ogre::SceneManager* scene, Ogre::SceneNode* node);
@@ -33,13 +34,14 @@ class SurfaceMesh {
   SurfaceMesh& operator=(const SurfaceMesh&) = delete;
 
   void clear();
-  /// @param vertices  of this topology   @param alpha  of the colours of vertices, where they have some; none: they
-  /// have those of paint()   @returns whether materials are new: what paint() said is gone
+  /// Updates the mesh. @param vertices  vertices of this topology
+  /// @param alpha  opacity of vertex colours, if there are any; empty: the colours are those of paint()
+  /// @returns whether materials were recreated, so that paint() must be called again
   bool show(const SentTopology& topology, const SurfaceVertices& vertices, bool topology_is_new,
             const std::optional<float>& alpha);
-  /// Box around what is shown.
+  /// Returns the bounding box of the mesh.
   const Ogre::AxisAlignedBox& bounds() const { return mesh_->getBounds(); }
-  /// @param colors  of each part that was shown; alpha below 1 blends, of vertices' colours too
+  /// Sets the colours. @param colors  [parts of the mesh]; alpha below 1 blends, also with vertex colours
   void paint(const std::vector<Ogre::ColourValue>& colors);
 
  private:
@@ -50,7 +52,7 @@ class SurfaceMesh {
 
   Ogre::SceneManager* const scene_;
   Ogre::SceneNode* const node_;
-  const std::string name_;  ///< no other resource's
+  const std::string name_;  ///< name unique among resources
   Ogre::MeshPtr mesh_;
   Ogre::Entity* entity_ = nullptr;
   std::vector<Ogre::MaterialPtr> materials_;
@@ -58,7 +60,7 @@ class SurfaceMesh {
   Ogre::HardwareIndexBufferSharedPtr indices_;
   std::vector<float> unpacked_;
   std::vector<uint32_t> seen_colors_;
-  bool colored_ = false;  ///< by vertices
+  bool colored_ = false;  ///< whether vertices have colours
 };
 
 }  // namespace viscera::rviz_plugin

@@ -20,7 +20,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "rviz/panel_look.h"
+#include "rviz/panel_style.h"
 #include "rviz/ros_worker.h"
 #include "rviz/task_words.h"
 
@@ -57,7 +57,7 @@ QString measuresText(const TaskState& state) {
   return measuresText(state.kind, measures);
 }
 
-/// Returns the scene that a task's file names, as load_scene takes it; empty if that cannot be read here.
+/// Returns the scene that a task's file names, in the format of load_scene; empty if the file cannot be read.
 std::string sceneOf(const QString& task_file) {
   rviz::Config task;
   rviz::YamlConfigReader reader;
@@ -68,14 +68,13 @@ std::string sceneOf(const QString& task_file) {
   return (named ? scene : QDir(QFileInfo(task_file).path()).filePath(scene)).toStdString();
 }
 
-/// Starts a task, and loads its scene first if the simulator asks for that.
-/// @param file  of the task, if it is on this machine   @returns what a person is told
+/// Starts a task, and loads its scene first if the simulator requires it.
+/// @param file  file of the task, if it is on this machine   @returns a text for the user
 std::string startTask(RosWorker& worker, const std::string& space, const std::string& task, const QString& file) {
-  constexpr const char* kOtherScene = "load_scene it first";  // of the refusal
   StartTaskRequest request;
   request.task = task;
   RosWorker::Answer answer = worker.ask<StartTask>(space + "start_task", request);
-  if (answer.success || answer.text.find(kOtherScene) == std::string::npos) return answer.text;
+  if (answer.success || answer.text.find(StartTaskResponse::LOAD_SCENE_FIRST) == std::string::npos) return answer.text;
   LoadSceneRequest scene;
   scene.scene = sceneOf(file);
   if (scene.scene.empty()) return answer.text;
@@ -97,7 +96,7 @@ QString handsText(const Metrics& metrics) {
   return out.trimmed();
 }
 
-/// Lines without a text take no room.
+/// Writes a text, and hides the label if it is empty.
 void writeOrHide(QLabel* label, const QString& text) {
   label->setText(text);
   label->setVisible(!text.isEmpty());
@@ -112,7 +111,7 @@ struct TaskBox::Inside {
   };
   RosWorker& worker;
   std::string space;
-  QString folder;  ///< of tasks that have names
+  QString folder;  ///< folder of tasks with names
   bool runs = false, busy = false;
   QWidget* choices = new QWidget;
   QComboBox* tasks = new ChoiceBox;
@@ -218,7 +217,7 @@ void TaskBox::Inside::show(const TaskState& state) {
 
 }  // namespace viscera::rviz_plugin
 
-#else  // messages without those of tasks
+#else  // the messages lack those of tasks
 
 namespace viscera::rviz_plugin {
 

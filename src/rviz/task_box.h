@@ -12,20 +12,20 @@ namespace viscera::rviz_plugin {
 
 class RosWorker;
 
-/// The task of a lesson: what is to be done, how far it is and the score. choices() has what begins it and gives it up.
+/// The task of a lesson: instructions, progress and score. choices() has the buttons that start and end it.
 class TaskBox : public QGroupBox {
  public:
-  /// @param worker  must outlive all calls but the destructor
+  /// @param worker  must outlive all calls except the destructor
   explicit TaskBox(RosWorker& worker);
   ~TaskBox() override;
-  /// Shows the task of another simulator from here on. @param node  whose queue is served by rviz's own thread
+  /// Shows the task of another simulator. @param node  handle with a queue that rviz's own thread serves
   /// @param space  its namespace, with a slash at its end; empty: none
   void follow(const ros::NodeHandle& node, const std::string& space);
-  /// The box of tasks and the buttons, a widget of their own: texts that grow do not move them.
+  /// Returns the box of tasks and the buttons, as a separate widget that does not move when texts grow.
   QWidget* choices() const;
-  /// @param names  of tasks of the package   @param folder  where their files are
+  /// Sets the choices. @param names  names of tasks of the package   @param folder  folder of their files
   void offerTasks(const QStringList& names, const QString& folder);
-  /// @param runs  there is a simulator to ask
+  /// Sets whether there is a simulator. @param runs  whether a simulator runs
   void setRuns(bool runs);
 
  private:

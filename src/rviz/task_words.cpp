@@ -14,9 +14,9 @@ using Kinds = std::array<const char*, 3>;
 struct MeasureWords {
   const char* name;
   const char* words;
-  const char* unit;  ///< with a space before it
-  int digits;        ///< after the point
-  Kinds kinds{};     ///< that have it; none: all
+  const char* unit;  ///< unit with a space before it
+  int digits;        ///< number of decimals
+  Kinds kinds{};     ///< kinds of tasks that have it; empty: all
 };
 
 const MeasureWords kWords[] = {

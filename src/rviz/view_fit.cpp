@@ -19,7 +19,7 @@
 namespace viscera::rviz_plugin {
 namespace {
 
-/// While it lives, rviz does not take the layout for changed by a person, whom it would ask on closing.
+/// While it exists, rviz does not consider the layout changed by the user and does not ask about it on closing.
 class Quiet {
  public:
   explicit Quiet(std::vector<rviz::Property*> properties) : properties_(std::move(properties)) { set(false); }

@@ -14,26 +14,27 @@ class DisplayContext;
 
 namespace viscera::rviz_plugin {
 
-/// Moves the view so that a surface fits into it, keeping the direction that it is seen from; for views that turn
-/// around a point, as Orbit. What a person has moved since then is left alone.
+/// Fits the view to a surface and keeps the viewing direction; for views that rotate around a point, such as Orbit. A
+/// view that the user has moved since is left alone.
 class ViewFit {
  public:
-  /// @param context  must outlive this
+  /// @param context  must outlive this object
   explicit ViewFit(rviz::DisplayContext* context) : context_(context) {}
 
-  /// @param node  of the surface, placed in the scene   @param box  of the surface, in the node's frame
+  /// Fits the view.
+  /// @param node  node of the surface, placed in the scene   @param box  bounding box in the node's frame
   /// @returns whether the view was moved
   bool fit(const Ogre::SceneNode& node, const Ogre::AxisAlignedBox& box);
 
  private:
   rviz::DisplayContext* const context_;
-  bool moved_ = false;  ///< by this, to:
+  bool moved_ = false;  ///< whether this object has moved the view, to:
   Ogre::Vector3 focus_ = Ogre::Vector3::ZERO;
   float distance_ = 0;
 };
 
-/// Returns how far a sphere is from a camera that it fits into the picture of.
-/// @param radius  of the sphere   @param fov_y  of the camera [rad]   @param aspect  width by height
+/// Returns the distance at which a sphere fits into the image of a camera.
+/// @param radius  radius of the sphere   @param fov_y  of the camera [rad]   @param aspect  width divided by height
 float fittingDistance(float radius, float fov_y, float aspect);
 
 }  // namespace viscera::rviz_plugin

@@ -4,12 +4,12 @@
 
 namespace viscera::rviz_plugin {
 
-/// Makes Mesa ask again for the size of each window of Ogre's that is new since the last call: rviz's own, and those of
-/// Image and Camera displays. Call it before they are drawn, in the thread that draws.
+/// Makes Mesa query the size of each Ogre window that is new since the last call: rviz's own, and those of Image and
+/// Camera displays. Call it on the drawing thread before they are drawn.
 ///
-/// On a software renderer rviz may make a context before the X server has the window. Mesa then keeps an accidental
-/// size, of height 0 too, up to the first swap, and writes beyond buffers of that size: rviz ended by SIGSEGV or
-/// SIGABRT, seldom, more often on a busy machine.
+/// On a software renderer rviz may create a context before the X server has the window. Mesa then keeps an arbitrary
+/// size, even a height of 0, until the first swap, and writes beyond buffers of that size. rviz then occasionally ended
+/// with SIGSEGV or SIGABRT, more often on a busy machine.
 void renewWindowSizes();
 
 }  // namespace viscera::rviz_plugin

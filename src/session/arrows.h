@@ -14,12 +14,13 @@
 namespace viscera {
 
 constexpr double kArrowPerNewton_m = 0.1;  ///< length of an arrow, as in scene_markers by default
-constexpr double kArrowOfWind_s = 0.01;    ///< an arrow of the wind is the way of the air in this time
+constexpr double kArrowOfWind_s = 0.01;    ///< an arrow of the wind is the path of the air in this time
 
-/// What each stylus feels, at its tip.
+/// Adds the force on each stylus, at its tip.
 void addForceArrows(const ToolMotions& motions, const std::array<Reaction, layout::kMaxStyluses>& reactions,
                     std::vector<Arrow>& out);
-/// A square of arrows that end where the air comes to the bodies at rest. @param wind_m_per_s  none where it is zero
+/// Adds a square of arrows that end where the air reaches the bodies at rest. @param wind_m_per_s  no arrows if it is
+/// zero
 void addWindArrows(const Vector3d& wind_m_per_s, const Model& model, std::vector<Arrow>& out);
 
 }  // namespace viscera

@@ -12,15 +12,15 @@ HostView::HostView(const Model& model) : surface_(model) {
   snapshot_.bricks = surface_.shownBricks();
 }
 
-void HostView::capture(Solver& solver, const Look& look, Pictures&) {
-  if (look.wants.count() > static_cast<size_t>(look.wants.surface)) {
+void HostView::capture(Solver& solver, const RenderRequest& request, Pictures&) {
+  if (request.wants.count() > static_cast<size_t>(request.wants.surface)) {
     throw GpuError(
-        "an image is wanted of a session without an OpenGL context: give it one, or ask for its surface only");
+        "an image was requested from a session without an OpenGL context; create one, or request only the surface");
   }
-  if (!look.wants.surface) return;
+  if (!request.wants.surface) return;
   solver.snapshot(snapshot_);
   taken_ = std::make_unique<SurfaceFrame>();
-  taken_->tick = look.tick;
+  taken_->tick = request.tick;
   surface_.show(snapshot_, *taken_);
 }
 
@@ -31,7 +31,7 @@ void HostView::collect(Pictures& out, bool) {
 ViewCounters HostView::counters() const {
   ViewCounters out;
   out.mappings = out.readbacks = surface_.mappings();
-  if (const ShownWounds* const wounds = surface_.wounds()) {
+  if (const VisibleWounds* const wounds = surface_.wounds()) {
     out.wound_holes = wounds->holes;
     out.wound_slivers = wounds->slivers;
   }

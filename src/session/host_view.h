@@ -9,22 +9,22 @@
 
 namespace viscera {
 
-/// A view without OpenGL, on the stepping thread: the skin at once, no images.
+/// View without OpenGL, on the stepping thread: surfaces at once, no images.
 class HostView : public View {
  public:
   explicit HostView(const Model& model);
 
-  /// @throws GpuError  an image is wanted
-  void capture(Solver& solver, const Look& look, Pictures& out) override;
+  /// @throws GpuError  an image is requested
+  void capture(Solver& solver, const RenderRequest& request, Pictures& out) override;
   void collect(Pictures& out, bool wait) override;
   void reset() override { surface_.reset(); }
   ViewCounters counters() const override;
-  std::shared_ptr<const ShownTopology> wholeSkin() const override { return surface_.skin().whole(); }
+  std::shared_ptr<const VisibleTopology> wholeSkin() const override { return surface_.skin().whole(); }
 
  private:
   HostSurface surface_;
   StateSnapshot snapshot_;
-  std::unique_ptr<SurfaceFrame> taken_;  ///< of the last capture, till it is collected
+  std::unique_ptr<SurfaceFrame> taken_;  ///< of the last capture, until it is collected
 };
 
 }  // namespace viscera

@@ -10,7 +10,7 @@
 #include "gpu/stage_clock.h"
 #include "model/scene/tool_kinds.h"
 #include "render/overlay_painter.h"
-#include "session/thread_looks.h"
+#include "session/tube_styles.h"
 #include "viscera/model/scene/scene.h"
 
 namespace viscera {
@@ -21,7 +21,7 @@ constexpr int kImagesInFlight = 3;
 constexpr int kSurfacesInFlight = 3;
 
 size_t surfaceBytes(const Surface& surface) {
-  constexpr size_t kNormalAndColors = 3;  // of the tissue, of its strain
+  constexpr size_t kNormalAndColors = 3;  // normal, colour, and colour of the strain
   return surface.capacity() * (3 * sizeof(float) + kNormalAndColors * sizeof(uint32_t)) +
          surface.triangles() * sizeof(uint32_t);
 }
@@ -36,7 +36,7 @@ gpu::ReadbackRing::Pixel pixelOf(PictureKind kind) {
   return kind == PictureKind::kLabels ? gpu::ReadbackRing::Pixel::kUint8 : gpu::ReadbackRing::Pixel::kRgb8;
 }
 
-/// Cameras, then the right eyes of those that have one: a camera in its place, which is moved before it draws.
+/// Returns the cameras, then the right eyes of stereo cameras: copies of the camera, moved before drawing.
 std::vector<CameraConfig> eyesOf(const std::vector<CameraConfig>& cameras) {
   std::vector<CameraConfig> out = cameras;
   for (const CameraConfig& camera : cameras) {
@@ -45,7 +45,7 @@ std::vector<CameraConfig> eyesOf(const std::vector<CameraConfig>& cameras) {
   return out;
 }
 
-/// Do two motions look the same? Only where the tools end up is drawn.
+/// Returns whether two motions request the same. Only the final poses of the tools are drawn.
 bool looksTheSame(const ToolMotions& a, const ToolMotions& b) {
   for (size_t s = 0; s < a.size(); ++s) {
     if (a[s].present != b[s].present) return false;
@@ -69,8 +69,8 @@ InlineView::InlineView(const Model& model, const Scene& scene)
       surface_ring_(makeRing(surface_)),
       strain_range_(scene.cameras.empty() ? CameraConfig().strain_range : scene.cameras.front().strain_range),
       reads_late_(gpu::isSoftware()) {
-  if (PaleSkin::isSeenIn(model)) pale_skin_ = std::make_unique<PaleSkin>(model);
-  if (hasThreadsOrClips(scene)) renderer_.addThreads(looksOf(scene));
+  if (Blanching::isSeenIn(model)) pale_skin_ = std::make_unique<Blanching>(model);
+  if (hasSuturesOrClips(scene)) renderer_.addTubes(stylesOf(scene));
   const std::vector<CameraConfig>& cameras = scene.cameras;
   for (size_t c = 0; c < cameras.size(); ++c) addEye(c, cameras[c], PictureKind::kColor);
   for (size_t c = 0; c < cameras.size(); ++c) {
@@ -82,7 +82,7 @@ void InlineView::addEye(size_t camera, const CameraConfig& config, PictureKind k
   auto ring = std::make_unique<gpu::ReadbackRing>(pictureBytes(config, kind), kImagesInFlight, "an image");
   eyes_.push_back({camera,
                    config,
-                   SeenSkin(config, surface_.boxes()),
+                   SkinVisibility(config, surface_.boxes()),
                    opticalPose(config),
                    {kind, std::move(ring)},
                    {PictureKind::kDepth, nullptr},
@@ -91,18 +91,18 @@ void InlineView::addEye(size_t camera, const CameraConfig& config, PictureKind k
                    {}});
 }
 
-void InlineView::capture(Solver& solver, const Look& look, Pictures& out) {
+void InlineView::capture(Solver& solver, const RenderRequest& request, Pictures& out) {
   const StateView state = solver.stateOnGpu().value();
-  if (look.wants.count() > 0 && surface_.canBeWounded() && solver.readCuts(cuts_)) {
+  if (request.wants.count() > 0 && surface_.canBeWounded() && solver.readCuts(cuts_)) {
     wound(cuts_, cuts_.revision);
   }
-  capture(state, look, out);
+  capture(state, request, out);
 }
 
 void InlineView::wound(const CutSprings& cuts, uint64_t revision) {
   const size_t capacity = surface_.capacity();
   surface_.wound(cuts, revision);
-  if (surface_.capacity() > capacity) {  // a larger ring; what is in flight is overtaken
+  if (surface_.capacity() > capacity) {  // a larger ring; what is in flight is dropped
     counters_.skipped += static_cast<uint64_t>(surface_ring_->inFlight());
     surface_ring_->drop();
     in_flight_.clear();
@@ -110,58 +110,58 @@ void InlineView::wound(const CutSprings& cuts, uint64_t revision) {
   }
 }
 
-void InlineView::capture(const StateView& state, const Look& look, Pictures& out,
+void InlineView::capture(const StateView& state, const RenderRequest& request, Pictures& out,
                          const std::optional<HostDisplacements>& displacements) {
   ++captures_;
-  const bool surface = look.wants.surface && surface_ring_->inFlight() < kSurfacesInFlight;
-  counters_.skipped += look.wants.surface && !surface ? 1 : 0;
-  bool all = surface, any = surface;  // of the skin is to be mapped
+  const bool surface = request.wants.surface && surface_ring_->inFlight() < kSurfacesInFlight;
+  counters_.skipped += request.wants.surface && !surface ? 1 : 0;
+  bool all = surface, any = surface;  // of the surface mesh to map
   for (size_t e = 0; e < eyes_.size(); ++e) {
     Eye& eye = eyes_[e];
-    choose(e, state, look, out);
+    choose(e, state, request, out);
     if (!eye.draws && !eye.measures) continue;
     any = true;
-    all = all || (eye.draws && overlaysOf(eye.camera, look).any()) || !eye.skin.asks(displacements.has_value());
+    all = all || (eye.draws && overlaysOf(eye.camera, request).any()) || !eye.skin.asks(displacements.has_value());
   }
-  surface_.paint(look.processes.paints);
+  surface_.paint(request.processes.paints);
   if (any) follow(state, all, displacements);
-  if (surface) captureSurface(state, look);
+  if (surface) captureSurface(state, request);
   const auto last =
       std::find_if(eyes_.rbegin(), eyes_.rend(), [](const Eye& eye) { return eye.draws || eye.measures; });
   for (size_t e = 0; e < eyes_.size(); ++e) {
     const bool is_last = last != eyes_.rend() && &eyes_[e] == &*last;
-    const bool pauses = is_last && !last->measures && !overlaysOf(last->camera, look).any();
+    const bool pauses = is_last && !last->measures && !overlaysOf(last->camera, request).any();
     renderer_.setPause(pauses ? pause_ : std::function<void()>());
-    if (eyes_[e].color.wanted) captureImage(e, state, look);
-    if (eyes_[e].depth.wanted || eyes_[e].labels.wanted) captureGeometry(e, state, look);
+    if (eyes_[e].color.wanted) captureImage(e, state, request);
+    if (eyes_[e].depth.wanted || eyes_[e].labels.wanted) captureGeometry(e, state, request);
   }
 }
 
-/// Brings an eye to where it is in this capture.
-void InlineView::place(size_t e, const Look& look) {
+/// Moves an eye to its pose in this capture.
+void InlineView::place(size_t e, const RenderRequest& request) {
   Eye& eye = eyes_[e];
-  eye.pose = eye.camera < look.cameras.size() ? look.cameras[eye.camera] : opticalPose(eye.config);
+  eye.pose = eye.camera < request.cameras.size() ? request.cameras[eye.camera] : opticalPose(eye.config);
   if (eye.color.kind == PictureKind::kRight) eye.pose = eye.pose * rightEye(eye.config);
   eye.skin.place(eye.pose);
   renderer_.placeCamera(e, eye.pose);
 }
 
-/// What of an eye is wanted in this capture, and what of that is to be drawn.
-void InlineView::choose(size_t e, const StateView& state, const Look& look, Pictures& out) {
+/// Chooses which images of an eye are requested in this capture, and which of those to draw.
+void InlineView::choose(size_t e, const StateView& state, const RenderRequest& request, Pictures& out) {
   Eye& eye = eyes_[e];
   const bool left = eye.color.kind == PictureKind::kColor;
-  const bool color = claim(eye.color, eye, look, out);
-  const bool depth = left && claim(eye.depth, eye, look, out), labels = left && claim(eye.labels, eye, look, out);
+  const bool color = claim(eye.color, eye, request, out);
+  const bool depth = left && claim(eye.depth, eye, request, out), labels = left && claim(eye.labels, eye, request, out);
   eye.draws = eye.measures = false;
   if (!color && !depth && !labels) return;
-  place(e, look);
-  eye.draws = color && !isRepeat(eye, eye.drawn, overlaysOf(eye.camera, look), state, look);
-  eye.measures = (depth || labels) && !isRepeat(eye, eye.measured, Overlays{}, state, look);
+  place(e, request);
+  eye.draws = color && !isRepeat(eye, eye.drawn, overlaysOf(eye.camera, request), state, request);
+  eye.measures = (depth || labels) && !isRepeat(eye, eye.measured, Overlays{}, state, request);
 }
 
-/// Is a picture of that kind wanted, and is there room for another in its ring?
-bool InlineView::claim(Channel& channel, Eye& eye, const Look& look, Pictures& out) {
-  channel.wanted = look.wants.image(eye.camera, channel.kind);
+/// Returns whether an image of that kind is requested and its ring has room for another.
+bool InlineView::claim(Channel& channel, Eye& eye, const RenderRequest& request, Pictures& out) {
+  channel.wanted = request.wants.image(eye.camera, channel.kind);
   if (!channel.wanted) return false;
   if (channel.drawn) readDrawn(channel, eye);
   if (!channel.ring) {
@@ -169,32 +169,32 @@ bool InlineView::claim(Channel& channel, Eye& eye, const Look& look, Pictures& o
                                                        "depths or labels");
   }
   const bool full = channel.ring->inFlight() == kImagesInFlight;
-  if (!full || (look.wants.every_image && takeImage(channel, eye, out, true))) return true;
+  if (!full || (request.wants.every_image && takeImage(channel, eye, out, true))) return true;
   ++counters_.skipped;
   channel.wanted = false;
   return false;
 }
 
-Overlays InlineView::overlaysOf(size_t camera, const Look& look) {
-  return camera < look.overlays.size() ? look.overlays[camera] : Overlays{};  // none were asked for
+Overlays InlineView::overlaysOf(size_t camera, const RenderRequest& request) {
+  return camera < request.overlays.size() ? request.overlays[camera] : Overlays{};  // none requested
 }
 
-/// Would the picture be the last one again?
+/// Returns whether the image would equal the last one.
 bool InlineView::isRepeat(const Eye& eye, const std::optional<Drawn>& drawn, const Overlays& overlays,
-                          const StateView& state, const Look& look) const {
+                          const StateView& state, const RenderRequest& request) const {
   return drawn && state.moved_revision == drawn->moved_revision && state.cut_revision == drawn->cut_revision &&
-         looksTheSame(look.motions, drawn->motions) && isSame(eye.pose, drawn->pose) &&
-         std::equal(look.obstacles.begin(), look.obstacles.end(), drawn->obstacles.begin(), drawn->obstacles.end(),
-                    isSame) &&
-         look.processes == drawn->processes && overlays == drawn->overlays &&
-         (!overlays.any() || look.arrows == drawn->arrows);
+         looksTheSame(request.motions, drawn->motions) && isSame(eye.pose, drawn->pose) &&
+         std::equal(request.obstacles.begin(), request.obstacles.end(), drawn->obstacles.begin(),
+                    drawn->obstacles.end(), isSame) &&
+         request.processes == drawn->processes && overlays == drawn->overlays &&
+         (!overlays.any() || request.arrows == drawn->arrows);
 }
 
-/// Brings the surface to a state, as far as the images that are to be drawn show it. @param all  the whole of it
+/// Updates the surface to a state, as far as the images to draw show it. @param all  the whole surface
 void InlineView::follow(const StateView& state, bool all, const std::optional<HostDisplacements>& displacements) {
   surface_.split(state);
   std::vector<SkinBox> boxes;
-  std::vector<uint8_t> seen(model_.bodies.size());  // by any camera that is drawn
+  std::vector<uint8_t> seen(model_.bodies.size());  // by any camera that draws
   for (Eye& eye : eyes_) {
     if (!eye.draws && !eye.measures) continue;
     const bool asks = eye.skin.asks(displacements.has_value());
@@ -209,8 +209,8 @@ void InlineView::follow(const StateView& state, bool all, const std::optional<Ho
   if (pale_skin_ && draws) renderer_.showColors(pale_skin_->follow(state, surface_).id());
 }
 
-void InlineView::captureSurface(const StateView& state, const Look& look) {
-  const bool colors = surface_.isPainted(), strain = look.wants.strain;
+void InlineView::captureSurface(const StateView& state, const RenderRequest& request) {
+  const bool colors = surface_.isPainted(), strain = request.wants.strain;
   if (strain) {
     if (!strain_) strain_ = std::make_unique<NodeOverlay>(model_);
     strain_->follow(state, surface_);
@@ -225,88 +225,88 @@ void InlineView::captureSurface(const StateView& state, const Look& look) {
       {surface_.alive().id(), 0, surface_.triangles() * sizeof(uint32_t)}};
   if (colors) sources.push_back({surface_.colors().id(), 0, words});
   if (strain) sources.push_back({strain_->colors().id(), 0, words});
-  surface_ring_->request(sources.data(), sources.size(), look.tick);
+  surface_ring_->request(sources.data(), sources.size(), request.tick);
   in_flight_.push_back({surface_.wounds(), colors, strain});
   ++counters_.readbacks;
 }
 
-void InlineView::captureImage(size_t e, const StateView& state, const Look& look) {
+void InlineView::captureImage(size_t e, const StateView& state, const RenderRequest& request) {
   Eye& eye = eyes_[e];
   if (eye.draws) {
-    draw(e, state, look);
+    draw(e, state, request);
   } else {
     renderer_.bindLast(e);
     ++counters_.repeats;
   }
   if (reads_late_) {
     eye.color.drawn = std::make_unique<gpu::Fence>();
-    eye.color.drawn_tick = look.tick;
+    eye.color.drawn_tick = request.tick;
   } else {
-    request(eye.color, eye, look.tick);
+    startReadback(eye.color, eye, request.tick);
   }
 }
 
-void InlineView::captureGeometry(size_t e, const StateView& state, const Look& look) {
+void InlineView::captureGeometry(size_t e, const StateView& state, const RenderRequest& request) {
   Eye& eye = eyes_[e];
   if (eye.measures) {
-    renderer_.placeObstacles(look.obstacles);
-    renderer_.placeThreads(look.processes.threads);
-    renderer_.drawGeometry(e, surface_, look.motions, eye.skin.drawn());
+    renderer_.placeObstacles(request.obstacles);
+    renderer_.placeTubes(request.processes.sutures);
+    renderer_.drawGeometry(e, surface_, request.motions, eye.skin.drawn());
     eye.measured.reset();
     if (state.moved_revision) {
       eye.measured =
-          Drawn{state.moved_revision, state.cut_revision, look.motions, look.obstacles, eye.pose, Overlays{}, {},
-                look.processes};
+          Drawn{state.moved_revision, state.cut_revision, request.motions, request.obstacles, eye.pose, Overlays{}, {},
+                request.processes};
     }
   } else {
     ++counters_.repeats;
   }
   if (eye.depth.wanted) {
     renderer_.geometry(e).bindDepths();
-    request(eye.depth, eye, look.tick);
+    startReadback(eye.depth, eye, request.tick);
   }
   if (eye.labels.wanted) {
     renderer_.geometry(e).bindLabels();
-    request(eye.labels, eye, look.tick);
+    startReadback(eye.labels, eye, request.tick);
   }
 }
 
-/// Of what is bound for reading.
-void InlineView::request(Channel& channel, const Eye& eye, uint64_t tick) {
+/// Requests what is bound for reading.
+void InlineView::startReadback(Channel& channel, const Eye& eye, uint64_t tick) {
   const gpu::TimedStage timed(gpu::Stage::kReadback);
   channel.ring->requestPixels(eye.config.width_px, eye.config.height_px, tick, pixelOf(channel.kind));
   ++counters_.readbacks;
 }
 
-/// Leaves the image bound for reading.
-void InlineView::draw(size_t e, const StateView& state, const Look& look) {
+/// Draws an image and leaves it bound for reading.
+void InlineView::draw(size_t e, const StateView& state, const RenderRequest& request) {
   Eye& eye = eyes_[e];
-  const Overlays overlays = overlaysOf(eye.camera, look);
-  renderer_.placeObstacles(look.obstacles);
-  renderer_.placeThreads(look.processes.threads);
+  const Overlays overlays = overlaysOf(eye.camera, request);
+  renderer_.placeObstacles(request.obstacles);
+  renderer_.placeTubes(request.processes.sutures);
   if (overlays.any()) {
-    const OverlayLook over = {overlays,     eye.config.strain_range, state,    &surface_,
-                              &look.arrows, eye.skin.drawn(),        captures_};
-    renderer_.draw(e, model_, over, look.motions);
+    const OverlayStyle over = {overlays,        eye.config.strain_range, state,    &surface_,
+                               &request.arrows, eye.skin.drawn(),        captures_};
+    renderer_.draw(e, model_, over, request.motions);
   } else {
-    renderer_.draw(e, surface_, look.motions, eye.skin.drawn());
+    renderer_.draw(e, surface_, request.motions, eye.skin.drawn());
   }
   eye.drawn.reset();
   if (state.moved_revision) {
-    eye.drawn = Drawn{state.moved_revision, state.cut_revision, look.motions, look.obstacles, eye.pose, overlays,
-                      look.arrows,          look.processes};
+    eye.drawn = Drawn{state.moved_revision, state.cut_revision, request.motions, request.obstacles, eye.pose, overlays,
+                      request.arrows,       request.processes};
   }
 }
 
-void InlineView::showSurface(const StateView& state, const Look& look, Pictures& out) {
+void InlineView::showSurface(const StateView& state, const RenderRequest& request, Pictures& out) {
   if (surface_ring_->inFlight() == kSurfacesInFlight) {
     ++counters_.skipped;
     return;
   }
-  surface_.paint(look.processes.paints);
+  surface_.paint(request.processes.paints);
   surface_.split(state);
   surface_.follow(state, nullptr);
-  captureSurface(state, look);
+  captureSurface(state, request);
   takeSurface(out, false);
 }
 
@@ -322,7 +322,7 @@ ViewCounters InlineView::counters() const {
   ViewCounters out = counters_;
   out.mappings = surface_.mappings();
   out.renders = renderer_.renders();
-  if (const std::shared_ptr<const ShownWounds> wounds = surface_.wounds()) {
+  if (const std::shared_ptr<const VisibleWounds> wounds = surface_.wounds()) {
     out.wound_holes = wounds->holes;
     out.wound_slivers = wounds->slivers;
   }

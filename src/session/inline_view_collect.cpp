@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Of InlineView, what comes back from the GPU.
+// The part of InlineView that reads results back from the GPU.
 #include <algorithm>
 #include <cstring>
 #include <limits>
@@ -16,11 +16,11 @@ constexpr uint32_t kOpaqueAlpha = 0xff000000U;
 
 }  // namespace
 
-/// A software rasteriser draws on threads of its own, but who reads pixels waits for them.
+/// Reads a drawn image. A software rasteriser draws on threads of its own, but reading pixels waits for them.
 void InlineView::readDrawn(Channel& channel, const Eye& eye) {
   renderer_.bindLast(static_cast<size_t>(&eye - eyes_.data()));
   channel.drawn.reset();
-  request(channel, eye, channel.drawn_tick);
+  startReadback(channel, eye, channel.drawn_tick);
 }
 
 void InlineView::collect(Pictures& out, bool wait) {
@@ -53,7 +53,7 @@ bool InlineView::takeSurface(Pictures& out, bool wait) {
     std::memcpy(values.data(), at, count * sizeof(values[0]));
     at += count * sizeof(values[0]);
   };
-  out.surface = std::make_unique<SurfaceFrame>();  // an older one of the same call is overtaken
+  out.surface = std::make_unique<SurfaceFrame>();  // an older surface of the same call is dropped
   out.surface->tick = tick;
   const Sent sent = std::move(in_flight_.front());
   in_flight_.pop_front();
@@ -63,7 +63,7 @@ bool InlineView::takeSurface(Pictures& out, bool wait) {
   take(alive_, surface_.triangles());
   if (sent.colors) take(out.surface->colors, vertices);
   if (sent.strain) take(out.surface->strain_colors, vertices);
-  for (uint32_t& color : out.surface->colors) color |= kOpaqueAlpha;  // where pictures are told the body
+  for (uint32_t& color : out.surface->colors) color |= kOpaqueAlpha;  // images use it for the body's label
   out.surface->topology = surface_.skin().shown(alive_.data(), sent.wounds.get());
   surface_ring_->release();
   return true;

@@ -19,10 +19,10 @@ namespace viscera {
 
 namespace {
 
-constexpr char kRecordMagic[] = "viscera session";  // 16 bytes with the 0 at its end
+constexpr char kRecordMagic[] = "viscera session";  // 16 bytes with the terminating 0
 constexpr std::chrono::milliseconds kWritePeriod{250};
-constexpr size_t kMostWaiting = size_t{1} << 30;  // bytes: a disk that takes no more
-constexpr uint64_t kMostPacked = 1040;            // deflate makes no more of a byte
+constexpr size_t kMostWaiting = size_t{1} << 30;  // bytes waiting for a disk that is full or too slow
+constexpr uint64_t kMostPacked = 1040;            // largest expansion of a byte by deflate
 constexpr uint64_t kFirstChunk = sizeof kRecordMagic + sizeof(uint32_t);
 
 struct ChunkHead {
@@ -44,8 +44,8 @@ RecordFileWriter::RecordFileWriter(const std::string& path, uint64_t most_bytes)
       most_bytes_(most_bytes),
       fd_(open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666)) {
   if (fd_ < 0 && errno == EEXIST)
-    throw Error(path + ": is there already, and a recording is never overwritten: name another file, or remove it");
-  if (fd_ < 0) throw Error(path + ": cannot be made for a recording: " + std::strerror(errno));
+    throw Error(path + ": already exists, and recordings are never overwritten; choose another file or remove it");
+  if (fd_ < 0) throw Error(path + ": cannot be created for a recording: " + std::strerror(errno));
   try {
     writeAll(kRecordMagic, sizeof kRecordMagic);
     writeAll(&kRecordVersion, sizeof kRecordVersion);
@@ -70,7 +70,7 @@ void RecordFileWriter::finish() {
   changed_.notify_all();
   if (!thread_.joinable()) return;
   thread_.join();
-  if (!fault_.empty() && whole_bytes_ == 0) unlink(path_.c_str());  // or an empty file would block the name
+  if (!fault_.empty() && whole_bytes_ == 0) unlink(path_.c_str());  // an empty file would block the name
 }
 
 void RecordFileWriter::put(ChunkKind kind, std::vector<char> bytes) {
@@ -78,7 +78,7 @@ void RecordFileWriter::put(ChunkKind kind, std::vector<char> bytes) {
   if (!fault_.empty()) return;
   waiting_bytes_ += bytes.size();
   if (waiting_bytes_ > kMostWaiting) {
-    fault_ = path_ + ": the disk takes nothing any more";
+    fault_ = path_ + ": the disk no longer accepts data";
     return;
   }
   constexpr size_t kMostTogether = kMostEventBytes / 4;
@@ -123,17 +123,17 @@ void RecordFileWriter::write(const Waiting& chunk) {
   const int level = chunk.kind == ChunkKind::kState ? Z_BEST_SPEED : Z_DEFAULT_COMPRESSION;
   if (compress2(reinterpret_cast<Bytef*>(packed), &stored, reinterpret_cast<const Bytef*>(chunk.bytes.data()),
                 chunk.bytes.size(), level) != Z_OK)
-    throw Error(path_ + ": no memory to pack what is recorded");
+    throw Error(path_ + ": out of memory while compressing the recording");
   ChunkHead head{static_cast<uint32_t>(chunk.kind), 0, stored, chunk.bytes.size()};
   head.crc = chunkCrc(head, packed);
   std::memcpy(out.data(), &head, sizeof head);
   if (kFirstChunk + whole_bytes_ + sizeof head + stored > most_bytes_)
-    throw Error(path_ + ": the recording ends here: it has reached the " + std::to_string(most_bytes_) +
-                " bytes that it may have");
+    throw Error(path_ + ": the recording ends here: it has reached its limit of " + std::to_string(most_bytes_) +
+                " bytes");
   try {
     writeAll(out.data(), sizeof head + stored);
   } catch (const Error&) {
-    if (ftruncate(fd_, static_cast<off_t>(kFirstChunk + whole_bytes_)) != 0) {  // a reader notices what is left
+    if (ftruncate(fd_, static_cast<off_t>(kFirstChunk + whole_bytes_)) != 0) {  // a reader detects the remains
     }
     throw;
   }
@@ -158,8 +158,8 @@ RecordFileReader::RecordFileReader(const std::string& path) : path_(path), file_
   char magic[sizeof kRecordMagic] = {};
   uint32_t version = 0;
   file_.read(magic, sizeof magic);
-  if (!file_ || std::memcmp(magic, kRecordMagic, sizeof magic) != 0) throw Error(path + ": is no recorded session");
-  if (!file_.read(reinterpret_cast<char*>(&version), sizeof version)) throw Error(path + ": holds nothing yet");
+  if (!file_ || std::memcmp(magic, kRecordMagic, sizeof magic) != 0) throw Error(path + ": is not a recorded session");
+  if (!file_.read(reinterpret_cast<char*>(&version), sizeof version)) throw Error(path + ": contains nothing yet");
   if (version != kRecordVersion) {
     throw Error(path + ": is a recording of version " + std::to_string(version) + "; this program reads version " +
                 std::to_string(kRecordVersion));
@@ -184,10 +184,10 @@ std::optional<ChunkKind> RecordFileReader::next() {
   file_.clear();
   file_.seekg(static_cast<std::streamoff>(next_));
   if (size_ - next_ < sizeof head || !file_.read(reinterpret_cast<char*>(&head), sizeof head))
-    return ends("the recording is cut");
-  if (head.stored > size_ - next_ - sizeof head) return ends("the recording is cut or damaged");
+    return ends("the recording is truncated");
+  if (head.stored > size_ - next_ - sizeof head) return ends("the recording is truncated or damaged");
   stored_.resize(head.stored);
-  if (!file_.read(stored_.data(), static_cast<std::streamsize>(head.stored))) return ends("the recording is cut");
+  if (!file_.read(stored_.data(), static_cast<std::streamsize>(head.stored))) return ends("the recording is truncated");
   const bool known =
       head.kind >= static_cast<uint32_t>(ChunkKind::kScene) && head.kind <= static_cast<uint32_t>(ChunkKind::kEnd);
   if (!known || chunkCrc(head, stored_.data()) != head.crc || head.raw / kMostPacked > head.stored)
@@ -201,10 +201,10 @@ std::optional<ChunkKind> RecordFileReader::next() {
 std::vector<char> RecordFileReader::bytes(uint64_t most) const {
   if (raw_bytes_ > most)
     throw Error(path_ + ": the chunk after " + std::to_string(place_) + " bytes unpacks to " +
-                std::to_string(raw_bytes_) + " bytes; one of its kind has at most " + std::to_string(most));
+                std::to_string(raw_bytes_) + " bytes; chunks of its kind have at most " + std::to_string(most));
   std::vector<char> out(raw_bytes_);
   uLongf size = out.size();
-  char none = 0;  // zlib takes no null
+  char none = 0;  // zlib accepts no null pointer
   if (uncompress(reinterpret_cast<Bytef*>(out.empty() ? &none : out.data()), &size,
                  reinterpret_cast<const Bytef*>(stored_.data()), stored_.size()) != Z_OK ||
       size != out.size())

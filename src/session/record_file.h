@@ -15,39 +15,40 @@
 
 namespace viscera {
 
-// A recording on the disk: the sixteen bytes of kRecordMagic, a version as 32 bits, then chunks one behind the other:
-// what they are (32 bits), a CRC-32 of all the rest of them, length as stored and unpacked (64 bits each), and what
-// zlib made of their bytes. All little-endian. It is only appended to: whatever ends the program, all but the last
-// quarter of a second is there.
+// Recording on disk: the sixteen bytes of kRecordMagic, a version as 32 bits, then chunks in sequence. A chunk has its
+// kind (32 bits), a CRC-32 of the rest of it, its length as stored and unpacked (64 bits each), and its bytes
+// compressed by zlib. All numbers are little-endian. The file is only appended to: if the program ends abnormally, at
+// most the last quarter of a second is lost.
 
-constexpr uint32_t kRecordVersion = 1;  ///< of the format and of what chunks hold
+constexpr uint32_t kRecordVersion = 1;  ///< version of the format and of the content of chunks
 
 enum class ChunkKind : uint32_t {
   kScene = 1,  ///< a session begins: its scene
-  kState,      ///< all of its state, and the hash of that
-  kEvents,     ///< what happened to it
-  kEnd,        ///< it was recorded to its end: the hash of its state
+  kState,      ///< its complete state, and the hash of it
+  kEvents,     ///< events of the session
+  kEnd,        ///< the recording is complete: the hash of the final state
 };
 
-/// Bytes of a chunk, unpacked, but of states, of which the scene says how large they are: a file from elsewhere may ask
-/// for a thousand times its own size.
+/// Largest unpacked size of a chunk [bytes], except for states, with a size that the scene determines. A file from
+/// elsewhere may unpack to a thousand times its own size.
 constexpr uint64_t kMostEventBytes = uint64_t{64} << 20, kMostSceneBytes = uint64_t{128} << 20;
 
-/// Packs and writes on a thread of its own. A fault, as a full disk, ends what is written, not who writes.
+/// Writer that compresses and writes on a thread of its own. A fault, such as a full disk, ends the recording, not the
+/// caller.
 class RecordFileWriter {
  public:
-  /// @param most_bytes  of the file: fault() says when a chunk found no room
-  /// @throws Error  the file is there already, or cannot be made
+  /// @param most_bytes  of the file: fault() reports when a chunk had no room
+  /// @throws Error  the file exists already, or cannot be created
   explicit RecordFileWriter(const std::string& path, uint64_t most_bytes = UINT64_MAX);
   ~RecordFileWriter();  ///< finish()
   RecordFileWriter(const RecordFileWriter&) = delete;
   RecordFileWriter& operator=(const RecordFileWriter&) = delete;
 
-  /// Does not wait. Events that follow each other go into one chunk, four times a second.
+  /// Queues a chunk without waiting. Consecutive events are merged into one chunk, four times a second.
   void put(ChunkKind kind, std::vector<char> bytes);
-  void finish();                                            ///< writes what waits; nothing may be put after this
-  uint64_t lastStateBytes() const { return state_bytes_; }  ///< as stored; 0: none was yet
-  std::string fault() const;                                ///< why nothing is written any more; empty: it is
+  void finish();  ///< writes what is queued; put() must not be called after it
+  uint64_t lastStateBytes() const { return state_bytes_; }  ///< as stored; 0: no state yet
+  std::string fault() const;                                ///< reason why writing stopped; empty: it continues
 
  private:
   struct Waiting {
@@ -61,7 +62,7 @@ class RecordFileWriter {
   const std::string path_;
   const uint64_t most_bytes_;
   int fd_;
-  uint64_t whole_bytes_ = 0;  ///< of chunks that are in the file; written by the thread
+  uint64_t whole_bytes_ = 0;  ///< bytes of complete chunks in the file; written by the thread
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Waiting> waiting_;
@@ -74,17 +75,17 @@ class RecordFileWriter {
 
 class RecordFileReader {
  public:
-  /// @throws Error  it cannot be read, is no recording, or of another version
+  /// @throws Error  it cannot be read, is no recording, or is of another version
   explicit RecordFileReader(const std::string& path);
 
-  /// The next whole chunk; none at the end, or where the file is cut or damaged, see damage().
+  /// Returns the next complete chunk; none at the end, or where the file is cut or damaged, see damage().
   std::optional<ChunkKind> next();
-  /// What it holds. @param most  bytes that it may unpack to   @throws Error  no bytes of zlib, or more of them
+  /// Returns the bytes of the chunk. @param most  largest unpacked size   @throws Error  not zlib data, or larger
   std::vector<char> bytes(uint64_t most = kMostEventBytes) const;
-  uint64_t place() const { return place_; }  ///< of that chunk
-  /// next() is the chunk at this place.
+  uint64_t place() const { return place_; }  ///< position of that chunk
+  /// Moves to a position, so that next() returns the chunk there.
   void go(uint64_t place);
-  const std::string& damage() const { return damage_; }  ///< why next() found none; empty: all was read
+  const std::string& damage() const { return damage_; }  ///< reason why next() found none; empty: all was read
   const std::string& path() const { return path_; }
 
  private:

@@ -12,7 +12,7 @@ namespace viscera {
 
 namespace {
 
-/// In a folder, a name of this second.
+/// Returns the path of a recording; in a folder, a name made of the present second.
 std::string recordingPath(const std::string& place) {
   std::error_code error;
   if (place.back() != '/' && !std::filesystem::is_directory(place, error)) return place;
@@ -29,7 +29,7 @@ std::string recordingPath(const std::string& place) {
 
 void RecordingSwitch::follow(Session& session) {
   if (recorder_) {
-    recorder_->forget();  // the one before, if it could not say when it ended
+    recorder_->clear();  // the previous session, if it did not report its end
     recorder_->follow(session);
   } else if (!place_.empty()) {
     start(session, recordingPath(std::exchange(place_, "")));
@@ -51,7 +51,7 @@ std::string RecordingSwitch::start(Session& session, const std::string& path, ui
 }
 
 std::string RecordingSwitch::stop() {
-  if (!recorder_) throw Error("nothing is recorded");
+  if (!recorder_) throw Error("nothing is being recorded");
   recorder_->leave();
   recorder_->finish();
   const std::string path = recorder_->path(), fault = recorder_->fault();

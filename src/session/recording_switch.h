@@ -10,28 +10,28 @@
 
 namespace viscera {
 
-/// Begins and ends recordings of sessions that follow one another. All but fault() and file() on the thread of the
-/// session.
+/// Switch that starts and stops recordings of successive sessions. Call all functions except fault() and file() on the
+/// session's thread.
 class RecordingSwitch {
  public:
-  /// @param place  a file that is to be made, or a folder, in which it is named after the time; empty: none yet
+  /// @param place  a file to create, or a folder, in which it is named after the time; empty: no recording yet
   explicit RecordingSwitch(const std::string& place) : place_(place) {}
 
-  /// A session begins: what is recorded goes on with it. @throws Error  the file cannot be made
+  /// Begins a session: the recording continues with it. @throws Error  the file cannot be created
   void follow(Session& session);
-  /// It ends.
+  /// Ends the session.
   void leave();
-  /// @param most_bytes  of the file, with which the recording ends
-  /// @returns the file   @throws Error  it is there already or cannot be made; a recording is under way
+  /// Starts a recording. @param most_bytes  of the file; reaching it ends the recording
+  /// @returns the file   @throws Error  it exists already or cannot be created; a recording is running
   std::string start(Session& session, const std::string& path, uint64_t most_bytes = UINT64_MAX);
-  /// @returns the file   @throws Error  nothing is recorded; or why not all of it was
+  /// Stops the recording. @returns the file   @throws Error  nothing is recorded; or the reason why not all of it was
   std::string stop();
-  std::string fault() const;  ///< why nothing is recorded any more; empty: nothing went wrong
-  std::string file() const;   ///< into which is recorded; empty: none. From any thread, as fault()
+  std::string fault() const;  ///< reason why recording stopped; empty: no fault
+  std::string file() const;   ///< file of the recording; empty: none. Callable from any thread, like fault()
 
  private:
-  std::string place_;         ///< of a recording that is still to begin
-  mutable std::mutex mutex_;  ///< of the pointer
+  std::string place_;         ///< of a recording that has not begun
+  mutable std::mutex mutex_;  ///< protects the pointer
   std::unique_ptr<SessionRecorder> recorder_;
 };
 

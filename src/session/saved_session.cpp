@@ -19,19 +19,20 @@ namespace viscera {
 
 namespace {
 
-constexpr uint64_t kTicksBack = 8;  // whose ways of tips are asked for after a tick
+constexpr uint64_t kTicksBack = 8;  // ticks with paths of tips that may be needed later
 
-/// Keys that change no state: who works, what is looked at, what it looks like.
+/// Returns whether a key changes no state: threads, cameras, appearance.
 bool isAside(const std::string& line) {
   const std::string key = line.substr(0, line.find('='));
   const auto ends = [&key](const std::string& with) {
     return key.size() >= with.size() && key.compare(key.size() - with.size(), with.size(), with) == 0;
   };
   return key.rfind("cameras[", 0) == 0 || key == "solver.threads" || key == "solver.device" || ends(".color") ||
-         ends(".roughness") || ends(".mottling") || ends(".wetness") || ends(".wall_grain") || ends(".blanching");
+         ends(".roughness") || ends(".color_variation") || ends(".specular_wetness") || ends(".cut_wall_texture") ||
+         ends(".blanching");
 }
 
-/// @throws Error  names the first key that is another
+/// Checks that two texts of a scene agree. @throws Error  names the first key that differs
 void requireSame(const std::string& saved, const std::string& here) {
   TextIn saved_lines(saved), here_lines(here);
   const auto next = [](std::istringstream& lines) {
@@ -39,12 +40,12 @@ void requireSame(const std::string& saved, const std::string& here) {
     while (std::getline(lines, line)) {
       if (!isAside(line)) return line;
     }
-    return std::string("nothing more");
+    return std::string("no further key");
   };
   for (;;) {
     const std::string a = next(saved_lines), b = next(here_lines);
-    if (a != b) throw Error("the state is of another scene: saved " + a + ", here " + b);
-    if (a == "nothing more") return;
+    if (a != b) throw Error("the state belongs to another scene: saved " + a + ", here " + b);
+    if (a == "no further key") return;
   }
 }
 
@@ -59,7 +60,7 @@ void addBytes(StateHash& hash, const std::vector<T>& values) {
   }
 }
 
-/// Fingerprint of what was made of the scene and the files that it names.
+/// Returns a fingerprint of the model made from the scene and the files that it names.
 uint64_t modelHash(const Model& model) {
   StateHash hash;
   for (const Body& body : model.bodies) {
@@ -76,7 +77,7 @@ uint64_t modelHash(const Model& model) {
 
 }  // namespace
 
-/// Of the session itself; solver and hands have their own sections.
+/// Saves or restores the session itself; solver and tools have their own sections.
 void Session::persist(Archive& archive) {
   archive.section("session");
   archive.value(tick_);
@@ -90,16 +91,16 @@ void Session::persist(Archive& archive) {
   archive.value(jaw_moments_nm_);
   archive.values(obstacle_forces_);
   archive.value(extremes_);
-  archive.value(look_.motions);
-  requireModes(archive, look_.motions);
-  archive.values(look_.obstacles);
+  archive.value(request_.motions);
+  requireModes(archive, request_.motions);
+  archive.values(request_.obstacles);
   for (ForceLimiter& limiter : limiters_) archive.value(limiter);
   tools_.persist(archive);
   obstacles_.persist(archive);
   for (uint64_t t = tick_ - std::min(tick_, kTicksBack - 1); t <= tick_; ++t) {
     PoseTimes& times = pose_times_[t % pose_times_.size()];
     archive.value(times);
-    if (archive.reads()) times.received = {};  // of another clock
+    if (archive.reads()) times.received = {};  // from another clock
   }
   solver_->persist(archive);
 }
@@ -135,7 +136,7 @@ void Session::restore(Archive& archive, const std::string& name) {
     archive.value(hash);
     requireSame(text, sceneText(scene_));
     if (hash != modelHash(*model_))
-      throw Error("the state is of other tissue: a file that the scene names is not what it was");
+      throw Error("the state belongs to other tissue: a file that the scene names has changed");
   } catch (const Error& error) {
     throw Error(name + ": " + error.what());
   }
@@ -145,7 +146,7 @@ void Session::restore(Archive& archive, const std::string& name) {
     archive.end();
   } catch (const Error& error) {
     reset();
-    throw Error(name + ": " + error.what() + "; another solver.backend or another version of viscera?");
+    throw Error(name + ": " + error.what() + "; solver.backend or the version of viscera may differ");
   }
   for (SessionLog* log : logs_) log->restored(*this);
 }
@@ -161,7 +162,7 @@ void Session::carry(const CarriedTissue& tissue) {
     for (const Body& body : model.bodies) names.push_back(body.name);
     return names;
   };
-  if (named(*tissue.model) != named(*model_)) throw Error("a state is carried on by the same bodies alone");
+  if (named(*tissue.model) != named(*model_)) throw Error("a state can only be continued with the same bodies");
   reset();
   solver_->goOnFrom(carriedState(tissue, *model_, solver_->readState()));
   for (SessionLog* log : logs_) log->restored(*this);

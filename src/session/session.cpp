@@ -12,7 +12,7 @@
 #include "model/scene/tool_kinds.h"
 #include "session/arrows.h"
 #include "session/view.h"
-#include "solver/contact/surroundings.h"
+#include "solver/contact/environment.h"
 #include "solver/make_solver.h"
 #include "solver/processes/process.h"
 #include "viscera/calibration/auto_spacing.h"
@@ -27,19 +27,19 @@ namespace viscera {
 namespace {
 
 constexpr double kFarthestNode =
-    0.867;                            // of a lattice's spacing: no point inside is farther from all nodes, sqrt(3) / 2
-constexpr size_t kNotedTicks = 4096;  // images may come back that late
+    0.867;  // share of a lattice's spacing: no inner point is farther from all nodes, sqrt(3) / 2
+constexpr size_t kNotedTicks = 4096;  // images may be this late
 
 gpu::Context& currentOne(gpu::Context& context) {
   context.requireCurrent();
   return context;
 }
 
-HandLimits handLimits(const Model& model, double tick_hz) {
-  HandLimits limits;
+ToolLimits handLimits(const Model& model, double tick_hz) {
+  ToolLimits limits;
   limits.tick_s = 1 / tick_hz;
   limits.max_travel_m = waveSpeed(model) / tick_hz;
-  // Sheets have no inside: the radius of the tip is enough where there is nothing else.
+  // Sheets have no inside: where there is nothing else, the radius of the tip is enough.
   limits.feel_radius_m = std::numeric_limits<double>::min();
   for (const Body& body : model.bodies)
     limits.feel_radius_m = std::max(limits.feel_radius_m, kFarthestNode * body.lattice.spacing_m);
@@ -54,7 +54,7 @@ Session::Session(const Scene& scene, gpu::Context& context, const Progress& prog
 Session::Session(const Scene& scene, const Progress& progress, const SessionOptions& options)
     : Session(scene, nullptr, progress, options) {}
 
-/// @param context  null: there is none
+/// @param context  null: no OpenGL
 Session::Session(const Scene& scene, gpu::Context* context, const Progress& progress, const SessionOptions& options)
     : scene_(options.model ? scene : withChosenSpacing(scene, context, progress)),
       model_(options.model ? options.model : std::make_shared<const Model>(buildModel(scene_, progress))),
@@ -68,17 +68,17 @@ Session::Session(const Scene& scene, gpu::Context* context, const Progress& prog
   backend_note_ = viscera::backendNote(scene_, context, *solver_, note);
   if (progress) progress("prepare pictures", 0);
   view_ = makeView(*solver_, *model_, scene_, context);
-  lookAtObstacles();
+  updateObstacles();
   for (const CameraConfig& camera : scene_.cameras) {
-    look_.overlays.push_back(camera.overlays);
-    look_.cameras.push_back(opticalPose(camera));
+    request_.overlays.push_back(camera.overlays);
+    request_.cameras.push_back(opticalPose(camera));
   }
   for (const StylusConfig& stylus : scene_.styluses) limiters_.emplace_back(ForceLimits::of(stylus));
   obstacle_forces_.resize(scene_.obstacles.size());
 }
 
-/// Deletes OpenGL objects in the context that they were made in, whichever is current; where another thread has that,
-/// they are left to its end.
+/// Deletes OpenGL objects in the context that they were made in, whichever is current. If another thread has that
+/// context, they remain until the context ends.
 Session::~Session() {
   if (!context_ || !solver_ || solver_->onHost()) return;
   const gpu::ContextScope former;
@@ -87,32 +87,32 @@ Session::~Session() {
   current ? solver_.reset() : void(solver_.release());
 }
 
-/// @throws GpuError
+/// Checks that the context is current. @throws GpuError  it is not
 void Session::requireContext() const {
   if (context_ && !solver_->onHost()) context_->requireCurrent();
 }
 
-Frame Session::step(const StylusSamples& samples, const Wants& wants) {
+Frame Session::step(const StylusSamples& samples, const FrameRequest& wants) {
   requireContext();
   moveObstacles();
-  look_.motions = tools_.advance(samples, [this](size_t s, const StylusMotion& motion, double mouth_rad) {
+  request_.motions = tools_.advance(samples, [this](size_t s, const StylusMotion& motion, double mouth_rad) {
     return between(s, motion, mouth_rad);
-  });                                                                 // VR05 2.7: probe, grab, cut
-  solver_->step(tools_.ofHeld(look_.motions), obstacles_.motions());  // VR05 2.4: n substeps
-  lookAtProcesses();
-  look_.tick = ++tick_;
-  look_.wants = wants;
-  lookAtArrows();
+  });                                                                    // VR05 2.7: probe, grab, cut
+  solver_->step(tools_.ofHeld(request_.motions), obstacles_.motions());  // VR05 2.4: n substeps
+  updateProcesses();
+  request_.tick = ++tick_;
+  request_.wants = wants;
+  updateArrows();
   ++ticks_;
-  notePoses(samples);
+  recordPoses(samples);
   Frame frame;
-  view_->capture(*solver_, look_, frame);  // EGVE 3.3: nodes -> vertices, only what is wanted
-  const bool feeling = feels(look_.motions), gripping = tools_.grips(look_.motions);
+  view_->capture(*solver_, request_, frame);  // EGVE 3.3: nodes -> vertices, only what is requested
+  const bool feeling = feels(request_.motions), gripping = tools_.grips(request_.motions);
   collect(frame, false);
   if (feeling || gripping) collectStats(frame, true);
-  if (feeling) heedFeeling(frame);
-  if (gripping) heedPulls(frame);
-  releaseUntracked(look_.motions, frame);
+  if (feeling) detectInside(frame);
+  if (gripping) applyGripSlip(frame);
+  releaseUntracked(request_.motions, frame);
   for (SessionLog* log : logs_) log->stepped(*this, samples);
   return frame;
 }
@@ -121,7 +121,7 @@ void Session::removeLog(SessionLog& log) {
   logs_.erase(std::remove(logs_.begin(), logs_.end(), &log), logs_.end());
 }
 
-void Session::noteTask(const std::string& name, const std::string& yaml) {
+void Session::recordTask(const std::string& name, const std::string& yaml) {
   Frame measured;
   collectStats(measured, true);
   for (SessionLog* log : logs_) log->taskNoted(*this, name, yaml);
@@ -131,30 +131,30 @@ bool Session::feels(const ToolMotions& motions) {
   return std::any_of(motions.begin(), motions.end(), [](const StylusMotion& motion) { return motion.feels_m > 0; });
 }
 
-/// Which styluses that may be inside tissue were not. This tick's measurements are waited for, so that the answer, and
-/// with it the state, does not depend on how fast they come.
-void Session::heedFeeling(Frame& frame) {
+/// Finds which styluses that may be inside tissue were not. Waits for this tick's measurements, so that the result, and
+/// with it the state, does not depend on their latency.
+void Session::detectInside(Frame& frame) {
   for (size_t s = 0; s < limiters_.size(); ++s) {
-    if (!(look_.motions[s].feels_m > 0)) continue;
+    if (!(request_.motions[s].feels_m > 0)) continue;
     frame.inside[s] = frame.health.recovering || frame.stats.touched[s] > 0;
     if (!frame.inside[s]) tools_.foundOutside(s);
   }
 }
 
-Pictures Session::show(const Wants& wants) {
+Pictures Session::show(const FrameRequest& wants) {
   requireContext();
-  look_.tick = tick_;
-  look_.wants = wants;
-  lookAtProcesses();  // a saved state may have come in between
-  lookAtArrows();
+  request_.tick = tick_;
+  request_.wants = wants;
+  updateProcesses();  // a saved state may have been restored in between
+  updateArrows();
   Pictures out;
-  view_->capture(*solver_, look_, out);
+  view_->capture(*solver_, request_, out);
   view_->collect(out, true);
   return out;
 }
 
-void Session::forgetHands() {
-  tools_.forget();
+void Session::resetInput() {
+  tools_.clear();
   for (ForceLimiter& limiter : limiters_) limiter.reset();
   reactions_ = {};
   contacts_ = {};
@@ -163,21 +163,21 @@ void Session::forgetHands() {
 }
 
 void Session::setToolMode(size_t stylus, ToolSwitch when, ToolMode mode) {
-  // model and solver keep no record of cuts where no stylus had asked for any
+  // model and solver keep no record of cuts if no stylus could cut initially
   if (kindOf(mode).severs() && !maySever(scene_.styluses)) {
     throw SceneError(std::string("mode ") + kindOf(mode).name +
-                     ": the scene was made for tools that do not cut; give some stylus of it cut or cut_particles at "
-                     "the start, as in styluses[0].button2=cut");
+                     ": the scene was loaded without a tool that cuts; give one of its styluses cut or cut_particles "
+                     "when it is loaded, as in styluses[0].button2=cut");
   }
   if (kindOf(mode).clips && !mayClip(scene_.styluses)) {
     throw SceneError(
-        "mode clip: the scene was made for tools that set no clips; give some stylus of it clip at the start, "
-        "as in styluses[0].button1=clip");
+        "mode clip: the scene was loaded without a tool that sets clips; give one of its styluses clip when it is "
+        "loaded, as in styluses[0].button1=clip");
   }
   if (kindOf(mode).burns && !mayBurn(scene_.styluses)) {
     throw SceneError(
-        "mode cautery: the scene was made for tools that burn nothing; give some stylus of it cautery at the start, "
-        "as in styluses[0].button1=cautery");
+        "mode cautery: the scene was loaded without a tool that burns; give one of its styluses cautery when it is "
+        "loaded, as in styluses[0].button1=cautery");
   }
   tools_.setMode(stylus, when, mode);
   for (SessionLog* log : logs_) log->toolModeSet(stylus, when, mode);
@@ -189,7 +189,7 @@ void Session::setForceLimits(size_t stylus, const ForceLimits& limits) {
 }
 
 void Session::setOverlays(size_t camera, const Overlays& overlays) {
-  look_.overlays[camera] = overlays;
+  request_.overlays[camera] = overlays;
   for (SessionLog* log : logs_) log->overlaysSet(camera, overlays);
 }
 
@@ -199,49 +199,50 @@ void Session::setObstacleFrame(size_t obstacle, const Pose& pose) {
 }
 
 void Session::setCameraFrame(size_t camera, const Pose& pose) {
-  look_.cameras[camera] = carriedOpticalPose(scene_.cameras[camera], {pose.position_m, pose.orientation.normalized()});
+  request_.cameras[camera] =
+      carriedOpticalPose(scene_.cameras[camera], {pose.position_m, pose.orientation.normalized()});
   for (SessionLog* log : logs_) log->cameraFrameSet(camera, pose);
 }
 
 void Session::moveObstacles() {
   obstacles_.advance(time_s_, tick_s());
   time_s_ += tick_s();
-  lookAtObstacles();
+  updateObstacles();
 }
 
-void Session::lookAtObstacles() {
-  look_.obstacles.clear();
+void Session::updateObstacles() {
+  request_.obstacles.clear();
   for (size_t i = 0; i < obstacles_.count(); ++i) {
-    look_.obstacles.push_back(obstacles_.pose(i));
-    extremes_.obstacles_held_back += obstacles_.heldBack(i);
+    request_.obstacles.push_back(obstacles_.pose(i));
+    extremes_.obstacles_speed_limited += obstacles_.speedLimited(i);
   }
 }
 
-void Session::lookAtProcesses() {
-  look_.processes = {};
-  for (const auto& process : solver_->processes()) process->draw(look_.processes);
-  auto& paints = look_.processes.paints;
+void Session::updateProcesses() {
+  request_.processes = {};
+  for (const auto& process : solver_->processes()) process->draw(request_.processes);
+  auto& paints = request_.processes.paints;
   std::stable_sort(paints.begin(), paints.end(), [](const auto& a, const auto& b) { return a->kind < b->kind; });
 }
 
-/// Forces of the last tick whose measurements are there, and the wind of this moment.
-void Session::lookAtArrows() {
-  look_.arrows.clear();
+/// Sets the arrows: forces of the last measured tick, and the present wind.
+void Session::updateArrows() {
+  request_.arrows.clear();
   bool forces = false, wind = false;
-  for (size_t c = 0; c < look_.overlays.size(); ++c) {
-    const bool drawn = look_.wants.image(c) || look_.wants.image(c, PictureKind::kRight);
-    forces |= drawn && look_.overlays[c].has(Overlay::kForces);
-    wind |= drawn && look_.overlays[c].has(Overlay::kWind);
+  for (size_t c = 0; c < request_.overlays.size(); ++c) {
+    const bool drawn = request_.wants.image(c) || request_.wants.image(c, PictureKind::kRight);
+    forces |= drawn && request_.overlays[c].has(Overlay::kForces);
+    wind |= drawn && request_.overlays[c].has(Overlay::kWind);
   }
-  if (forces) addForceArrows(look_.motions, reactions_, look_.arrows);
-  if (wind) addWindArrows(windAt(scene_.environment.wind, time_s_), *model_, look_.arrows);
+  if (forces) addForceArrows(request_.motions, reactions_, request_.arrows);
+  if (wind) addWindArrows(windAt(scene_.environment.wind, time_s_), *model_, request_.arrows);
 }
 
-/// No pose, or tissue that is not itself: no force, at once.
+/// Sets forces to zero at once for a stylus without a pose, and for tissue in recovery.
 void Session::releaseUntracked(const ToolMotions& motions, Frame& frame) {
   for (size_t s = 0; s < limiters_.size(); ++s) {
-    frame.held_back[s] = motions[s].held_back;
-    extremes_.held_back += motions[s].held_back;
+    frame.speed_limited[s] = motions[s].speed_limited;
+    extremes_.speed_limited += motions[s].speed_limited;
     if (motions[s].present && !frame.health.recovering) continue;
     limiters_[s].reset();
     frame.reactions[s] = Reaction{};
@@ -255,10 +256,10 @@ SteadyTime Session::PoseTimes::newest() const {
   return *std::max_element(received.begin(), received.end());
 }
 
-void Session::notePoses(const StylusSamples& samples) {
+void Session::recordPoses(const StylusSamples& samples) {
   PoseTimes& times = pose_times_[tick_ % kNotedTicks];
   times.tick = tick_;
-  times.motions = look_.motions;
+  times.motions = request_.motions;
   for (size_t s = 0; s < samples.size(); ++s) times.received[s] = samples[s].valid ? samples[s].received : SteadyTime{};
 }
 
@@ -269,14 +270,14 @@ Session::PoseTimes Session::posesOf(uint64_t tick) const {
 
 void Session::collect(Frame& frame, bool wait) {
   frame.tick = tick_;
-  frame.tools = look_.motions;
-  frame.obstacles = look_.obstacles;
-  frame.cameras = look_.cameras;
-  frame.threads.clear();
-  const ShownThreads& shown = look_.processes.threads;
-  std::copy_if(shown.begin(), shown.end(), std::back_inserter(frame.threads),
-               [](const ShownThread& one) { return one.part != ThreadPart::kNeedle; });
-  frame.needles = seenNeedles(*this);
+  frame.tools = request_.motions;
+  frame.obstacles = request_.obstacles;
+  frame.cameras = request_.cameras;
+  frame.sutures.clear();
+  const VisibleTubes& shown = request_.processes.sutures;
+  std::copy_if(shown.begin(), shown.end(), std::back_inserter(frame.sutures),
+               [](const VisibleTube& one) { return one.part != TubeKind::kNeedle; });
+  frame.needles = needleStates(*this);
   collectStats(frame, wait);
   view_->collect(frame, wait);
   if (frame.surface) frame.surface->pose_received = posesOf(frame.surface->tick).newest();
@@ -292,7 +293,7 @@ void Session::collectStats(Frame& frame, bool wait) {
     for (size_t s = 0; s < limiters_.size(); ++s) {
       // Force on a tool: minus the momentum it gave the nodes, per tick (physics.md 5).
       Reaction raw{-xyz(stats_.impulse[s]) / tick_s(), -xyz(stats_.angular[s]) / tick_s(), false};
-      if (tools_.fingers(s).holds()) raw.torque_nm += tools_.fingers(s).slid_m(look_.motions[s]).cross(raw.force_n);
+      if (tools_.fingers(s).holds()) raw.torque_nm += tools_.fingers(s).slid_m(request_.motions[s]).cross(raw.force_n);
       jaw_moments_nm_[s] = jawMoment_nm(s, raw);
       extremes_.peak_force_n = std::max(extremes_.peak_force_n, raw.force_n.norm());
       reactions_[s] = limiters_[s].limit(raw, tick_s());
@@ -310,7 +311,7 @@ void Session::collectStats(Frame& frame, bool wait) {
     extremes_.crowded = std::max<uint64_t>(extremes_.crowded, stats_.crowded);
   }
   frame.health = solver_->health();
-  extremes_.governor_trips = frame.health.trips;
+  extremes_.roll_backs = frame.health.trips;
   frame.stats = stats_;
   frame.has_stats = has_stats_;
   frame.reactions = reactions_;
@@ -326,9 +327,9 @@ void Session::reset() {
   view_->reset();
   tools_.reset();
   obstacles_.reset();
-  look_.motions = {};
-  lookAtObstacles();
-  lookAtProcesses();
+  request_.motions = {};
+  updateObstacles();
+  updateProcesses();
   for (ForceLimiter& limiter : limiters_) limiter.reset();
   reactions_ = {};
   contacts_ = {};
@@ -353,12 +354,12 @@ uint64_t Session::stateHash() const {
   requireContext();
   uint64_t hash = viscera::stateHash(*model_, solver_->readState());
   const TissueProcesses& processes = solver_->processes();
-  // From the last one on: so fingerprints are those of recordings that are older than this list.
+  // From the last one on, so that fingerprints match those of recordings older than this list.
   for (auto process = processes.rbegin(); process != processes.rend(); ++process) hash = hashWith(hash, **process);
   return hash;
 }
 
-std::shared_ptr<const ShownTopology> Session::wholeSkin() const {
+std::shared_ptr<const VisibleTopology> Session::wholeSkin() const {
   return view_->wholeSkin();
 }
 

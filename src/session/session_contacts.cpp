@@ -1,20 +1,20 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Of a session, what its tools met: from which forces between ticks are made.
+// Contacts of a session's tools, from which forces between ticks are computed.
 #include <algorithm>
 
 #include "model/scene/tool_kinds.h"
 #include "solver/processes/blade/blades.h"
 #include "solver/processes/stylus_pull.h"
-#include "solver/processes/suture/thread_bodies.h"
+#include "solver/processes/suture/suture_bodies.h"
 #include "viscera/session/session.h"
 
 namespace viscera {
 
 namespace {
 
-/// Of what a thread or a needle does to its stylus.
-void addThread(const StylusPull& pull, TickContact& contact) {
+/// Adds the force of a suture or a needle on its stylus.
+void addSuture(const StylusPull& pull, TickContact& contact) {
   const NeedleHold& needle = pull.needle;
   contact.kind = needle.stiffness_n_per_m > 0 ? TickContact::Kind::kPierces : TickContact::Kind::kPulls;
   if (contact.kind == TickContact::Kind::kPulls) return;
@@ -27,7 +27,7 @@ void addThread(const StylusPull& pull, TickContact& contact) {
 
 }  // namespace
 
-/// Of the tick whose measurements came last.
+/// Returns the contact of the last measured tick.
 TickContact Session::contactOf(size_t stylus, const Reaction& raw) const {
   const StylusMotion motion = posesOf(judged_).motions[stylus], before = posesOf(judged_ - 1).motions[stylus];
   TickContact out;
@@ -39,7 +39,7 @@ TickContact Session::contactOf(size_t stylus, const Reaction& raw) const {
   out.reaction = raw;
   const StylusPull& pull = solver_->pull(static_cast<uint32_t>(stylus));
   if (pull.nodes > 0 && pull.nodes == stats_.grabbed[stylus]) {
-    addThread(pull, out);
+    addSuture(pull, out);
     return out;
   }
   out.kind = kindOf(motion.mode).does(kHolds) ? TickContact::Kind::kHolds : TickContact::Kind::kPushes;

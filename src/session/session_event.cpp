@@ -14,14 +14,14 @@ namespace viscera {
 
 namespace {
 
-/// Whatever byte a file has there.
+/// Reads or writes a flag, whatever byte a file has there.
 void persistFlag(Archive& archive, bool& flag) {
   uint8_t byte = flag ? 1 : 0;
   archive.value(byte);
   flag = byte != 0;
 }
 
-/// All that a hand tells, as it lies in memory, so that no field is forgotten; times are of another clock.
+/// Reads or writes a sample as its bytes in memory, so that no field is forgotten; times are of another clock.
 void persistSample(Archive& archive, StylusSample& sample) {
   static_assert(std::is_trivially_destructible_v<StylusSample>);
   bool flags[] = {sample.valid, sample.button1, sample.button2};
@@ -69,7 +69,7 @@ void SessionEvent::persist(Archive& archive, size_t styluses) {
     case Kind::kTie:
       archive.value(index);
       return archive.value(tie);
-    default:  // a reset and the like have nothing to tell, and what is unknown is refused
+    default:  // a reset, for example, has no data; unknown kinds are rejected
       return;
   }
 }
@@ -84,14 +84,14 @@ void SessionEvent::require(const Scene& scene) const {
   if (kind == Kind::kObstacleFrame) sound = sound && index < scene.obstacles.size();
   if (kind == Kind::kTie)
     sound = sound && tie.knot > KnotKind::kNone && static_cast<size_t>(tie.knot) < kKnotNames.size() &&
-            tie.tension_n > 0 && tie.holds_n >= 0 && !scene.threads.empty() && tie.to >= TieTo::kOtherTail &&
+            tie.tension_n > 0 && tie.holds_n >= 0 && !scene.sutures.empty() && tie.to >= TieTo::kOtherTail &&
             tie.to <= TieTo::kStrand && tie.strand_m.allFinite();
   if (kind == Kind::kToolMode) {
     const auto known = [this](const ToolKind& tool) { return tool.mode == mode; };
     sound = sound && when <= ToolSwitch::kButton2 && when >= ToolSwitch::kIdle &&
             std::any_of(std::begin(kToolKinds), std::end(kToolKinds), known);
   }
-  if (!sound) throw Error("something that cannot have happened in its scene");
+  if (!sound) throw Error("an event that is impossible in its scene");
 }
 
 void SessionEvent::apply(Session& session) const {
@@ -100,7 +100,7 @@ void SessionEvent::apply(Session& session) const {
     case Kind::kReset:
       return session.reset();
     case Kind::kForget:
-      return session.forgetHands();
+      return session.resetInput();
     case Kind::kToolMode:
       return session.setToolMode(index, when, mode);
     case Kind::kForceLimits:
@@ -114,9 +114,9 @@ void SessionEvent::apply(Session& session) const {
       if (index < cameras.size()) session.setOverlays(index, overlays);
       return;
     case Kind::kTask:
-      return session.noteTask(task, task_yaml);
+      return session.recordTask(task, task_yaml);
     case Kind::kTie:
-      return session.tieThread(index, tie);
+      return session.tieSuture(index, tie);
     default:
       return;
   }

@@ -10,7 +10,7 @@
 
 namespace viscera {
 
-/// Something that happened to a session, or was measured of it, as a recording holds it.
+/// Event or measurement of a session in a recording.
 struct SessionEvent {
   enum class Kind : uint8_t {
     kStep,
@@ -26,27 +26,29 @@ struct SessionEvent {
     kTie,
   };
   Kind kind = Kind::kStep;
-  StylusSamples samples{};              ///< of a step
-  uint64_t tick = 0;                    ///< of what was measured
-  uint32_t measured = 0;                ///< its fingerprint
-  uint32_t index = 0;                   ///< of the stylus, obstacle, camera or piece of a thread
-  ToolSwitch when = ToolSwitch::kIdle;  ///< of a tool mode
-  ToolMode mode = ToolMode::kNone;      ///< of a tool mode
-  ForceLimits limits{0, 0};             ///< of force limits
-  Pose pose;                            ///< of a frame
-  Overlays overlays;                    ///< of overlays
-  std::string task, task_yaml;          ///< of a task
-  ThreadTie tie;                        ///< of a piece of a thread
+  StylusSamples samples{};              ///< for a step
+  uint64_t tick = 0;                    ///< tick of a measurement
+  uint32_t measured = 0;                ///< fingerprint of the measurement
+  uint32_t index = 0;                   ///< index of the stylus, obstacle, camera or piece of a suture
+  ToolSwitch when = ToolSwitch::kIdle;  ///< for a tool mode
+  ToolMode mode = ToolMode::kNone;      ///< for a tool mode
+  ForceLimits limits{0, 0};             ///< for force limits
+  Pose pose;                            ///< for a frame
+  Overlays overlays;                    ///< for overlays
+  std::string task, task_yaml;          ///< for a task
+  SutureTie tie;                        ///< for a piece of a suture
 
-  /// @param styluses  of the scene
+  /// Reads or writes the event. @param styluses  number in the scene
   void persist(Archive& archive, size_t styluses);
-  /// Does it again, but for steps and measurements. What a scene with other cameras does not have is left out.
+  /// Applies the event to a session, except steps and measurements. It skips what a scene with other cameras does not
+  /// have.
   void apply(Session& session) const;
-  /// @throws Error  no session of this scene was told that
+  /// Checks the event against a scene. @throws Error  no session of this scene can have had it
   void require(const Scene& scene) const;
 };
 
-/// Of what is exact in measurements, whatever measured: two sessions that are in the same state have the same.
+/// Returns a fingerprint of the exact part of measurements, for any backend: two sessions in the same state have the
+/// same.
 uint32_t fingerprintOf(const layout::TickStats& stats);
 
 }  // namespace viscera

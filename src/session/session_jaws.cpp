@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Of a session, what is between the jaws of its tools.
+// Tissue between the jaws of a session's tools.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,18 +15,21 @@ namespace viscera {
 
 namespace {
 
-constexpr double kThinnest_rad = 0.03;  // what has one layer of nodes is pressed as if it were half a millimetre thick
+// Tissue with one layer of nodes is pressed as if it were half a millimetre thick.
+constexpr double kThinnest_rad = 0.03;
 
 }  // namespace
 
-/// As heedFeeling(): how far tissue slides in jaws is of the state. What recovers pulls as it likes.
-void Session::heedPulls(const Frame& frame) {
+/// Lets tissue slide in jaws, with a wait as in detectInside(): the slip is part of the state. Forces during a recovery
+/// are ignored.
+void Session::applyGripSlip(const Frame& frame) {
   if (frame.health.recovering) return;
-  for (size_t s = 0; s < limiters_.size(); ++s) tools_.pulled(s, look_.motions[s], -xyz(stats_.impulse[s]) / tick_s());
+  for (size_t s = 0; s < limiters_.size(); ++s)
+    tools_.pulled(s, request_.motions[s], -xyz(stats_.impulse[s]) / tick_s());
 }
 
-/// Nodes are seen from the pivot: those that are within the reach of the jaws and their mouth are between them. Pressed
-/// flat they would have a strain of 1, over the area that their volume has at its thickness.
+/// Finds the nodes within the reach of the jaws and their opening, as seen from the pivot. Pressed flat they would have
+/// a strain of 1, over the area given by their volume at its thickness.
 std::optional<Between> Session::between(size_t stylus, const StylusMotion& motion, double mouth_rad) const {
   const ToolKind& kind = kindOf(motion.mode);
   const Jaws jaws = kind.jaws(styluses()[stylus]);
@@ -49,18 +52,19 @@ std::optional<Between> Session::between(size_t stylus, const StylusMotion& motio
     });
   }
   if (stiff_nm == 0) return std::nullopt;
-  // Young's modulus times area times arm, where area is volume over thickness, and this the arm times the angle.
+  // Young's modulus times area times arm; area is volume over thickness, and thickness is the arm times the angle.
   return Between{most_rad - least_rad, stiff_nm / std::max(most_rad - least_rad, kThinnest_rad)};
 }
 
-/// What keeps the jaws open: what they hold, or the edge with which blades meet tissue.
+/// Returns the moment that keeps the jaws open: of the tissue that they hold, or of the edge of blades in tissue.
 double Session::jawMoment_nm(size_t stylus, const Reaction& raw) const {
-  const StylusMotion& motion = look_.motions[stylus];
+  const StylusMotion& motion = request_.motions[stylus];
   const ToolKind& kind = kindOf(motion.mode);
   if (!motion.present || !kind.jaws) return 0;
   const StylusConfig& config = styluses()[stylus];
   if (!kind.closes) return tools_.fingers(stylus).moment_nm(kind.jaws(config));
-  const double edge_n = raw.force_n.dot(motion.to.orientation * Vector3d::UnitZ());  // against the way to the tips
+  // Against the direction to the tips.
+  const double edge_n = raw.force_n.dot(motion.to.orientation * Vector3d::UnitZ());
   return closingMoment_n_m(scissorsOf(config.scissors), motion.opens_to_rad, std::max(edge_n, 0.0));
 }
 

@@ -12,8 +12,8 @@ namespace viscera {
 
 namespace {
 
-// How often a state is put down, from which a replay can begin: as often as there is room for in a recording of an
-// hour that is to stay below 200 MB with what hands do in it, some 70 MB of two of them before it is packed.
+// Interval of states from which a replay can begin. It is as short as possible for a recording of an hour to stay below
+// 200 MB, including the input of the tools, about 70 MB for two of them before compression.
 constexpr double kStateEvery_s = 10;
 constexpr double kStateBytesPerS = 30e3;
 
@@ -31,7 +31,7 @@ void SessionRecorder::follow(Session& session) {
 void SessionRecorder::leave() {
   if (!session_) return;
   Archive all;
-  session_->save(all);  // waits for what is measured, and leaves pictures on their way
+  session_->save(all);  // waits for measurements, and leaves images in flight
   session_->removeLog(*this);
   RecordedState end;
   end.tick = session_->tick();
@@ -120,7 +120,7 @@ void SessionRecorder::cameraFrameSet(size_t camera, const Pose& pose) {
   put(event);
 }
 
-void SessionRecorder::threadTied(size_t piece, const ThreadTie& tie) {
+void SessionRecorder::sutureTied(size_t piece, const SutureTie& tie) {
   SessionEvent event;
   event.kind = SessionEvent::Kind::kTie;
   event.index = static_cast<uint32_t>(piece);

@@ -11,24 +11,24 @@
 
 namespace viscera {
 
-/// Writes all that happens to sessions, one after another, into a file from which SessionReplay makes them again.
+/// Log that writes all changes of successive sessions to a file from which SessionReplay reproduces them.
 class SessionRecorder : public SessionLog {
  public:
-  /// @param most_bytes  of the file: the recording ends, with a fault, before it is larger
-  /// @throws Error  the file is there already, or cannot be made
+  /// @param most_bytes  of the file: before it is larger, the recording ends with a fault
+  /// @throws Error  the file exists already, or cannot be created
   explicit SessionRecorder(const std::string& path, uint64_t most_bytes = UINT64_MAX)
       : path_(path), file_(path, most_bytes) {}
 
-  /// From now on, until leave(). On the session's thread, as all below.
+  /// Records a session from now on, until leave(). Call this and all below on the session's thread.
   void follow(Session& session);
-  /// It is recorded to here, or nothing was. To be called before the session ends.
+  /// Ends the recording of the session, if there is one. Call it before the session ends.
   void leave();
-  /// The session has ended without leave(): only it knows how.
-  void forget() { session_ = nullptr; }
-  /// All of it is on the disk, or fault() says why not. Nothing is recorded after this.
+  /// Drops a session that has ended without leave(); its final state is unknown.
+  void clear() { session_ = nullptr; }
+  /// Waits until all of it is on disk, or fault() has the reason. Nothing is recorded after this.
   void finish() { file_.finish(); }
   const std::string& path() const { return path_; }
-  std::string fault() const { return file_.fault(); }  ///< why nothing is written any more; empty: it is
+  std::string fault() const { return file_.fault(); }  ///< reason why writing stopped; empty: it continues
 
   void stepped(Session& session, const StylusSamples& samples) override;
   void measured(const Session& session, uint64_t tick, const layout::TickStats& stats) override;
@@ -39,7 +39,7 @@ class SessionRecorder : public SessionLog {
   void forceLimitsSet(size_t stylus, const ForceLimits& limits) override;
   void obstacleFrameSet(size_t obstacle, const Pose& pose) override;
   void cameraFrameSet(size_t camera, const Pose& pose) override;
-  void threadTied(size_t piece, const ThreadTie& tie) override;
+  void sutureTied(size_t piece, const SutureTie& tie) override;
   void taskNoted(Session& session, const std::string& name, const std::string& yaml) override;
   void overlaysSet(size_t camera, const Overlays& overlays) override;
 
@@ -49,7 +49,7 @@ class SessionRecorder : public SessionLog {
 
   const std::string path_;
   RecordFileWriter file_;
-  Session* session_ = nullptr;  ///< that is followed
+  Session* session_ = nullptr;  ///< the recorded session
   uint64_t steps_since_state_ = 0;
 };
 

@@ -60,9 +60,10 @@ RecordedScene RecordedScene::from(std::vector<char> bytes) {
   archive.end();
   const std::string here = kProgram + std::to_string(kStateVersion);
   if (out.version != here || out.sample_bytes != sizeof(StylusSample))
-    throw Error("was recorded by another version: '" + out.version + "', hands of " + std::to_string(out.sample_bytes) +
-                " bytes; here '" + here + "', " + std::to_string(sizeof(StylusSample)) + " bytes");
-  if (!(out.tick_hz > 0)) throw Error("holds a scene without ticks");
+    throw Error("was recorded by another version: '" + out.version + "', stylus samples of " +
+                std::to_string(out.sample_bytes) + " bytes; this program is '" + here + "', " +
+                std::to_string(sizeof(StylusSample)) + " bytes");
+  if (!(out.tick_hz > 0)) throw Error("contains a scene without ticks");
   return out;
 }
 
@@ -89,7 +90,7 @@ void RecordedState::persist(Archive& archive) {
 }
 
 std::vector<char> RecordedState::bytes() {
-  constexpr size_t kHeads = 200;  // bytes: lengths and the name of a section, all else of a state
+  constexpr size_t kHeads = 200;  // bytes for lengths and the name of a section, in addition to the state
   size_t size = kHeads;
   for (const Archive::Section& section : sections) size += kHeads + section.bytes.size();
   Archive archive = emptyArchive();

@@ -12,34 +12,34 @@ namespace viscera {
 
 struct Scene;
 
-// What chunks of a recording hold, to memory and back.
+// Contents of a recording's chunks, to memory and back.
 
-/// The scene of a session, as its recorder found it.
+/// Scene of a session when its recording began.
 struct RecordedScene {
-  std::string version;  ///< of the program
-  std::string folder;   ///< where its relative files are
+  std::string version;  ///< version of the program
+  std::string folder;   ///< folder of its relative files
   std::string yaml;     ///< resolvedYaml()
   std::string stepped_by;
   double tick_hz = 0;
   uint32_t styluses = 0;
-  uint32_t sample_bytes = 0;  ///< of a hand: another layout is another version
+  uint32_t sample_bytes = 0;  ///< size of a stylus sample [bytes]: another layout is another version
 
   static RecordedScene of(const Scene& scene, const std::string& stepped_by);
   std::vector<char> bytes();
-  /// @throws Error  damaged, or of another layout
+  /// Parses a scene. @throws Error  damaged, or of another layout
   static RecordedScene from(std::vector<char> bytes);
-  /// @param name  for errors   @throws SceneError
+  /// Returns the scene. @param name  for errors   @throws SceneError  as parseScene()
   Scene scene(const std::string& name, const Overrides& overrides) const;
 
  private:
   void persist(Archive& archive);
 };
 
-/// A state of it. @throws Error  damaged
+/// State of a session. @throws Error  damaged
 struct RecordedState {
-  bool leaps = false;  ///< it was brought into this state: it did not come there by itself
+  bool leaps = false;  ///< the session was set to this state, it did not reach it by steps
   uint64_t tick = 0, hash = 0;
-  std::vector<Archive::Section> sections;  ///< of Session::save(); of an end: none
+  std::vector<Archive::Section> sections;  ///< sections of Session::save(); none at an end
 
   std::vector<char> bytes();
   static RecordedState from(std::vector<char> bytes);

@@ -15,7 +15,7 @@ namespace viscera {
 
 namespace {
 
-/// Measurements that were recorded beside those of now: the first that differ.
+/// Comparison of recorded measurements with present ones; keeps the first that differ.
 class MeasuredBesides : public SessionLog {
  public:
   struct Measured {
@@ -30,7 +30,7 @@ class MeasuredBesides : public SessionLog {
     recorded_.push_back(recorded);
     compare();
   }
-  /// From here on both begin with the same tick.
+  /// Restarts the comparison: from here on both begin with the same tick.
   void begin() {
     here_.clear();
     recorded_.clear();
@@ -50,7 +50,7 @@ class MeasuredBesides : public SessionLog {
   std::optional<uint64_t> differs_;
 };
 
-/// The events of a chunk, one after another.
+/// Calls act for the events of a chunk, one after another.
 template <class Act>
 void forEachEvent(std::vector<char> bytes, size_t styluses, const Act& act) {
   Archive archive({{"events", std::move(bytes)}});
@@ -90,10 +90,10 @@ void SessionReplay::index() {
   }
   damage_ = file_.damage();
   if (damage_.empty() && !ended)
-    damage_ = file_.path() + ": its recorder was stopped before it could end the recording";
+    damage_ = file_.path() + ": its recorder was stopped before it could finish the recording";
 }
 
-/// One way through it.
+/// One run through the recording.
 class SessionReplay::Run {
  public:
   Run(SessionReplay& replay, double from_s, double until_s, const Overrides& overrides, const Ports& ports)
@@ -119,7 +119,7 @@ class SessionReplay::Run {
       if (*kind == ChunkKind::kState && skipped()) meetState(RecordedState::from(file.bytes(mostStateBytes())), false);
       if (*kind == ChunkKind::kEvents) {
         forEachEvent(file.bytes(), replay_.parts_[part_].scene.styluses,
-                     [this](const SessionEvent& event) { heed(event); });
+                     [this](const SessionEvent& event) { apply(event); });
       }
       if (*kind == ChunkKind::kEnd && skipped()) meetState(RecordedState::from(file.bytes()), true);
     }
@@ -128,7 +128,7 @@ class SessionReplay::Run {
 
  private:
   double tolerance(size_t part) const { return 0.25 / replay_.parts_[part].scene.tick_hz; }
-  /// The state that it begins with was reached.
+  /// Returns whether the state that the run begins with was reached.
   bool skipped() const { return replay_.file_.place() >= begin_.place; }
 
   void beginPart() {
@@ -153,7 +153,7 @@ class SessionReplay::Run {
     out_.ended = ends;
   }
 
-  /// What a state of this scene may take: cuts, burns and clips make it larger than it is now.
+  /// Returns the largest size of a state of this scene: cuts, burns and clips make it larger than it is now.
   uint64_t mostStateBytes() const {
     constexpr uint64_t kGrows = 16, kBesides = uint64_t{64} << 20;
     Archive now;
@@ -165,7 +165,7 @@ class SessionReplay::Run {
 
   void compare(const RecordedState& state) {
     Archive waits;
-    session_->save(waits);  // for what is measured up to here
+    session_->save(waits);  // waits for all measurements
     ++out_.compared;
     const uint64_t hash = session_->stateHash();
     if (hash == state.hash || out_.difference) {
@@ -175,11 +175,11 @@ class SessionReplay::Run {
     out_.difference = Difference{part_, state.tick, last_same_tick_, besides_.differs(), state.hash, hash};
   }
 
-  void heed(const SessionEvent& event) {
+  void apply(const SessionEvent& event) {
     if (done_) return;
     using Kind = SessionEvent::Kind;
     event.require(session_->scene());
-    if (!skipped()) {  // but for what is seen, all is in the state
+    if (!skipped()) {  // everything except appearance is in the state
       if (event.kind == Kind::kOverlays || event.kind == Kind::kCameraFrame) event.apply(*session_);
       return;
     }
@@ -194,7 +194,7 @@ class SessionReplay::Run {
     done_ = at_s > until_s_ + tolerance(part_);
     if (done_) return;
     const bool looked = at_s > from_s_ + tolerance(part_);
-    Frame frame = session_->step(samples, looked ? ports_.wants(*session_) : Wants{});
+    Frame frame = session_->step(samples, looked ? ports_.wants(*session_) : FrameRequest{});
     out_.at_s = at_s;
     ++out_.steps;
     if (looked) ports_.stepped(*session_, std::move(frame), at_s);

@@ -19,7 +19,7 @@ namespace viscera {
 
 namespace {
 
-constexpr char kMagic[] = "viscera's state";  // 16 bytes with the 0 at its end
+constexpr char kMagic[] = "viscera's state";  // 16 bytes with the terminating 0
 constexpr uint32_t kMostSections = 1000;
 constexpr uint32_t kLongestName = 100;
 constexpr size_t kAtOnce = size_t{1} << 30;  // bytes; zlib and the kernel count in fewer than 64 bits
@@ -33,10 +33,10 @@ Error fault(const std::string& path, const std::string& what) {
   return Error(path + ": " + what + ": " + std::strerror(errno));
 }
 Error damaged(const std::string& path, const std::string& where) {
-  return Error(path + ": the saved state is damaged or cut short: " + where);
+  return Error(path + ": the saved state is damaged or truncated: " + where);
 }
 
-/// Closes what it opened.
+/// File that closes itself.
 class File {
  public:
   explicit File(const std::string& path) : path_(path), fd_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
@@ -48,7 +48,7 @@ class File {
   File(const File&) = delete;
   File& operator=(const File&) = delete;
 
-  /// @return the file had so many bytes
+  /// Reads bytes. @return whether the file had this many bytes
   bool read(void* data, size_t size) {
     char* to = static_cast<char*>(data);
     while (size > 0) {
@@ -64,7 +64,7 @@ class File {
   uint64_t size() const {
     struct stat status = {};
     if (fstat(fd_, &status) != 0) throw fault(path_, "cannot be read");
-    if (!S_ISREG(status.st_mode)) throw Error(path_ + ": is no file of a saved state");
+    if (!S_ISREG(status.st_mode)) throw Error(path_ + ": is not a saved state");
     return static_cast<uint64_t>(status.st_size);
   }
 
@@ -87,7 +87,7 @@ uint32_t crcOf(const SectionHead& head, const std::string& name, const std::vect
   return static_cast<uint32_t>(crc);
 }
 
-/// Bytes in memory, as File has them.
+/// Bytes in memory, with the interface of File.
 class Memory {
  public:
   void write(const void* data, size_t size) { bytes_.append(static_cast<const char*>(data), size); }
@@ -126,7 +126,7 @@ void writeSections(To& file, const std::vector<Archive::Section>& sections) {
   }
 }
 
-/// @param left  bytes of the file from here on; goes down
+/// Reads a section. @param left  bytes of the file from here on; decreases
 template <class From>
 Archive::Section readSection(From& file, const std::string& path, uint64_t& left, const std::string& where) {
   SectionHead head;
@@ -139,7 +139,8 @@ Archive::Section readSection(From& file, const std::string& path, uint64_t& left
   left -= head.bytes;
   section.bytes.resize(head.bytes);
   const bool all = file.read(section.name.data(), section.name.size()) && file.read(section.bytes.data(), head.bytes);
-  if (!all || crcOf(head, section.name, section.bytes) != head.crc) throw damaged(path, where + " has wrong bytes");
+  if (!all || crcOf(head, section.name, section.bytes) != head.crc)
+    throw damaged(path, where + " has a wrong checksum");
   return section;
 }
 
@@ -154,13 +155,13 @@ void writeStateFile(const std::string& path, const std::vector<Archive::Section>
 
 namespace {
 
-/// @param left  bytes that there are
+/// Reads all sections. @param left  available bytes
 template <class From>
 std::vector<Archive::Section> readSections(From& file, const std::string& path, uint64_t left) {
   char magic[sizeof kMagic];
   uint32_t numbers[2];
   if (left < sizeof magic || !file.read(magic, sizeof magic) || std::memcmp(magic, kMagic, sizeof magic) != 0)
-    throw Error(path + ": is no file of a saved state");
+    throw Error(path + ": is not a saved state");
   left -= sizeof magic;
   if (left < sizeof numbers || !file.read(numbers, sizeof numbers)) throw damaged(path, "it ends after its first line");
   left -= sizeof numbers;
@@ -168,11 +169,11 @@ std::vector<Archive::Section> readSections(From& file, const std::string& path, 
     throw Error(path + ": is a saved state of version " + std::to_string(numbers[0]) + "; this program reads version " +
                 std::to_string(kStateVersion));
   }
-  if (numbers[1] > kMostSections) throw damaged(path, "it names too many sections");
+  if (numbers[1] > kMostSections) throw damaged(path, "it announces too many sections");
   std::vector<Archive::Section> out;
   for (uint32_t s = 0; s < numbers[1]; ++s)
     out.push_back(readSection(file, path, left, "section " + std::to_string(s + 1)));
-  if (left > 0) throw damaged(path, "it goes on after its last section");
+  if (left > 0) throw damaged(path, "there are data after its last section");
   return out;
 }
 

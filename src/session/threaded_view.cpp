@@ -17,9 +17,9 @@ namespace viscera {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLook{1};  // how often images that are being drawn are asked for
+constexpr std::chrono::milliseconds kLook{1};  // polling interval for images that are being drawn
 
-/// The context is this thread's as long as this lives.
+/// Scope in which this thread holds the context.
 class Current {
  public:
   explicit Current(gpu::Context& context) : context_(context) {
@@ -33,7 +33,7 @@ class Current {
   gpu::Context& context_;
 };
 
-/// Moves what there is behind what there was; an older surface is overtaken.
+/// Appends new results to earlier ones; an older surface is dropped.
 void append(Pictures&& from, Pictures& to) {
   if (from.surface) to.surface = std::move(from.surface);
   if (to.images.empty()) {
@@ -44,22 +44,22 @@ void append(Pictures&& from, Pictures& to) {
   from.images.clear();
 }
 
-/// So that ticks ask for no memory.
-void reserve(const Scene& scene, Look& look) {
+/// Reserves memory, so that ticks allocate none.
+void reserve(const Scene& scene, RenderRequest& request) {
   for (size_t kind = 0; kind < kPictureKinds; ++kind)
-    look.wants.of(static_cast<PictureKind>(kind)).reserve(scene.cameras.size());
-  look.obstacles.reserve(scene.obstacles.size());
-  look.cameras.reserve(scene.cameras.size());
+    request.wants.of(static_cast<PictureKind>(kind)).reserve(scene.cameras.size());
+  request.obstacles.reserve(scene.obstacles.size());
+  request.cameras.reserve(scene.cameras.size());
 }
 
-/// Nothing is wanted; keeps its memory.
-void clear(Wants& wants) {
+/// Clears all requests; keeps the memory.
+void clear(FrameRequest& wants) {
   wants.surface = wants.strain = wants.every_image = false;
   for (size_t kind = 0; kind < kPictureKinds; ++kind) wants.of(static_cast<PictureKind>(kind)).clear();
 }
 
-/// @returns how much of it was wanted already
-size_t add(const Wants& wants, Wants& to) {
+/// Merges requests. @returns number of requests that were there already
+size_t add(const FrameRequest& wants, FrameRequest& to) {
   size_t twice = wants.surface && to.surface;
   to.surface |= wants.surface;
   to.strain |= wants.strain;
@@ -78,12 +78,12 @@ size_t add(const Wants& wants, Wants& to) {
 }  // namespace
 
 ThreadedView::ThreadedView(const Model& model, const Scene& scene, gpu::Context& context) : context_(context) {
-  reserve(scene, look_);
+  reserve(scene, request_);
   context_.release();
   try {
     thread_ = std::thread([&] { main(model, scene); });
   } catch (...) {
-    (void)context_.makeCurrent();  // the caller's again
+    (void)context_.makeCurrent();  // back to the caller's thread
     throw;
   }
   Lock lock(mutex_);
@@ -91,7 +91,7 @@ ThreadedView::ThreadedView(const Model& model, const Scene& scene, gpu::Context&
   if (!error_) return;
   lock.unlock();
   thread_.join();
-  (void)context_.makeCurrent();  // what stopped the view says more
+  (void)context_.makeCurrent();  // the fault of the view is more informative
   std::rethrow_exception(error_);
 }
 
@@ -103,26 +103,26 @@ ThreadedView::~ThreadedView() {
   }
   changed_.notify_all();
   thread_.join();
-  (void)context_.makeCurrent();  // where EGL refuses, what needs the context next fails and says so
+  (void)context_.makeCurrent();  // where EGL refuses, the next user of the context fails and reports it
 }
 
-/// Waits, on the stepping thread.
+/// Waits on the stepping thread.
 template <class Condition>
 void ThreadedView::await(Lock& lock, Condition condition) {
   changed_.wait(lock, [&] { return condition() || error_; });
   if (error_) std::rethrow_exception(error_);
 }
 
-void ThreadedView::capture(Solver& solver, const Look& look, Pictures&) {
-  if (look.wants.count() == 0 || !claimSlot(look.wants)) return;
+void ThreadedView::capture(Solver& solver, const RenderRequest& request, Pictures&) {
+  if (request.wants.count() == 0 || !claimSlot(request.wants)) return;
   solver.snapshot(snapshot_);
-  look_.tick = look.tick;
-  look_.motions = look.motions;
-  look_.obstacles = look.obstacles;
-  look_.cameras = look.cameras;
-  look_.processes = look.processes;
-  look_.overlays = look.overlays;
-  look_.arrows = look.arrows;
+  request_.tick = request.tick;
+  request_.motions = request.motions;
+  request_.obstacles = request.obstacles;
+  request_.cameras = request.cameras;
+  request_.processes = request.processes;
+  request_.overlays = request.overlays;
+  request_.arrows = request.arrows;
   {
     Lock lock(mutex_);
     order_ = Order::kShow;
@@ -130,18 +130,18 @@ void ThreadedView::capture(Solver& solver, const Look& look, Pictures&) {
   changed_.notify_all();
 }
 
-/// Makes the slot the stepping thread's, with what is wanted in it. False if the view is just taking it.
-bool ThreadedView::claimSlot(const Wants& wants) {
+/// Claims the slot for the stepping thread, with the requests in it. False if the view is just taking it.
+bool ThreadedView::claimSlot(const FrameRequest& wants) {
   Lock lock(mutex_);
-  await(lock, [&] { return order_ == Order::kNone || !(wants.every_image || look_.wants.every_image); });
+  await(lock, [&] { return order_ == Order::kNone || !(wants.every_image || request_.wants.every_image); });
   if (order_ == Order::kTaken) {
     skipped_ += wants.count();
     return false;
   }
   if (order_ == Order::kShow) {
-    skipped_ += add(wants, look_.wants);
+    skipped_ += add(wants, request_.wants);
   } else {
-    look_.wants = wants;
+    request_.wants = wants;
   }
   order_ = Order::kNone;
   return true;
@@ -183,16 +183,16 @@ void ThreadedView::run(const Model& model, const Scene& scene) {
   gpu::drawInBackground();
   InlineView view(model, scene);
   StateMirror mirror(model);
-  Look look;
-  reserve(scene, look);
-  Look between;
+  RenderRequest request;
+  reserve(scene, request);
+  RenderRequest between;
   reserve(scene, between);
   view.setPause([&] { pause(view, mirror, between); });
   announce(view, mirror);
   while (true) {
-    switch (awaitOrder(look)) {
+    switch (awaitOrder(request)) {
       case Order::kShow:
-        show(view, mirror, look);
+        show(view, mirror, request);
         break;
       case Order::kNone:
         handOver(view, mirror, {});
@@ -207,7 +207,7 @@ void ThreadedView::run(const Model& model, const Scene& scene) {
   }
 }
 
-/// The view is ready for its first order.
+/// Announces that the view is ready for its first order.
 void ThreadedView::announce(const InlineView& view, const StateMirror& mirror) {
   {
     const Lock lock(mutex_);
@@ -220,11 +220,12 @@ void ThreadedView::announce(const InlineView& view, const StateMirror& mirror) {
 }
 
 bool ThreadedView::canTake() const {
-  return order_ == Order::kShow ? !drawing_ || look_.wants.surface : order_ == Order::kReset || order_ == Order::kEnd;
+  return order_ == Order::kShow ? !drawing_ || request_.wants.surface
+                                : order_ == Order::kReset || order_ == Order::kEnd;
 }
 
-/// @param look  becomes what is to be shown   @returns kNone: nothing, but images are being drawn
-ThreadedView::Order ThreadedView::awaitOrder(Look& look) {
+/// @param request  becomes what is to be shown   @returns kNone: nothing, but images are being drawn
+ThreadedView::Order ThreadedView::awaitOrder(RenderRequest& request) {
   Lock lock(mutex_);
   if (drawing_) {
     changed_.wait_for(lock, kLook, [this] { return canTake(); });
@@ -232,30 +233,30 @@ ThreadedView::Order ThreadedView::awaitOrder(Look& look) {
     changed_.wait(lock, [this] { return canTake(); });
   }
   if (!canTake()) return Order::kNone;
-  if (order_ == Order::kShow) take(look);
+  if (order_ == Order::kShow) take(request);
   return order_ == Order::kTaken ? Order::kShow : order_;
 }
 
-/// All of it, or the surface.
-void ThreadedView::take(Look& look) {
+/// Takes all requests, or only the surface.
+void ThreadedView::take(RenderRequest& request) {
   if (drawing_) {
-    look = look_;
-    clear(look.wants);
-    look.wants.surface = std::exchange(look_.wants.surface, false);
-    look.wants.strain = std::exchange(look_.wants.strain, false);
+    request = request_;
+    clear(request.wants);
+    request.wants.surface = std::exchange(request_.wants.surface, false);
+    request.wants.strain = std::exchange(request_.wants.strain, false);
   } else {
-    std::swap(look, look_);
-    clear(look_.wants);
+    std::swap(request, request_);
+    clear(request_.wants);
   }
   order_ = Order::kTaken;
 }
 
-void ThreadedView::show(InlineView& view, StateMirror& mirror, const Look& look) {
+void ThreadedView::show(InlineView& view, StateMirror& mirror, const RenderRequest& request) {
   upload(view, mirror);
   Pictures made;
-  Look images = look;
-  if (look.wants.surface && look.wants.count() > 1) {  // images take longer
-    view.showSurface(mirror.view(), look, made);
+  RenderRequest images = request;
+  if (request.wants.surface && request.wants.count() > 1) {  // images take longer
+    view.showSurface(mirror.view(), request, made);
     finish(std::move(made), view.counters(), true);
     made = {};
     images.wants.surface = false;
@@ -264,33 +265,33 @@ void ThreadedView::show(InlineView& view, StateMirror& mirror, const Look& look)
   handOver(view, mirror, std::move(made));
 }
 
-/// Brings the state in the slot to the GPU and frees the slot: the next may come while this one is drawn. What was left
-/// of its wants is there for the taking till then.
+/// Uploads the state in the slot to the GPU and frees the slot: the next state may come while this one is drawn. Until
+/// then remaining requests can be taken.
 void ThreadedView::upload(InlineView& view, StateMirror& mirror) {
   mirror.upload(snapshot_);
   view.wound(snapshot_, snapshot_.cut_revision);
   {
     const Lock lock(mutex_);
-    order_ = look_.wants.count() > 0 ? Order::kShow : Order::kNone;
+    order_ = request_.wants.count() > 0 ? Order::kShow : Order::kNone;
     busy_ = drawing_ = true;
   }
   changed_.notify_all();
 }
 
-/// An image is being drawn; a surface does not wait for it.
-void ThreadedView::pause(InlineView& view, StateMirror& mirror, Look& look) {
+/// Handles a pause while an image is being drawn; a surface does not wait for it.
+void ThreadedView::pause(InlineView& view, StateMirror& mirror, RenderRequest& request) {
   {
     const Lock lock(mutex_);
-    if (order_ != Order::kShow || !look_.wants.surface) return;
-    take(look);
+    if (order_ != Order::kShow || !request_.wants.surface) return;
+    take(request);
   }
   upload(view, mirror);
   Pictures made;
-  view.showSurface(mirror.view(), look, made);
+  view.showSurface(mirror.view(), request, made);
   finish(std::move(made), view.counters(), true);
 }
 
-/// What is ready.
+/// Delivers what is ready.
 void ThreadedView::handOver(InlineView& view, const StateMirror& mirror, Pictures&& made) {
   view.collect(made, false);
   gpu::checkErrors("view");
@@ -299,7 +300,7 @@ void ThreadedView::handOver(InlineView& view, const StateMirror& mirror, Picture
   finish(std::move(made), counters, view.anyUnderWay());
 }
 
-/// @param drawing  there is more to come
+/// @param drawing  more results will follow
 void ThreadedView::finish(Pictures&& made, const ViewCounters& counters, bool drawing) {
   {
     const Lock lock(mutex_);

@@ -17,29 +17,29 @@ struct Scene;
 class InlineView;
 class StateMirror;
 
-/// A view on a thread of its own, which has the OpenGL context as long as the view lives: for solvers whose state is on
-/// the host, so that steps go on while a surface is mapped or an image drawn. The stepping thread copies what is shown
-/// of the state, only where something is wanted, into one slot. What is still in the slot when more is wanted is
-/// overtaken: the newer state shows what was wanted of either.
+/// View on a thread of its own, which holds the OpenGL context for the lifetime of the view. It is for solvers with
+/// their state on the host, so that steps continue while a surface is mapped or an image drawn. Where something is
+/// requested, the stepping thread copies what is shown of the state into one slot. If more is requested while the slot
+/// is still full, its state is dropped: the newer state serves both requests.
 ///
-/// A surface does not wait for images: as long as some are being drawn, the thread takes from the slot what is wanted
-/// of the surface, and leaves the rest for later, when it may be of a newer state.
+/// A surface does not wait for images: while images are being drawn, the thread takes the surface's requests from the
+/// slot. The rest waits, and may then show a newer state.
 ///
-/// What goes wrong on the view's thread ends it, and is thrown by every call after that.
+/// An error on the view's thread ends it, and every later call throws it.
 class ThreadedView : public View {
  public:
-  /// @param model  must outlive the view   @param context  current on this thread; given back at the end
+  /// @param model  must outlive the view   @param context  current on this thread; returned at the end
   /// @throws GpuError, SceneError  as InlineView
   ThreadedView(const Model& model, const Scene& scene, gpu::Context& context);
   ~ThreadedView() override;
   ThreadedView(const ThreadedView&) = delete;
   ThreadedView& operator=(const ThreadedView&) = delete;
 
-  void capture(Solver& solver, const Look& look, Pictures& out) override;
+  void capture(Solver& solver, const RenderRequest& request, Pictures& out) override;
   void collect(Pictures& out, bool wait) override;
   void reset() override;
   ViewCounters counters() const override;
-  std::shared_ptr<const ShownTopology> wholeSkin() const override { return whole_skin_; }
+  std::shared_ptr<const VisibleTopology> wholeSkin() const override { return whole_skin_; }
 
  private:
   using Lock = std::unique_lock<std::mutex>;
@@ -48,30 +48,31 @@ class ThreadedView : public View {
   void main(const Model& model, const Scene& scene);
   void run(const Model& model, const Scene& scene);
   void announce(const InlineView& view, const StateMirror& mirror);
-  Order awaitOrder(Look& look);
-  void pause(InlineView& view, StateMirror& mirror, Look& look);
+  Order awaitOrder(RenderRequest& request);
+  void pause(InlineView& view, StateMirror& mirror, RenderRequest& request);
   void upload(InlineView& view, StateMirror& mirror);
   bool canTake() const;
-  void take(Look& look);
-  void show(InlineView& view, StateMirror& mirror, const Look& look);
+  void take(RenderRequest& request);
+  void show(InlineView& view, StateMirror& mirror, const RenderRequest& request);
   void handOver(InlineView& view, const StateMirror& mirror, Pictures&& made);
   void finish(Pictures&& made, const ViewCounters& counters, bool drawing);
-  bool claimSlot(const Wants& wants);
+  bool claimSlot(const FrameRequest& wants);
   template <class Condition>
   void await(Lock& lock, Condition condition);
 
   gpu::Context& context_;
-  std::shared_ptr<const ShownTopology> whole_skin_;
+  std::shared_ptr<const VisibleTopology> whole_skin_;
 
-  // The slot: the stepping thread's while order_ is kNone, the view's from kTaken to kNone; in between it waits.
+  // The slot: it belongs to the stepping thread while order_ is kNone, to the view from kTaken to kNone; in between it
+  // waits.
   StateSnapshot snapshot_;
-  Look look_;
+  RenderRequest request_;
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   Order order_ = Order::kNone;
-  bool busy_ = true;      ///< the view works on what it has taken from the slot; at first on itself
-  bool drawing_ = false;  ///< ... on images, while more may be taken
+  bool busy_ = true;      ///< the view works on what it has taken from the slot; initially on its own construction
+  bool drawing_ = false;  ///< it works on images, while more may be taken
   Pictures done_;
   ViewCounters counters_;
   uint64_t skipped_ = 0;

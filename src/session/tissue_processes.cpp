@@ -5,7 +5,7 @@
 #include "solver/processes/bleed/bleeding.h"
 #include "solver/processes/burn/burns.h"
 #include "solver/processes/clip/clips.h"
-#include "solver/processes/suture/thread_bodies.h"
+#include "solver/processes/suture/suture_bodies.h"
 #include "viscera/math/error.h"
 #include "viscera/session/session.h"
 #include "viscera/session/session_log.h"
@@ -14,67 +14,67 @@ namespace viscera {
 
 namespace {
 
-const ThreadBodies* threadsOf(const Session& session) {
-  return findProcess<ThreadBodies>(session.solver());
+const SutureBodies* suturesOf(const Session& session) {
+  return findProcess<SutureBodies>(session.solver());
 }
 
 }  // namespace
 
-size_t threadPieces(const Session& session) {
-  const ThreadBodies* const threads = threadsOf(session);
-  return threads ? threads->count() : 0;
+size_t suturePieces(const Session& session) {
+  const SutureBodies* const sutures = suturesOf(session);
+  return sutures ? sutures->count() : 0;
 }
 
-size_t threadOf(const Session& session, size_t piece) {
-  return threadsOf(session)->piece(piece).thread;
+size_t sutureOf(const Session& session, size_t piece) {
+  return suturesOf(session)->piece(piece).suture;
 }
 
-const std::vector<Vector3d>& threadPlaces(const Session& session, size_t piece) {
-  return threadsOf(session)->chain(piece).places_m();
+const std::vector<Vector3d>& suturePositions(const Session& session, size_t piece) {
+  return suturesOf(session)->chain(piece).places_m();
 }
 
-std::vector<double> threadTensions_n(const Session& session, size_t piece) {
-  const Chain& chain = threadsOf(session)->chain(piece);
+std::vector<double> sutureTensions_n(const Session& session, size_t piece) {
+  const Chain& chain = suturesOf(session)->chain(piece);
   std::vector<double> out;
   for (size_t link = 0; link + 1 < chain.nodes(); ++link) out.push_back(chain.tension_n(link));
   return out;
 }
 
-std::vector<SeenThread> seenThreads(const Session& session) {
-  std::vector<SeenThread> out;
-  for (size_t p = 0; p < threadPieces(session); ++p) out.push_back(threadsOf(session)->piece(p).seen());
+std::vector<SutureState> sutureStates(const Session& session) {
+  std::vector<SutureState> out;
+  for (size_t p = 0; p < suturePieces(session); ++p) out.push_back(suturesOf(session)->piece(p).seen());
   return out;
 }
 
-std::string threadRefusal(const Session& session) {
-  const ThreadBodies* const threads = threadsOf(session);
-  return threads ? threads->refused() : std::string();
+std::string sutureRefusal(const Session& session) {
+  const SutureBodies* const sutures = suturesOf(session);
+  return sutures ? sutures->refused() : std::string();
 }
 
-std::vector<Vector3d> needlePlaces(const Session& session, size_t thread) {
-  const ThreadBodies* const threads = threadsOf(session);
-  const Needle* const needle = threads ? threads->needle(thread) : nullptr;
+std::vector<Vector3d> needlePositions(const Session& session, size_t suture) {
+  const SutureBodies* const sutures = suturesOf(session);
+  const Needle* const needle = sutures ? sutures->needle(suture) : nullptr;
   return needle ? needle->places_m() : std::vector<Vector3d>();
 }
 
-std::vector<SeenNeedle> seenNeedles(const Session& session) {
-  const ThreadBodies* const threads = threadsOf(session);
-  return threads ? threads->seenNeedles() : std::vector<SeenNeedle>();
+std::vector<NeedleState> needleStates(const Session& session) {
+  const SutureBodies* const sutures = suturesOf(session);
+  return sutures ? sutures->needleStates() : std::vector<NeedleState>();
 }
 
-SeenClips seenClips(const Session& session) {
+ClipStates seenClips(const Session& session) {
   const Clips* const clips = findProcess<Clips>(session.solver());
-  return clips ? clips->seen() : SeenClips();
+  return clips ? clips->seen() : ClipStates();
 }
 
-SeenBurns seenBurns(const Session& session) {
+BurnReport seenBurns(const Session& session) {
   const Burns* const burns = findProcess<Burns>(session.solver());
-  return burns ? burns->seen() : SeenBurns();
+  return burns ? burns->seen() : BurnReport();
 }
 
-SeenBlood seenBlood(const Session& session) {
+BloodReport seenBlood(const Session& session) {
   const Bleeding* const bleeding = findProcess<Bleeding>(session.solver());
-  return bleeding ? bleeding->seen() : SeenBlood();
+  return bleeding ? bleeding->seen() : BloodReport();
 }
 
 FactGroups Session::facts() const {
@@ -83,11 +83,11 @@ FactGroups Session::facts() const {
   return out;
 }
 
-void Session::tieThread(size_t piece, const ThreadTie& tie) {
-  ThreadBodies* const threads = findProcess<ThreadBodies>(*solver_);
-  if (!threads) throw Error("the scene has no threads");
-  threads->tie(piece, tie);
-  for (SessionLog* log : logs_) log->threadTied(piece, tie);
+void Session::tieSuture(size_t piece, const SutureTie& tie) {
+  SutureBodies* const sutures = findProcess<SutureBodies>(*solver_);
+  if (!sutures) throw Error("the scene has no sutures");
+  sutures->tie(piece, tie);
+  for (SessionLog* log : logs_) log->sutureTied(piece, tie);
 }
 
 }  // namespace viscera

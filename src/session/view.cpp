@@ -12,16 +12,16 @@
 
 namespace viscera {
 
-const std::vector<bool>& Wants::of(PictureKind kind) const {
+const std::vector<bool>& FrameRequest::of(PictureKind kind) const {
   const std::vector<bool>* const all[kPictureKinds] = {&cameras, &right, &depth, &labels};
   return *all[static_cast<size_t>(kind)];
 }
 
-std::vector<bool>& Wants::of(PictureKind kind) {
+std::vector<bool>& FrameRequest::of(PictureKind kind) {
   return const_cast<std::vector<bool>&>(std::as_const(*this).of(kind));
 }
 
-size_t Wants::count() const {
+size_t FrameRequest::count() const {
   size_t out = surface;
   for (size_t kind = 0; kind < kPictureKinds; ++kind) {
     const std::vector<bool>& wanted = of(static_cast<PictureKind>(kind));

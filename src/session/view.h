@@ -16,26 +16,26 @@ namespace gpu {
 class Context;
 }
 
-/// The viewing half of a session: skin and images for those who want them (EGVE 3.3), beside the stepping.
+/// Viewing half of a session, separate from the stepping: surfaces and images on request (EGVE 3.3).
 class View {
  public:
   virtual ~View() = default;
-  /// Begins what is wanted of the solver's current state, or skips it if too much is under way.
-  /// @param out  gets images that had to be taken to make room (Wants::every_image)
-  virtual void capture(Solver& solver, const Look& look, Pictures& out) = 0;
-  /// Hands over what is ready: every image, the newest surface. @param wait  for all that was begun
+  /// Begins what is requested of the solver's current state, or skips it if too much is in flight.
+  /// @param out  gets images that had to be taken to make room (FrameRequest::every_image)
+  virtual void capture(Solver& solver, const RenderRequest& request, Pictures& out) = 0;
+  /// Delivers what is ready: every image, the newest surface. @param wait  for everything that was begun
   virtual void collect(Pictures& out, bool wait) = 0;
-  /// Skins whole again. Nothing may be under way.
+  /// Makes the surfaces whole again. Nothing may be in flight.
   virtual void reset() = 0;
   virtual ViewCounters counters() const = 0;
-  /// Triangles of the skin as long as nothing is cut.
-  virtual std::shared_ptr<const ShownTopology> wholeSkin() const = 0;
+  /// Returns the triangles of the uncut surface mesh.
+  virtual std::shared_ptr<const VisibleTopology> wholeSkin() const = 0;
 };
 
-/// On this thread if the solver's state is on the GPU, which it must not leave; on one of its own if it is on the host.
-/// Without a context: the skin only, by HostView.
+/// Makes a view: on this thread if the solver's state is on the GPU, which it must not leave; on a thread of its own if
+/// it is on the host. Without a context: surfaces only, by HostView.
 /// @param model  must outlive the view
-/// @param context  current on this thread, and again when the view is gone; null: there is none
+/// @param context  current on this thread, and again once the view is gone; null: no OpenGL
 std::unique_ptr<View> makeView(const Solver& solver, const Model& model, const Scene& scene, gpu::Context* context);
 
 }  // namespace viscera

@@ -18,23 +18,24 @@ namespace viscera {
 
 namespace {
 
-/// A solver in the state that solver.start asks for.
-std::unique_ptr<Solver> started(std::unique_ptr<Ticks> solver, const Model& model, const Scene& scene,
+/// Returns a solver in the state that solver.start specifies.
+std::unique_ptr<Solver> started(std::unique_ptr<TissueStepper> solver, const Model& model, const Scene& scene,
                                 const std::shared_ptr<ThreadPool>& threads) {
   SettleReport report;
   if (scene.solver.start == SolverStart::kEquilibrium) solver->startFrom(equilibriumOf(model, scene, report, threads));
   return solver;
 }
 
-std::unique_ptr<Ticks> ticksOf(const Model& model, const Scene& scene, Backend backend,
-                               const std::shared_ptr<ThreadPool>& threads) {
+std::unique_ptr<TissueStepper> ticksOf(const Model& model, const Scene& scene, Backend backend,
+                                       const std::shared_ptr<ThreadPool>& threads) {
   if (backend != Backend::kCpu) return std::make_unique<GpuSolver>(model, scene);
   CpuSolverOptions options;
   options.threads = threads;
   return std::make_unique<CpuSolver>(model, scene, options);
 }
 
-/// What a person should know of probes that only leapfrog stops between nodes; empty where all are as wide as cells.
+/// Returns a note for the user that only leapfrog stops a thin probe between nodes; empty if all probes are as wide as
+/// cells.
 std::string thinProbeNote(const Model& model, const Scene& scene) {
   if (scene.solver.integrator == Integrator::kLeapfrog) return "";
   double spacing_m = 0;
@@ -42,7 +43,7 @@ std::string thinProbeNote(const Model& model, const Scene& scene) {
     spacing_m = std::max(spacing_m, body.network ? body.network->meanLength() : body.lattice.spacing_m);
   for (const StylusConfig& stylus : scene.styluses) {
     if (!mayPush(stylus) || stylus.probe.radius_m >= spacing_m) continue;
-    return std::string(traitsOf(scene.solver.integrator).name) + "'s probes meet nodes alone, and probe.radius_m of '" +
+    return std::string(traitsOf(scene.solver.integrator).name) + "'s probes only touch nodes, and probe.radius_m of '" +
            stylus.name + "', " + numberText(stylus.probe.radius_m, 3) + " m, is less than a spacing, " +
            numberText(spacing_m, 3) + " m";
   }
@@ -62,12 +63,13 @@ std::string backendNote(const Scene& scene, const gpu::Context* context, const S
                         const std::string& note) {
   const SolverConfig& config = scene.solver;
   const std::string taken = (note.empty() ? "" : "integrator: " + note + "; ") + solver.backend();
-  if (config.backend != Backend::kAuto) return taken + ", as solver.backend asks";
+  if (config.backend != Backend::kAuto) return taken + ", as set by solver.backend";
   if (resistsBlades(scene))
-    return taken + ", as tissue that resists blades (material.cut) would have a GPU waited for in every substep";
-  if (tears(scene)) return taken + ", as only there tissue tears (material.tear)";
-  if (!context) return taken + ", as there is no OpenGL context";
-  return taken + (context->isSoftware() ? ", as OpenGL is a software rasteriser: " : ", as OpenGL has a GPU: ") +
+    return taken + ", because tissue that resists blades (material.cut) would have to wait for a GPU in every substep";
+  if (tears(scene)) return taken + ", because tearing (material.tear) only exists there";
+  if (!context) return taken + ", because there is no OpenGL context";
+  return taken +
+         (context->isSoftware() ? ", because OpenGL is a software rasteriser: " : ", because OpenGL has a GPU: ") +
          context->renderer();
 }
 
@@ -75,7 +77,7 @@ std::unique_ptr<Solver> makeSolver(const Model& model, const Scene& scene, const
                                    const std::shared_ptr<ThreadPool>& threads, std::string* note) {
   const Backend backend = chooseBackend(scene, context);
   if (backend != Backend::kCpu && !context)
-    throw GpuError("solver.backend: gpu needs an OpenGL context, and there is none: use cpu or auto");
+    throw GpuError("solver.backend: gpu needs an OpenGL context, but there is none; use cpu or auto");
   if (note) *note = thinProbeNote(model, scene);
   return started(ticksOf(model, scene, backend, threads), model, scene, threads);
 }

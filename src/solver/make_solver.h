@@ -17,21 +17,21 @@ namespace gpu {
 class Context;
 }
 
-// Where a context is asked for, null means that there is none: then only the CPU is left.
+// A context argument may be null: then there is none, and only the CPU can be used.
 
-/// The backend that a scene asks for. kAuto: the GPU if the context's renderer is a real one and the GPU backend has
-/// all that the scene needs, else the CPU.
+/// Returns the backend that a scene requests. kAuto: the GPU if the context has a hardware renderer and the GPU backend
+/// supports all features of the scene, else the CPU.
 Backend chooseBackend(const Scene& scene, const gpu::Context* context);
 
-/// One line for a person: which backend steps the tissue, and why.
-/// @param note  that makeSolver() gave
+/// Returns one line for the user: which backend steps the tissue, and why.
+/// @param note  from makeSolver()
 std::string backendNote(const Scene& scene, const gpu::Context* context, const Solver& solver,
                         const std::string& note = {});
 
-/// The solver on the backend that the scene asks for. @param model  must outlive it
-/// @throws GpuError  the scene asks for the GPU, and there is no context
-/// @param threads  of the CPU backend, shared with others; null: solver.threads of its own
-/// @param note     set to what a person should know of the integrator; empty: nothing
+/// Makes the solver on the backend that the scene requests. @param model  must outlive it
+/// @throws GpuError  the scene requests the GPU, and there is no context
+/// @param threads  of the CPU backend, shared with others; null: its own, as many as solver.threads
+/// @param note     set to what the user should know of the integrator; empty: nothing
 std::unique_ptr<Solver> makeSolver(const Model& model, const Scene& scene, const gpu::Context* context,
                                    const std::shared_ptr<ThreadPool>& threads = nullptr, std::string* note = nullptr);
 

@@ -10,17 +10,17 @@ namespace viscera {
 
 void BodyItems::setLast(Range range) {
   ranges_.back() = range;
-  forget();
+  clear();
 }
 
-void BodyItems::forget() {
+void BodyItems::clear() {
   std::fill(followed_.begin(), followed_.end(), 0);
 }
 
 bool BodyItems::run(const gpu::Program& kernel, const StateView& state, const std::vector<uint8_t>* asked) {
   const bool known = state.stale_bricks != 0;
   bool any = false;
-  Range run;  // of bodies side by side that show the same state
+  Range run;  // of consecutive bodies that show the same state
   uint32_t run_since = 0;
   const auto finish = [&] {
     if (run.first == run.end) return;

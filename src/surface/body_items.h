@@ -11,8 +11,8 @@
 
 namespace viscera {
 
-/// Items that a kernel brings to a state: it runs over those of the bodies that are asked for, and each body knows
-/// which state its items show.
+/// Items (vertices, nodes) that a kernel updates to a state, for the requested bodies only. Keeps the state that the
+/// items of each body show.
 class BodyItems {
  public:
   struct Range {
@@ -22,13 +22,13 @@ class BodyItems {
   /// @param ranges  [bodies] items of each, ascending
   explicit BodyItems(std::vector<Range> ranges) : ranges_(std::move(ranges)), followed_(ranges_.size()) {}
 
-  /// The last body has other items from now on; nothing is in place.
+  /// Replaces the items of the last body, and marks all items of all bodies as not up to date.
   void setLast(Range range);
-  /// Runs over what is not there yet. @param asked  [bodies] 1: is asked for; null: all are
-  /// @returns whether there was anything
+  /// Runs over the items that are not up to date. @param asked  [bodies] 1: requested; null: all are
+  /// @returns whether there were any
   bool run(const gpu::Program& kernel, const StateView& state, const std::vector<uint8_t>* asked);
-  /// Nothing is in place.
-  void forget();
+  /// Marks all items as not up to date.
+  void clear();
 
  private:
   std::vector<Range> ranges_;

@@ -12,18 +12,18 @@
 
 namespace viscera {
 
-/// What Surface does for networks. Owner of shaders/surface/network_skin.comp, split_edges.comp,
-/// crossed_edges.comp and split_triangles.comp.
+/// The part of Surface for networks. Owner of shaders/surface/network_skin.comp, split_edges.comp, crossed_edges.comp
+/// and split_triangles.comp.
 class NetworkSurface {
  public:
   /// Needs a current context. @throws GpuError
   explicit NetworkSurface(const NetworkSkins& skins);
 
-  /// Vertices and normals of the networks, and the split vertices if they can be seen. Positions, normals and the
-  /// state of triangles are bound by Surface.
-  /// @param since  what moved no later is in place; 0: nothing is
+  /// Updates vertices and normals of the networks, and the split vertices if they can be seen. Surface binds positions,
+  /// normals and the state of triangles.
+  /// @param since  revision: what has not moved after it is up to date; 0: nothing is
   void follow(const StateView& state, uint32_t since);
-  /// What is shown of each triangle. @param triangles  of all bodies
+  /// Computes which pieces of each triangle are shown. @param triangles  of all bodies
   void split(const StateView& state, size_t triangles);
   void reset() { torn_ = placed_ = false; }
 
@@ -37,7 +37,7 @@ class NetworkSurface {
   gpu::Buffer<uint32_t> crossed_;  ///< see kBindCrossedEdges
   gpu::Program follow_, list_crossed_, split_edges_, split_triangles_;
   bool torn_ = false;    ///< some triangle may be split
-  bool placed_ = false;  ///< split vertices of whole edges are
+  bool placed_ = false;  ///< split vertices of whole edges are placed
 };
 
 }  // namespace viscera

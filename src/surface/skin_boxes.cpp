@@ -14,7 +14,7 @@ namespace viscera {
 
 namespace {
 
-constexpr float kRounding_m = 1e-6F;  // of positions worked out here in another order than in kernels, within 10 m
+constexpr float kRounding_m = 1e-6F;  // of positions within 10 m: kernels round in another order
 
 Vector3d axisOf(uint32_t spring) {
   const auto& o = kNeighborOffsets[spring];
@@ -25,7 +25,7 @@ float lengthOf(const layout::vec4& v) {
   return Vector3f(v.x, v.y, v.z).norm();
 }
 
-/// Where a vertex lies in its cell, 0..1 along each axis where it is inside.
+/// Returns the position of a vertex in its cell, 0..1 along each axis if it is inside.
 Vector3d placeInCell(const layout::SkinBinding& binding, double spacing_m) {
   const Vector3d rest1 = axisOf(binding.springs & 31U), rest2 = -axisOf(binding.springs >> 10U & 31U);
   const SkinBasis basis = triangleBasis(rest1, rest2);
@@ -35,7 +35,7 @@ Vector3d placeInCell(const layout::SkinBinding& binding, double spacing_m) {
          (offset.x * basis.t + offset.y * basis.n + offset.z * basis.b) / spacing_m;
 }
 
-/// Where an edge of a network splits, a piece of it stands out from the node that carries it.
+/// Returns how far a piece of a split edge of a network may reach from the node that carries it.
 float splitReach(const Skin& skin) {
   float out = 0;
   for (const SplitEdge& edge : skin.split_edges)
@@ -43,10 +43,10 @@ float splitReach(const Skin& skin) {
   return out;
 }
 
-/// Size of the negative weights by which the corners of its cell carry a vertex beside it.
+/// Returns the sum of the negative weights, without sign, of a vertex outside its cell.
 float beyondCell(const layout::SkinBinding& binding, double spacing_m) {
   const Vector3d place = placeInCell(binding, spacing_m);
-  double sizes = 1;  // of the corners' weights
+  double sizes = 1;  // sum of the absolute weights
   for (int axis = 0; axis < 3; ++axis) sizes *= 1 + 2 * std::max({0.0, -place[axis], place[axis] - 1});
   return static_cast<float>((sizes - 1) / 2);
 }
@@ -58,7 +58,7 @@ SkinBoxes::SkinBoxes(const Model& model, const std::vector<layout::SkinBinding>&
     const Body& body = model.bodies[b];
     bodies_.push_back({model.slotOffset(b), body.lattice.spacing_m, {}});
     if (body.skin.mesh.triangles.empty()) continue;
-    // Wounds have walls inside.
+    // Walls of wounds may be bound to any node inside.
     for (const uint32_t slot : body.skin.can_be_cut ? body.lattice.active_slots : body.skin.bound_slots)
       bodies_[b].nodes.push_back({model.slotOffset(b) + slot, restPosition(body, slot).cast<float>()});
   }

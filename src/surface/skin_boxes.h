@@ -16,14 +16,14 @@ using SkinBox = Eigen::AlignedBox3f;  ///< [m, tissue frame]
 /// Displacements of nodes on the host [m].
 struct HostDisplacements {
   const float* first_m = nullptr;
-  const uint32_t* brick_places = nullptr;  ///< [bricks] of a brick in there; null: they follow each other
+  const uint32_t* brick_places = nullptr;  ///< [bricks] place of a brick in there; null: bricks are in order
   size_t node_stride = 1, axis_stride = layout::kBrickSlots, brick_stride = kBrickFloats;
 
-  /// As StateSnapshot::displacement_m has them.
+  /// Returns a view of StateSnapshot::displacement_m.
   static HostDisplacements ofBricks(const float* bricks_m, const uint32_t* brick_places) {
     return {bricks_m, brick_places};
   }
-  /// @param slots_m  [slots]
+  /// Returns a view of one vector per slot. @param slots_m  [slots]
   static HostDisplacements ofSlots(const std::vector<layout::vec4>& slots_m) {
     return {&slots_m.data()->x, nullptr, 4, 1, size_t{4} * layout::kBrickSlots};
   }
@@ -35,17 +35,18 @@ struct HostDisplacements {
   }
 };
 
-/// Where the skins of bodies are, so that those that no camera sees are neither mapped nor drawn (docs/hidden.md).
+/// Bounding boxes of the surface meshes of bodies. Bodies that no camera sees are neither mapped nor drawn
+/// (docs/surface.md).
 class SkinBoxes {
  public:
   SkinBoxes() = default;
-  /// @param bindings  of the skins of all bodies (JoinedSkins)
+  /// @param bindings  of the surface meshes of all bodies (JoinedSkins)
   SkinBoxes(const Model& model, const std::vector<layout::SkinBinding>& bindings);
 
-  /// Boxes hold vertices that are bound so, too, from now on.
+  /// Enlarges the boxes for vertices with these bindings.
   void add(const std::vector<layout::SkinBinding>& bindings);
-  /// @returns [bodies] all that the triangles of a body can cover in a state lies in its box, which is empty for a body
-  /// without triangles. What is not a number makes a box that holds everything.
+  /// Returns a box per body [bodies] that contains all its triangles in a state; empty for a body without triangles. A
+  /// displacement that is not finite makes a box that contains everything.
   std::vector<SkinBox> place(const HostDisplacements& displacements) const;
   std::vector<SkinBox> atRest() const;
 
@@ -58,13 +59,13 @@ class SkinBoxes {
     uint32_t first_slot;
     double spacing_m;
     std::vector<Node> nodes;  ///< that vertices may be bound to
-    float offset_m = 0;       ///< how far a triangle may reach beyond the box of its nodes, to every side,
-    float beyond = 0;         ///< and the same as a share of that box
+    float offset_m = 0;       ///< how far a triangle may reach beyond the box of its nodes, on every side
+    float beyond = 0;         ///< the same as a share of that box
   };
   static SkinBox around(const OfBody& body, const HostDisplacements& displacements);
 
   std::vector<OfBody> bodies_;
-  size_t slots_ = 0;  ///< of all
+  size_t slots_ = 0;  ///< of all bodies
 };
 
 }  // namespace viscera

@@ -20,14 +20,14 @@ namespace viscera {
 
 namespace {
 
-/// What shaders/solver/tissue/lattice.glsl asks for.
+/// Binds what shaders/solver/tissue/lattice.glsl reads.
 void bindNodes(const StateView& state) {
   bindStorage(layout::kBindBricks, state.bricks);
   bindStorage(layout::kBindBodies, state.bodies);
   bindStorage(layout::kBindNodes, state.nodes);
 }
 
-/// What map_skin.comp is compiled for.
+/// Returns the features that map_skin.comp is compiled for.
 std::vector<std::string> mapFeatures(const JoinedSkins& skins) {
   std::vector<std::string> features;
   if (skins.any_one_to_one) features.push_back("MIXED");
@@ -41,7 +41,7 @@ std::vector<std::string> mapFeatures(const JoinedSkins& skins) {
 
 using Ranges = std::vector<BodyItems::Range>;
 
-/// [bodies] of nodes, which are in the order of their slots.
+/// Returns the range of each body [bodies] in nodes that are ordered by slot.
 Ranges rangesOf(const std::vector<layout::SurfaceNode>& nodes, const Model& model) {
   Ranges out;
   uint32_t first = 0, end = 0;
@@ -54,7 +54,8 @@ Ranges rangesOf(const std::vector<layout::SurfaceNode>& nodes, const Model& mode
   return out;
 }
 
-/// [bodies + 1] of vertices that lattices carry, which others do not; the last are those of wounds.
+/// Returns the ranges of vertices bound to lattices [bodies + 1]; those of networks are empty. The last range is that
+/// of wounds.
 Ranges vertexRanges(const Model& model) {
   Ranges out;
   uint32_t first = 0;
@@ -67,13 +68,13 @@ Ranges vertexRanges(const Model& model) {
   return out;
 }
 
-/// What draws, copies or publishes next must see what was written.
+/// Makes written data visible to drawing, copying and publishing.
 void publish() {
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT |
                   GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-/// Charts of all triangles, then of those that are drawn for split ones (split_triangles.comp).
+/// Returns the charts of all triangles, then room for those drawn in place of split ones (split_triangles.comp).
 std::vector<uint32_t> chartsOfPieces(const JoinedSkins& skins) {
   std::vector<uint32_t> charts = skins.charts;
   if (charts.empty()) return charts;
@@ -82,9 +83,9 @@ std::vector<uint32_t> chartsOfPieces(const JoinedSkins& skins) {
   return charts;
 }
 
-constexpr float kBelowLayers_m = 0.02F;  // skin, fat and what else scenes have are thinner
+constexpr float kBelowLayers_m = 0.02F;  // deeper than the layers of tissue (skin, fat and so on) in scenes
 
-/// What of a vertex is so. @param shares  [slots]
+/// Returns the share at a vertex. @param shares  [slots]
 float shareAt(const std::vector<float>& shares, const layout::SkinBinding& b) {
   if ((b.springs & layout::kOneToOneBit) != 0) return shares[b.slot0];
   return b.weights.x * shares[b.slot0] + b.weights.y * shares[b.slot1] + b.weights.z * shares[b.slot2];
@@ -127,7 +128,7 @@ Surface::Surface(const Model& model) {
   if (Wounds::possible(model)) wounds_ = std::make_unique<Wounds>(model, skins);
   was_wounded_.resize(model.bodies.size());
   std::vector<uint32_t> splits = splitsOf(skins);
-  shown_ = ShownTriangles(model, vertices_, std::move(skins.triangles), std::move(splits));
+  shown_ = VisibleTriangles(model, vertices_, std::move(skins.triangles), std::move(splits));
   if (skins.any_bound) {
     if (carried_nodes_.size() > 0) carried_normal_ = surfaceKernel("node_normal.comp");
     if (summed_nodes_.size() > 0) summed_normal_ = surfaceKernel("node_normal.comp", {"SUMMED"});
@@ -161,11 +162,11 @@ void Surface::follow(const StateView& state, const std::vector<uint8_t>* asked) 
   ++mappings_;
 }
 
-/// @returns whether anything was not there yet
+/// Updates vertices bound to lattices. @returns whether any were out of date
 bool Surface::followLattices(const StateView& state, const std::vector<uint8_t>* asked) {
   bindings_.bindStorage(layout::kBindSkinBindings);
   node_normals_.bindStorage(layout::kBindNodeNormals);
-  std::vector<uint8_t> bodies;  // and wounds, which are all mapped if one is
+  std::vector<uint8_t> bodies;  // and wounds, which are mapped all together
   if (asked) {
     bool any_wound = false;
     for (size_t b = 0; b < asked->size(); ++b) any_wound = any_wound || ((*asked)[b] && was_wounded_[b]);
@@ -191,7 +192,7 @@ void Surface::followNormals(const StateView& state, const std::vector<uint8_t>* 
   gpu::Program::storageBarrier();
 }
 
-/// All of them or none: the split ones of one end where both ends are in place.
+/// Updates all networks or none: a split vertex needs both ends of its edge.
 bool Surface::followNetworks(const StateView& state) {
   const bool known = state.stale_bricks != 0;
   if (known && state.moved_revision <= followed_networks_) return false;
@@ -202,11 +203,11 @@ bool Surface::followNetworks(const StateView& state) {
   return true;
 }
 
-/// Nothing is in place.
-void Surface::forget() {
-  vertex_items_.forget();
-  carried_items_.forget();
-  summed_items_.forget();
+/// Marks everything as out of date.
+void Surface::clear() {
+  vertex_items_.clear();
+  carried_items_.clear();
+  summed_items_.clear();
   followed_networks_ = 0;
 }
 
@@ -219,7 +220,7 @@ void Surface::split(const StateView& state) {
   alive_.bindStorage(layout::kBindSkinAlive);
   live_.bindStorage(layout::kBindSkinLive);
   networks_->split(state, triangles());
-  followed_networks_ = 0;  // normals depend on what is whole
+  followed_networks_ = 0;  // normals depend on which triangles are whole
   ++live_revision_;
   publish();
 }
@@ -245,16 +246,16 @@ void Surface::makeRoom(size_t vertices, size_t indices) {
   live_charts_view_ = gpu::TexelView(live_charts_.raw(), gpu::TexelFormat::kR32ui);
 }
 
-/// As showWounds() has placed the triangles.
+/// Writes the charts in the order in which showWounds() has placed the triangles.
 void Surface::showWoundedCharts() {
   if (charts_.empty()) return;
-  const ShownWounds& shown = *wounds_->shown();
+  const VisibleWounds& shown = *wounds_->shown();
   std::vector<uint32_t> charts = charts_;
   wound_charts_.clear();
   size_t first = 0;
   for (size_t b = 0; b < shown.bodies.size(); ++b) {
     const size_t count = shown_.trianglesOf(b);
-    const ShownWounds::OfBody& body = shown.bodies[b];
+    const VisibleWounds::OfBody& body = shown.bodies[b];
     for (size_t t = 0; t < body.skin_sources.size(); ++t) {
       const uint32_t chart = charts_[first + body.skin_sources[t]];
       if (t < count) {
@@ -270,12 +271,12 @@ void Surface::showWoundedCharts() {
   live_charts_.write(wound_charts_, first_wound_index_ / 3);
 }
 
-/// Triangles of a wounded body take the place of its whole ones; those that find no room there follow all others.
+/// Replaces the whole triangles of wounded bodies; those that do not fit there follow all others.
 void Surface::showWounds() {
-  const ShownWounds& shown = *wounds_->shown();
+  const VisibleWounds& shown = *wounds_->shown();
   vertices_ = shown.vertices;
   size_t beyond = 0;
-  for (const ShownWounds::OfBody& body : shown.bodies) beyond += body.skin.size() + body.walls.size();
+  for (const VisibleWounds::OfBody& body : shown.bodies) beyond += body.skin.size() + body.walls.size();
   const auto roomFor = [](size_t needed, size_t there) { return needed > there ? needed + needed / 2 : there; };
   makeRoom(roomFor(vertices_, capacity()), roomFor(first_wound_index_ + beyond, live_.size()));
   bindings_.write(wounds_->bindings());
@@ -284,7 +285,7 @@ void Surface::showWounds() {
   size_t first = 0;
   for (size_t b = 0; b < shown.bodies.size(); ++b) {
     const size_t count = 3 * shown_.trianglesOf(b);
-    const ShownWounds::OfBody& body = shown.bodies[b];
+    const VisibleWounds::OfBody& body = shown.bodies[b];
     if (body.wounded) {
       const size_t inside = std::min(count, body.skin.size());
       live_.write(body.skin.data(), inside, first);
@@ -303,7 +304,7 @@ void Surface::showWounds() {
   showWoundedCharts();
   boxes_.add(wounds_->bindings());
   vertex_items_.setLast({static_cast<uint32_t>(whole_vertices_), static_cast<uint32_t>(vertices_)});
-  forget();  // vertices are bound again
+  clear();  // vertices are bound again
   ++live_revision_;
 }
 
@@ -332,14 +333,14 @@ void Surface::wound(const CutSprings& cuts, uint64_t revision) {
   publish();
 }
 
-/// Those of the skins and walls.
+/// Writes the colours of surface meshes and walls.
 void Surface::writeColors() {
   if (isPainted()) return writePaintedColors();
   colors_.write(wounds_->colors());
   rests_.write(wounds_->addedRests(), whole_vertices_);
 }
 
-/// Where walls are painted they have no layers, as they look deep.
+/// Writes painted colours. Painted walls have no layers, as their vertices count as deep.
 void Surface::writePaintedColors() {
   std::vector<uint32_t> colors = wounds_ ? wounds_->colors() : whole_colors_;
   const std::vector<layout::SkinBinding>& bindings = wounds_ ? wounds_->bindings() : whole_bindings_;
@@ -378,7 +379,7 @@ void Surface::reset() {
   }
   if (!networks_) return;
   networks_->reset();
-  forget();
+  clear();
 }
 
 }  // namespace viscera

@@ -11,7 +11,7 @@
 
 namespace viscera {
 
-// How the kernels of shaders/surface/ are made and run.
+// How the kernels of shaders/surface/ are compiled and run.
 
 inline void bindStorage(uint32_t binding, uint32_t buffer) {
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer);
@@ -22,7 +22,7 @@ inline gpu::Program surfaceKernel(const std::string& name, std::vector<std::stri
   return gpu::Program::compute(name, features);
 }
 
-/// One invocation for each of `count`, which the kernel has as a uniform.
+/// Runs one invocation for each of `count`, which is a uniform of the kernel.
 inline void runOver(const gpu::Program& kernel, size_t count) {
   kernel.use();
   kernel.set("count", static_cast<uint32_t>(count));

@@ -20,14 +20,14 @@ class ClipJudge : public TaskJudge {
       : goal_(goal),
         at_(goal.clips.size(), false),
         joint_(model, goal.clips.front().position_m, goal.clips.back().position_m) {}
-  bool heedsCuts() const override { return true; }
-  bool heedsClips() const override { return true; }
+  bool usesCuts() const override { return true; }
+  bool usesClips() const override { return true; }
   bool isApart(const CutState& cuts) const override { return joint_.isApart(cuts); }
   void judge(const TaskTick& tick, TaskTally& tally) override {
     std::fill(at_.begin(), at_.end(), false);
     size_t bad = tick.clips.empty + tick.clips.taken_off;
     tally.clip_off_mm = 0;
-    for (const SeenClip& clip : tick.clips.on) {
+    for (const ClipState& clip : tick.clips.on) {
       const auto [place, off_m] = nearest(clip.rest_m);
       const bool good = off_m <= goal_.radius_m && !at_[place];
       bad += !good;
@@ -36,7 +36,7 @@ class ClipJudge : public TaskJudge {
       tally.clip_off_mm = std::max(tally.clip_off_mm, kMm * off_m);
     }
     tally.bad_clips = static_cast<double>(bad);
-    // What was divided without clips on both sides has bled, and is not made good.
+    // Tissue divided without clips on both sides has bled; later clips do not make up for it.
     if (tick.apart && !apart_) clipped_first_ = allClipped();
     apart_ = apart_ || tick.apart;
   }
@@ -46,10 +46,10 @@ class ClipJudge : public TaskJudge {
   }
   bool reached() const override { return apart_ && clipped_first_ && allClipped(); }
   std::string step() const override {
-    if (apart_ && !clipped_first_) return "it was divided before it was clipped: begin again";
+    if (apart_ && !clipped_first_) return "it was divided before it was clipped; start again";
     if (allClipped()) return "divide the tissue between the clips";
     return "set clips: " + std::to_string(std::count(at_.begin(), at_.end(), true)) + " of " +
-           std::to_string(at_.size()) + " are at their places";
+           std::to_string(at_.size()) + " are in place";
   }
 
  private:
@@ -66,7 +66,7 @@ class ClipJudge : public TaskJudge {
   }
 
   const ClipGoal goal_;
-  std::vector<bool> at_;  ///< [clips of the goal] is one there?
+  std::vector<bool> at_;  ///< [clips of the goal] whether a clip is there
   const Joint joint_;
   bool apart_ = false, clipped_first_ = false;
 };
@@ -78,12 +78,12 @@ std::string clipFault(const TaskConfig& task) {
   const size_t count = task.clip.clips.size();
   return count >= 2 && count % 2 == 0
              ? ""
-             : "'clip_and_divide.clips' is a list of an even number of places; found " + std::to_string(count);
+             : "'clip_and_divide.clips' must be a list of an even number of positions; found " + std::to_string(count);
 }
 
 std::unique_ptr<TaskJudge> clipJudge(const TaskConfig& task, const Session& session) {
   if (!mayClip(session.scene().styluses))
-    throw TaskError(task.name + ": 'kind' clip_and_divide wants a scene with a stylus that has mode clip, and " +
+    throw TaskError(task.name + ": 'kind' clip_and_divide needs a scene with a stylus that has mode clip, but " +
                     session.scene().name + " has none");
   try {
     return std::make_unique<ClipJudge>(task.clip, session.model());
@@ -92,7 +92,7 @@ std::unique_ptr<TaskJudge> clipJudge(const TaskConfig& task, const Session& sess
   }
 }
 
-/// A small circle at each place, about the line from the first to the last.
+/// Returns a small circle at each position, about the line from the first to the last.
 TaskShapes clipShapes(const TaskConfig& task) {
   const Vector3d first_m = task.clip.clips.front().position_m;
   const Vector3d way = task.clip.clips.back().position_m - first_m;

@@ -17,16 +17,16 @@ namespace {
 
 constexpr double kMmPerM = 1000;
 
-/// Two nodes on either side of a wound, as far from it as it is looked at.
+/// Two nodes on either side of a wound, as far from it as it is examined.
 struct Facing {
   uint32_t left, right;  ///< slots of the model
-  Vector3d across;       ///< from left to right, of unit length
+  Vector3d across;       ///< unit vector from left to right
 };
 
-constexpr double kFar = 2;  // spacings from where it is looked for: a node that is farther is not of that wound
+constexpr double kFar = 2;  // in spacings, from the searched position: a node farther away does not belong to the wound
 
-/// The node nearest to a place on one side of a plane. @param outward  from the plane to that side
-/// @throws TaskError  there is none near
+/// Returns the node nearest to a position on one side of a plane. @param outward  from the plane to that side
+/// @throws TaskError  there is no node nearby
 uint32_t nodeBeside(const Model& model, const Vector3d& of_plane_m, const Vector3d& outward, const Vector3d& to_m) {
   uint32_t out = 0;
   double least_m2 = std::numeric_limits<double>::infinity();
@@ -40,18 +40,18 @@ uint32_t nodeBeside(const Model& model, const Vector3d& of_plane_m, const Vector
     }
   }
   if (std::sqrt(least_m2) > kFar * longestSpacing(model))
-    throw TaskError("'close_wound.path' lies where no tissue is beside it, 'reach_m' from it, at rest");
+    throw TaskError("'close_wound.path' has no tissue at 'reach_m' on either side of it, at rest");
   return out;
 }
 
-/// A pair every spacing along the line.
+/// Returns one pair of nodes per spacing along the line.
 std::vector<Facing> facingAlong(const CloseGoal& goal, const Model& model) {
   const double spacing_m = longestSpacing(model);
   std::vector<Facing> out;
   for (size_t i = 1; i < goal.line.path.size(); ++i) {
     const Vector3d from_m = goal.line.path[i - 1].position_m, way_m = goal.line.path[i].position_m - from_m;
     const Vector3d across = way_m.cross(goal.line.normal).normalized();
-    if (across.norm() == 0) continue;  // a place that stands twice, or above the last one
+    if (across.norm() == 0) continue;  // a repeated position, or one straight above the last
     const auto pieces = static_cast<int>(std::max(1.0, std::floor(way_m.norm() / spacing_m)));
     for (int k = 0; k < pieces; ++k) {
       const Vector3d at_m = from_m + (k + 0.5) / pieces * way_m, beside_m = goal.reach_m * across;
@@ -70,10 +70,10 @@ class CloseJudge : public TaskJudge {
  public:
   CloseJudge(const CloseGoal& goal, const Model& model)
       : goal_(goal), cut_(judgeOfLine(goal.line, longestSpacing(model))), facing_(facingAlong(goal, model)) {}
-  bool heedsCuts() const override { return true; }
-  bool heedsThreads() const override { return true; }
-  bool asksForGap(const std::vector<SeenThread>& threads) const override {
-    return tiedOf(threads) >= static_cast<size_t>(goal_.knots);
+  bool usesCuts() const override { return true; }
+  bool usesSutures() const override { return true; }
+  bool asksForGap(const std::vector<SutureState>& sutures) const override {
+    return tiedOf(sutures) >= static_cast<size_t>(goal_.knots);
   }
   double gapOf(const HostState& state) const override {
     double sum_m = 0;
@@ -85,13 +85,13 @@ class CloseJudge : public TaskJudge {
   }
   void judge(const TaskTick& tick, TaskTally& tally) override {
     cut_->judge(tick, tally);
-    tied_ = tiedOf(tick.threads);
+    tied_ = tiedOf(tick.sutures);
     holds_ = std::any_of(tick.stats.grabbed, tick.stats.grabbed + layout::kMaxStyluses, [](auto n) { return n > 0; });
     gap_m_ = tick.gap_m;
     tally.gap_mm = gap_m_ ? kMmPerM * *gap_m_ : 0;
     tally.weak_knots = 0;
-    for (const SeenThread& thread : tick.threads) {
-      for (const SeenKnot& knot : thread.knots) tally.weak_knots += knot.tied && isWeak(knot.kind);
+    for (const SutureState& suture : tick.sutures) {
+      for (const KnotState& knot : suture.knots) tally.weak_knots += knot.tied && isWeak(knot.kind);
     }
   }
   double progress() const override {
@@ -102,20 +102,20 @@ class CloseJudge : public TaskJudge {
   std::string step() const override {
     if (!cut_->reached()) return "open the tissue along the line";
     if (tied_ < static_cast<size_t>(goal_.knots))
-      return "tie the threads: " + std::to_string(tied_) + " of " + std::to_string(goal_.knots) + " knots, of " +
-             std::to_string(goal_.throws) + " throws each";
-    if (isClosed()) return "let go of the thread";
+      return "tie the sutures: " + std::to_string(tied_) + " of " + std::to_string(goal_.knots) + " knots, each with " +
+             std::to_string(goal_.throws) + " throws";
+    if (isClosed()) return "let go of the suture";
     return "the wound gapes by " + fixedText(kMmPerM * gap_m_.value_or(0), 1) +
            " mm: " + fixedText(kMmPerM * goal_.gap_m, 1) + " at most";
   }
 
  private:
   bool isClosed() const { return gap_m_ && *gap_m_ <= goal_.gap_m; }
-  /// Those that no hand threw count by what they are.
-  size_t tiedOf(const std::vector<SeenThread>& threads) const {
+  /// Counts tied knots. Knots that no tool threw count by their kind.
+  size_t tiedOf(const std::vector<SutureState>& sutures) const {
     size_t out = 0;
-    for (const SeenThread& thread : threads) {
-      for (const SeenKnot& knot : thread.knots) {
+    for (const SutureState& suture : sutures) {
+      for (const KnotState& knot : suture.knots) {
         const auto throws = static_cast<int>(knot.turns.size());
         out += knot.tied && (throws == 0 || throws >= goal_.throws);
       }
@@ -138,8 +138,8 @@ std::string closeFault(const TaskConfig& task) {
 }
 
 std::unique_ptr<TaskJudge> closeJudge(const TaskConfig& task, const Session& session) {
-  if (session.scene().threads.empty())
-    throw TaskError(task.name + ": 'kind' close_wound wants a scene with 'threads', and " + session.scene().name +
+  if (session.scene().sutures.empty())
+    throw TaskError(task.name + ": 'kind' close_wound needs a scene with 'sutures', but " + session.scene().name +
                     " has none");
   try {
     return std::make_unique<CloseJudge>(task.close, session.model());

@@ -15,11 +15,11 @@ namespace viscera {
 namespace {
 
 constexpr double kPlacesPerSpacing =
-    0.5;  // of a line that a cut has to cover: two spacings each, so that springs end in all
+    0.5;  // positions on a line that must be cut: two spacings each, so that springs end in all
 constexpr double kMillimetres = 1000;
 constexpr double kTurn = 6.28318530717958647692;
 
-/// Which places of a line are cut, and what was cut elsewhere.
+/// Record of which positions of a line are cut, and of cuts elsewhere.
 class CoveredLine {
  public:
   CoveredLine(double length_m, double spacing_m, double corridor_m)
@@ -27,7 +27,7 @@ class CoveredLine {
         length_m_(length_m),
         done_(static_cast<size_t>(std::max(1.0, std::floor(kPlacesPerSpacing * length_m / spacing_m)))) {}
 
-  /// @param at_m, off_m  of each point that was cut: how far along the line, and from it
+  /// @param at_m, off_m  distance of each cut point along the line, and from it
   void add(const std::vector<std::pair<double, double>>& at_m_off_m, double travel_m, TaskTally& tally) {
     size_t outside = 0;
     for (const auto& [at_m, off_m] : at_m_off_m) {
@@ -64,7 +64,7 @@ class LineJudge : public TaskJudge {
  public:
   LineJudge(const LineGoal& line, double spacing_m)
       : line_(line), normal_(line.normal.normalized()), covered_(lengthOf(line), spacing_m, line.corridor_m) {}
-  bool heedsCuts() const override { return true; }
+  bool usesCuts() const override { return true; }
   void judge(const TaskTick& tick, TaskTally& tally) override {
     std::vector<std::pair<double, double>> points;
     for (const Vector3d& cut : tick.cuts_m) points.push_back(nearest(cut));
@@ -105,7 +105,7 @@ class DiscJudge : public TaskJudge {
         side_(normal_.unitOrthogonal()),
         covered_(kTurn * disc.radius_m, spacing_m, disc.corridor_m),
         piece_(model, disc.center_m, normal_, disc.radius_m, disc.radius_m + disc.corridor_m + spacing_m) {}
-  bool heedsCuts() const override { return true; }
+  bool usesCuts() const override { return true; }
   bool isApart(const CutState& cuts) const override { return piece_.isApart(cuts); }
   void judge(const TaskTick& tick, TaskTally& tally) override {
     std::vector<std::pair<double, double>> points;
@@ -124,7 +124,7 @@ class DiscJudge : public TaskJudge {
   }
 
  private:
-  static constexpr double kNearlyAll = 0.99;  // all of the circle is cut, and something still holds the disc
+  static constexpr double kNearlyAll = 0.99;  // the whole circle is cut, but something still holds the disc
   const DiscGoal disc_;
   const Vector3d normal_, side_;
   CoveredLine covered_;
@@ -145,11 +145,12 @@ double bladeTravel(const TaskTick& tick, const Vector3d& normal) {
 }
 
 std::string directionFault(const Vector3d& direction, const char* key) {
-  return direction.norm() > 0 ? "" : std::string("'") + key + "' is a direction: not all of its numbers are 0";
+  return direction.norm() > 0 ? ""
+                              : std::string("'") + key + "' must be a direction, so not all of its numbers may be 0";
 }
 
 std::string groupFault(bool given, const char* name) {
-  return given ? "" : std::string("'") + name + "' must be there: it says where, for the kind of this name";
+  return given ? "" : std::string("'") + name + "' is missing; a task of this kind needs it";
 }
 
 std::vector<Vector3d> circleOf(const Vector3d& center_m, const Vector3d& normal, double radius_m) {
@@ -168,7 +169,7 @@ std::string faultOfLine(const LineGoal& line, const std::string& group) {
   if (!normal.empty()) return normal;
   return line.path.size() > 1 && lengthOf(line) > 0
              ? ""
-             : "'" + group + ".path' is a list of two places or more that do not lie above each other; found " +
+             : "'" + group + ".path' must be a list of two or more positions that are not above each other; found " +
                    std::to_string(line.path.size());
 }
 

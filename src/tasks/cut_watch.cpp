@@ -17,12 +17,12 @@ namespace viscera {
 
 namespace {
 
-/// Along the spring; one that was erased has no place of its own.
+/// Returns the position of a cut along the spring; an erased spring has none, so its middle.
 double shareAlong(float cut) {
   return cut >= layout::kErasedShare ? 0.5 : static_cast<double>(cut);
 }
 
-/// [body, slot]
+/// Returns the node nearest to a position as [body, slot].
 std::pair<size_t, uint32_t> nearestNode(const Model& model, const Vector3d& to_m) {
   std::pair<size_t, uint32_t> out;
   double nearest_m = std::numeric_limits<double>::infinity();
@@ -37,7 +37,7 @@ std::pair<size_t, uint32_t> nearestNode(const Model& model, const Vector3d& to_m
   return out;
 }
 
-/// Returns the sets of a body's slots that hang together by whole springs.
+/// Returns the sets of a body's slots that intact springs connect.
 UnionFind piecesOf(const Model& model, size_t body, const CutState& cuts) {
   const Body& it = model.bodies[body];
   UnionFind pieces(it.network ? it.network->masses_kg.size() : it.lattice.nodes.size());
@@ -95,8 +95,8 @@ Joint::Joint(const Model& model, const Vector3d& one_m, const Vector3d& other_m)
   const auto [body, one] = nearestNode(model, one_m);
   const auto [other_body, other] = nearestNode(model, other_m);
   if (body != other_body)
-    throw TaskError("places of 'clip_and_divide.clips' are nearest to different bodies, " + model.bodies[body].name +
-                    " and " + model.bodies[other_body].name + ": one body is divided");
+    throw TaskError("positions of 'clip_and_divide.clips' are nearest to different bodies, " + model.bodies[body].name +
+                    " and " + model.bodies[other_body].name + "; they must be on one body");
   body_ = body;
   one_ = one;
   other_ = other;

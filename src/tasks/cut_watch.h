@@ -9,13 +9,13 @@
 
 namespace viscera {
 
-/// Where springs are cut, of the tissue at rest.
+/// Positions of cut springs, in the rest shape.
 class CutWatch {
  public:
   /// @param model  must outlive this
   explicit CutWatch(const Model& model) : model_(model) {}
-  /// The points, tissue frame [m], of springs that were whole when this was asked last. Those against bending have
-  /// none.
+  /// Returns the positions, tissue frame [m], of springs that were whole at the last call. Springs against bending are
+  /// left out.
   std::vector<Vector3d> fresh(const CutState& cuts);
 
  private:
@@ -23,10 +23,10 @@ class CutWatch {
   std::vector<bool> seen_springs_, seen_axial_;
 };
 
-/// Whether two places of tissue hang together, by paths of whole springs.
+/// Connection of two positions of tissue by paths of intact springs.
 class Joint {
  public:
-  /// Between the nodes nearest to both. @throws TaskError  they are of different bodies
+  /// Uses the nodes nearest to both. @throws TaskError  they belong to different bodies
   Joint(const Model& model, const Vector3d& one_m, const Vector3d& other_m);
   bool isApart(const CutState& cuts) const;
 
@@ -36,8 +36,8 @@ class Joint {
   uint32_t one_ = 0, other_ = 0;
 };
 
-/// Whether a disc is a piece by itself: no path of whole springs leads from the node nearest to its centre to one that
-/// is farther out than `outside_m`, and the piece has half of the disc at least.
+/// Test whether a disc is a piece by itself. No path of intact springs leads from the node nearest to its centre to a
+/// node farther out than `outside_m`, and the piece has at least half of the disc.
 class DiscPiece {
  public:
   /// @param normal  unit

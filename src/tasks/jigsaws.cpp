@@ -7,18 +7,18 @@
 #include "math/number_text.h"
 #include "math/out_file.h"
 #include "model/scene/tool_kinds.h"
-#include "tasks/hand_log.h"
+#include "tasks/tool_log.h"
 
 namespace viscera {
 
 namespace {
 
-// Columns as Gao et al. 2014 have them: left and right master, left and right slave, 19 numbers each.
+// Columns as in Gao et al. 2014: left and right master, left and right slave, 19 numbers each.
 constexpr double kJigsawsRate_hz = 30;
-constexpr double kOpenJaw_rad = 1;  ///< of a tool without jaws whose button 1 is not pressed; pressed: 0
+constexpr double kOpenJaw_rad = 1;  ///< for a tool without jaws with button 1 released; pressed: 0
 constexpr size_t kArms = 2;
 
-/// Which stylus is the left and which the right arm: by name, else in order. SIZE_MAX: none.
+/// Returns the stylus that is the left or right arm: by name, else in order. SIZE_MAX: none.
 size_t stylusOfArm(const std::vector<std::string>& styluses, size_t arm) {
   const char* const names[kArms] = {"left", "right"};
   const auto named = [&](const char* name) {
@@ -35,7 +35,7 @@ struct ArmPose {
   double jaw_rad = 0;
 };
 
-/// Position, rotation matrix row by row, velocity, angular velocity, gripper.
+/// Writes position, rotation matrix row by row, velocity, angular velocity, gripper.
 void writeArm(std::string& file, const ArmPose& now, const ArmPose& before, double span_s) {
   double out[19] = {};
   if (now.known) {
@@ -60,7 +60,7 @@ void writeArm(std::string& file, const ArmPose& now, const ArmPose& before, doub
 
 }  // namespace
 
-void HandRows::writeJigsaws(const std::string& path) const {
+void ToolRows::writeJigsaws(const std::string& path) const {
   std::string file;
   size_t before = SIZE_MAX;
   for (size_t frame = 0;; ++frame) {

@@ -27,7 +27,7 @@ svg text{font:12px system-ui,sans-serif;fill:#444}figure{display:inline-block;ma
 pre{white-space:pre-wrap;font:inherit}.small{color:#666;font-size:13px})";
 constexpr const char* kHandColors[] = {"#0072b2", "#d55e00"};  // Okabe and Ito
 constexpr const char *kCutColor = "#222", *kLineColor = "#009e73";
-constexpr size_t kMostPoints = 1500;  // of a curve: more are not seen
+constexpr size_t kMostPoints = 1500;  // points of a curve: more would not be visible
 constexpr double kWide = 640, kHigh = 220, kMargin = 62;
 
 std::string escaped(const std::string& text) {
@@ -62,7 +62,7 @@ std::string base64(const std::string& bytes) {
   return out;
 }
 
-/// What a plot shows and where, y upwards.
+/// Range of a plot's data, and its size; y upwards.
 struct Frame2d {
   double left, right, bottom, top, wide, high;
   std::pair<double, double> at(double x, double y) const {
@@ -109,14 +109,14 @@ std::string handLegend(const TaskResult& result, double wide) {
          out + "</text>";
 }
 
-/// A number of each hand over time.
+/// Returns a plot of a number of each tool over time.
 std::string timePlot(const TaskResult& result, const char* title,
-                     const std::function<double(const HandTrack&, size_t)>& value) {
+                     const std::function<double(const ToolTrack&, size_t)>& value) {
   std::vector<Points> curves;
   double most = 0;
-  const HandRows& hands = result.hands;
+  const ToolRows& hands = result.hands;
   for (size_t s = 0; s < hands.styluses.size(); ++s) {
-    const HandTrack track = hands.track(s);
+    const ToolTrack track = hands.track(s);
     curves.emplace_back();
     for (size_t i = 0; i < hands.rows.size(); ++i) {
       curves.back().emplace_back(static_cast<double>(i) * hands.tick_s, value(track, i));
@@ -130,16 +130,16 @@ std::string timePlot(const TaskResult& result, const char* title,
   return svg(kWide, kHigh, out);
 }
 
-double speedAt(const HandTrack& track, size_t i) {
+double speedAt(const ToolTrack& track, size_t i) {
   if (i == 0 || !track.tracked[i] || !track.tracked[i - 1]) return 0;
   return (track.places_m[i] - track.places_m[i - 1]).norm() * track.rate_hz;
 }
 
-double forceAt(const HandTrack& track, size_t i) {
+double forceAt(const ToolTrack& track, size_t i) {
   return i < track.forces_n.size() && track.forces_n[i].allFinite() ? track.forces_n[i].norm() : 0;
 }
 
-/// Seen along the normal of what is to be cut: the line, ways of the tips, and where springs were cut.
+/// Returns a map seen along the normal of the task: the line, paths of the tips, and positions of cut springs.
 std::string mapPlot(const TaskResult& result) {
   constexpr double kMm = 1000, kSide = 460, kRoom = 1.5;
   const TaskShapes shapes = kindOf(result.task.kind).shapes(result.task);
@@ -164,7 +164,7 @@ std::string mapPlot(const TaskResult& result) {
     inside += polyline(frame, points, kLineColor, 3);
   }
   for (size_t s = 0; s < result.hands.styluses.size(); ++s) {
-    const HandTrack track = result.hands.track(s);
+    const ToolTrack track = result.hands.track(s);
     Points points;
     for (size_t i = 0; i < track.places_m.size(); ++i)
       if (track.tracked[i]) points.push_back(flat(track.places_m[i]));
@@ -222,16 +222,16 @@ std::string reportPage(const TaskResult& result, const std::vector<ReportPicture
                     state + "</span> " + escaped(status.step) + "</p>\n<pre>" + escaped(task.instructions) + "</pre>\n";
   out += "<p><b>Score " + shortNumber(status.score) + "</b> = " + shortNumber(task.time_limit_s) + " s &minus; " +
          shortNumber(status.time_s) + " s &minus; penalties of " + shortNumber(status.penalties_s) +
-         " s, not below 0, and 0 where the goal was not reached; " + shortNumber(task.pass_score) +
-         " passes. Goal reached by " + shortNumber(100 * status.progress) + " %." +
-         (task.proficiency_s > 0 ? " A proficient hand takes " + shortNumber(task.proficiency_s) + " s." : "") +
+         " s, at least 0; it is 0 if the goal was not reached; " + shortNumber(task.pass_score) +
+         " or more passes. Goal reached by " + shortNumber(100 * status.progress) + " %." +
+         (task.proficiency_s > 0 ? " A proficient user takes " + shortNumber(task.proficiency_s) + " s." : "") +
          "</p>\n";
   out += measureTable(result) + handTable(result);
   for (const ReportPicture& picture : pictures) out += pictureHtml(picture);
   out += mapPlot(result) + timePlot(result, "speed of the tip, m/s", speedAt) + timePlot(result, "force, N", forceAt);
   return out +
-         "<p class='small'>Measures by the definitions of docs/lessons/tasks.md and docs/replay.md. What experts score "
-         "(OSATS, GEARS) is not measured.</p></body></html>\n";
+         "<p class='small'>Measures are defined in docs/lessons/tasks.md and docs/replay.md. Scores of experts "
+         "(OSATS, GEARS) are not measured.</p></body></html>\n";
 }
 
 }  // namespace viscera

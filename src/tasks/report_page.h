@@ -9,7 +9,7 @@
 
 namespace viscera {
 
-/// The page, with all that it shows in it.
+/// Returns the page, with everything that it shows embedded.
 std::string reportPage(const TaskResult& result, const std::vector<ReportPicture>& pictures);
 
 }  // namespace viscera

@@ -10,20 +10,20 @@
 
 namespace viscera {
 
-// A task: what a trainee is to achieve in a scene, and how it is scored (docs/lessons/tasks.md). Every field of these
-// structs has one entry in task_fields.h. Places are of the tissue at rest, in the tissue frame.
+// A task: what a trainee has to achieve in a scene, and how it is scored (docs/lessons/tasks.md). Every field of these
+// structs has one entry in task_fields.h. Positions are in the rest shape of the tissue, in the tissue frame.
 
-/// What has to be done: the rows of kTaskKinds (task_kinds.h), each with a group of keys of its own below.
+/// Goal of a task: the rows of kTaskKinds (task_kinds.h), each with a group of keys of its own below.
 enum class TaskGoal { kFollowLine, kCutDisc, kTouchTargets, kLift, kCloseWound, kClipDivide };
 
 struct TaskPlace {
   Vector3d position_m = Vector3d::Zero();
 };
 
-/// Cut along a line, the blade within a corridor.
+/// Cut along a line, with the blade within a corridor.
 struct LineGoal {
   bool given = false;
-  std::vector<TaskPlace> path;  ///< two places at least
+  std::vector<TaskPlace> path;  ///< at least two positions
   Vector3d normal = Vector3d::UnitZ();
   double corridor_m = 0.002;
   double share = 0.95;
@@ -38,14 +38,14 @@ struct DiscGoal {
   double corridor_m = 0.002;
 };
 
-/// Touch places of the tissue, one after another.
+/// Touch positions of the tissue, one after another.
 struct TouchGoal {
   bool given = false;
   std::vector<TaskPlace> targets;
   double radius_m = 0.005;
 };
 
-/// Take hold of tissue at a place, lift it and keep it there.
+/// Grasp tissue at a position, lift it and keep it there.
 struct LiftGoal {
   bool given = false;
   Vector3d center_m = Vector3d::Zero();
@@ -55,7 +55,7 @@ struct LiftGoal {
   double hold_s = 1;
 };
 
-/// Open tissue along a line, and close the wound with the threads of the scene.
+/// Open tissue along a line, and close the wound with the sutures of the scene.
 struct CloseGoal {
   bool given = false;
   LineGoal line;
@@ -65,23 +65,23 @@ struct CloseGoal {
   int throws = 3;
 };
 
-/// Clip tissue at two places or more, and divide it between the innermost two.
+/// Clip tissue at two or more positions, and divide it between the innermost two.
 struct ClipGoal {
   bool given = false;
   std::vector<TaskPlace> clips;  ///< an even number, in their order along the tissue
   double radius_m = 0.003;
 };
 
-/// Beyond these, time is counted.
+/// Limits above which time is counted.
 struct TaskLimits {
-  double force_n = 1000;  ///< of any hand
-  double strain = 1000;   ///< of any spring
+  double force_n = 1000;  ///< force on any tool [N]
+  double strain = 1000;   ///< strain of any spring
 };
 
-/// What a measure (task_measures.h) costs, and up to where the task is passed.
+/// Cost of a measure (task_measures.h), and the largest value with which the task is passed.
 struct TaskRule {
   std::string measure = "off_path_mm";
-  double cost_s = 0;  ///< per unit of it
+  double cost_s = 0;  ///< cost per unit of the measure [s]
   double most = 1e9;
 };
 
@@ -89,7 +89,7 @@ struct TaskConfig {
   std::string scene, title, instructions;
   TaskGoal kind = TaskGoal::kCutDisc;
   double time_limit_s = 300;
-  double proficiency_s = 0;  ///< 0: not known
+  double proficiency_s = 0;  ///< time of a proficient user [s]; 0: unknown
   double pass_score = 0;
   LineGoal line;
   DiscGoal disc;
@@ -100,23 +100,23 @@ struct TaskConfig {
   TaskLimits limits;
   std::vector<TaskRule> measures;
 
-  std::string name;  ///< of the file, without folder and .yaml
-  std::string yaml;  ///< its text
+  std::string name;  ///< name of the file, without folder and .yaml
+  std::string yaml;  ///< text of the file
 };
 
-/// A task's file is wrong. Names the file, the line, the key and what is accepted.
+/// Error in a task's file. Names the file, the line, the key and what is accepted.
 struct TaskError : Error {
   using Error::Error;
 };
 
-/// @throws TaskError
+/// Reads a task's file. @throws TaskError  what is wrong
 TaskConfig loadTask(const std::string& path);
-/// The same from a text. @param where  its name, for errors and as the task's
+/// Reads a task from text. @param where  its name, for errors and as the task's name
 TaskConfig parseTask(const std::string& yaml, const std::string& where);
-/// Path, or name, of the scene of a task: its name, or what lies where the task's file does.
+/// Returns the path or name of a task's scene: its name, or a file in the folder of the task's file.
 std::string sceneOfTask(const TaskConfig& task, const std::string& task_file);
 
-/// The table of a task's keys, in Markdown, with those of kinds and measures.
+/// Returns a Markdown table of a task's keys, with those of kinds and measures.
 std::string taskKeysTable();
 
 }  // namespace viscera

@@ -9,106 +9,113 @@
 
 namespace viscera {
 
-// The one list of a task's keys, for the visitors of field_ranges.h, which are to offer given(bool&) besides: is there
-// such a map in the file?
+// The one list of a task's keys, for the visitors of field_ranges.h. These also need given(bool&): whether the file has
+// this map.
 
 constexpr Range kTaskSeconds{0, 86400};
 constexpr Range kTaskWidth{1e-5, 1};      // m
-constexpr double kMostTaskPlaces = 1000;  // of a path, or targets
+constexpr double kMostTaskPlaces = 1000;  // positions of a path, or targets
 
 template <class V>
 void visitFields(V& v, TaskPlace& c) {
-  v.vector("position_m", c.position_m, kCoordinate, "m", "of the tissue at rest, tissue frame");
+  v.vector("position_m", c.position_m, kCoordinate, "m", "position in the tissue at rest, in the tissue frame");
 }
 
 template <class V>
 void visitFields(V& v, LineGoal& c) {
   v.given(c.given);
-  v.list("path", c.path, kMostTaskPlaces, "the line: straight from place to place, two at least");
-  v.vector("normal", c.normal, kDirection, "", "of the plane in which distances from the line are measured");
-  v.number("corridor_m", c.corridor_m, kTaskWidth, "m", "on either side of the line");
-  v.number("share", c.share, {0.01, 1}, "1", "of the line that has to be cut");
+  v.list("path", c.path, kMostTaskPlaces, "points of the line, straight between them; at least two");
+  v.vector("normal", c.normal, kDirection, "", "normal of the plane in which distances from the line are measured");
+  v.number("corridor_m", c.corridor_m, kTaskWidth, "m", "width of the corridor on either side of the line");
+  v.number("share", c.share, {0.01, 1}, "1", "share of the line that has to be cut");
 }
 
 template <class V>
 void visitFields(V& v, DiscGoal& c) {
   v.given(c.given);
-  v.vector("center_m", c.center_m, kCoordinate, "m", "of the tissue at rest, tissue frame");
-  v.vector("normal", c.normal, kDirection, "", "of the disc's plane");
-  v.number("radius_m", c.radius_m, {1e-4, 1}, "m", "of the circle to cut along");
-  v.number("corridor_m", c.corridor_m, kTaskWidth, "m", "on either side of the circle");
+  v.vector("center_m", c.center_m, kCoordinate, "m", "centre of the disc in the tissue at rest, in the tissue frame");
+  v.vector("normal", c.normal, kDirection, "", "normal of the disc's plane");
+  v.number("radius_m", c.radius_m, {1e-4, 1}, "m", "radius of the circle to cut along");
+  v.number("corridor_m", c.corridor_m, kTaskWidth, "m", "width of the corridor on either side of the circle");
 }
 
 template <class V>
 void visitFields(V& v, TouchGoal& c) {
   v.given(c.given);
-  v.list("targets", c.targets, kMostTaskPlaces, "in the order in which they are to be touched");
-  v.number("radius_m", c.radius_m, kTaskWidth, "m", "of each");
+  v.list("targets", c.targets, kMostTaskPlaces, "targets, in the order in which they have to be touched");
+  v.number("radius_m", c.radius_m, kTaskWidth, "m", "radius of each target");
 }
 
 template <class V>
 void visitFields(V& v, LiftGoal& c) {
   v.given(c.given);
-  v.vector("center_m", c.center_m, kCoordinate, "m", "where to take hold, of the tissue at rest");
-  v.number("radius_m", c.radius_m, kTaskWidth, "m", "around it");
-  v.vector("up", c.up, kDirection, "", "where to lift it");
-  v.number("height_m", c.height_m, kTaskWidth, "m", "how far, from where it was taken");
-  v.number("hold_s", c.hold_s, kTaskSeconds, "s", "how long it has to be that high");
+  v.vector("center_m", c.center_m, kCoordinate, "m", "position at which to grasp, in the tissue at rest");
+  v.number("radius_m", c.radius_m, kTaskWidth, "m", "radius around this position");
+  v.vector("up", c.up, kDirection, "", "direction in which to lift");
+  v.number("height_m", c.height_m, kTaskWidth, "m", "height to lift it to, from where it was grasped");
+  v.number("hold_s", c.hold_s, kTaskSeconds, "s", "time for which it has to stay that high");
 }
 
 template <class V>
 void visitFields(V& v, CloseGoal& c) {
-  visitFields(v, c.line);  // its keys are this group's
+  visitFields(v, c.line);  // its keys belong to this group
   v.given(c.given);
-  v.number("reach_m", c.reach_m, kTaskWidth, "m", "how far on either side of the line the wound is looked at");
-  v.number("gap_m", c.gap_m, kTaskWidth, "m", "how much farther apart its sides may be than at rest, on average");
-  v.integer("knots", c.knots, {1, 64}, "that have to be tied");
-  v.integer("throws", c.throws, {1, 8}, "that each needs, where hands throw it");
+  v.number("reach_m", c.reach_m, kTaskWidth, "m",
+           "distance from the line, on either side, at which the wound is measured");
+  v.number("gap_m", c.gap_m, kTaskWidth, "m",
+           "largest mean increase of the distance between the sides of the wound over that at rest");
+  v.integer("knots", c.knots, {1, 64}, "number of knots that have to be tied");
+  v.integer("throws", c.throws, {1, 8}, "number of throws that each knot needs, if a user throws it");
 }
 
 template <class V>
 void visitFields(V& v, ClipGoal& c) {
   v.given(c.given);
-  v.list("clips", c.clips, kMostTaskPlaces,
-         "where clips are to be, an even number in their order along the tissue, which is to be divided in the middle");
-  v.number("radius_m", c.radius_m, kTaskWidth, "m", "a clip that is no farther from a place is at it");
+  v.list(
+      "clips", c.clips, kMostTaskPlaces,
+      "positions of the clips, an even number in their order along the tissue, which is to be divided in the middle");
+  v.number("radius_m", c.radius_m, kTaskWidth, "m",
+           "distance from a position within which a clip counts as placed there");
 }
 
 template <class V>
 void visitFields(V& v, TaskLimits& c) {
-  v.number("force_n", c.force_n, {0, 1000}, "N", "of any hand: time beyond it is the measure force_s");
-  v.number("strain", c.strain, {0, 1000}, "1", "of any spring: time beyond it is the measure strain_s");
+  v.number("force_n", c.force_n, {0, 1000}, "N",
+           "force on any stylus above which time is counted, as the measure force_s");
+  v.number("strain", c.strain, {0, 1000}, "1",
+           "strain of any spring above which time is counted, as the measure strain_s");
 }
 
 template <class V>
 void visitFields(V& v, TaskRule& c) {
   std::vector<Choice<std::string>> names;
   for (const TaskMeasure& measure : kTaskMeasures) names.push_back({measure.name, measure.name});
-  v.choice("measure", c.measure, names, "what is measured (second table)");
-  v.number("cost_s", c.cost_s, {0, 1e6}, "s", "taken off the score for each unit of it");
-  v.number("most", c.most, {0, 1e9}, "", "up to this the task is passed");
+  v.choice("measure", c.measure, names, "name of the measure (second table)");
+  v.number("cost_s", c.cost_s, {0, 1e6}, "s", "penalty per unit of the measure, subtracted from the score");
+  v.number("most", c.most, {0, 1e9}, "", "largest value with which the task is passed");
 }
 
 template <class V>
 void visitFields(V& v, TaskConfig& c) {
   std::vector<Choice<TaskGoal>> kinds;
   for (const TaskKind& kind : kTaskKinds) kinds.push_back({kind.name, kind.goal});
-  v.text("scene", c.scene, "name of a shipped scene, or a scene file beside this one");
-  v.text("title", c.title, "one line");
-  v.text("instructions", c.instructions, "what the trainee reads");
-  v.choice("kind", c.kind, kinds, "what is to be done; the group of this name says where");
-  v.number("time_limit_s", c.time_limit_s, {0.1, 86400}, "s", "simulated, from the first tick with a tracked hand on");
+  v.text("scene", c.scene, "name of a shipped scene, or of a scene file next to this one");
+  v.text("title", c.title, "title, one line");
+  v.text("instructions", c.instructions, "instructions that the trainee reads");
+  v.choice("kind", c.kind, kinds, "kind of task; the group of this name gives its goal");
+  v.number("time_limit_s", c.time_limit_s, {0.1, 86400}, "s",
+           "limit of simulated time, from the first tick with a tracked stylus");
   v.number("proficiency_s", c.proficiency_s, kTaskSeconds, "s",
-           "time of a proficient hand, for the report; 0: not known");
-  v.number("pass_score", c.pass_score, kTaskSeconds, "s", "least score with which the task is passed");
-  v.group("follow_line", c.line, "cut along a line, the blade within a corridor");
-  v.group("cut_disc", c.disc, "cut out a disc: reached when nothing joins it to what is around");
-  v.group("touch_targets", c.touch, "touch places one after another, and nothing else");
-  v.group("lift", c.lift, "take hold of tissue, lift it and keep it there");
-  v.group("close_wound", c.close, "open tissue along a line, tie the scene's threads, and let go");
-  v.group("clip_and_divide", c.clip, "set clips at places of the tissue, and divide it between them");
-  v.group("limits", c.limits, "beyond these, time is counted");
-  v.list("measures", c.measures, 100, "what measures cost, and up to where the task is passed");
+           "time of a proficient user, for the report; 0: not known");
+  v.number("pass_score", c.pass_score, kTaskSeconds, "s", "lowest score that passes the task");
+  v.group("follow_line", c.line, "goal: cut along a line, with the blade within a corridor");
+  v.group("cut_disc", c.disc, "goal: cut out a disc; reached when nothing connects it to the tissue around it");
+  v.group("touch_targets", c.touch, "goal: touch positions one after another, and nothing else");
+  v.group("lift", c.lift, "goal: grasp tissue, lift it and keep it there");
+  v.group("close_wound", c.close, "goal: open tissue along a line, tie the scene's sutures, and let go");
+  v.group("clip_and_divide", c.clip, "goal: set clips at positions of the tissue, and divide it between them");
+  v.group("limits", c.limits, "limits above which time is counted");
+  v.list("measures", c.measures, 100, "costs of measures, and the values with which the task is passed");
 }
 
 }  // namespace viscera

@@ -13,12 +13,12 @@ namespace {
 
 void requireWhole(const TaskConfig& task, const std::string& where) {
   if (task.scene.empty())
-    throw TaskError(where + ": 'scene' must name a scene in config/scenes or a file beside this one");
+    throw TaskError(where + ": 'scene' must name a scene in config/scenes or a file in the same folder");
   const std::string fault = kindOf(task.kind).fault(task);
   if (!fault.empty()) throw TaskError(where + ": " + fault);
   if (task.pass_score > task.time_limit_s)
-    throw TaskError(where + ": 'pass_score' is 0 .. " + numberText(task.time_limit_s) + ", 'time_limit_s'; found " +
-                    numberText(task.pass_score));
+    throw TaskError(where + ": 'pass_score' must be 0 .. " + numberText(task.time_limit_s) +
+                    ", 'time_limit_s'; found " + numberText(task.pass_score));
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ TaskConfig parseTask(const std::string& yaml, const std::string& where) {
   TaskConfig task;
   try {
     const YAML::Node root = YAML::Load(yaml);
-    if (!root.IsMap()) throw TaskError(where + ": a task is a map of keys, as `viscera keys task` lists");
+    if (!root.IsMap()) throw TaskError(where + ": a task must be a map of keys; `viscera keys task` lists them");
     YamlReader::readMap(root, "", source, task);
   } catch (const YAML::Exception& error) {
     throw TaskError(yamlFault(where, error, yaml));

@@ -9,62 +9,62 @@
 #include "tasks/task_measures.h"
 #include "viscera/layout/tick_stats.h"
 #include "viscera/math/types.h"
-#include "viscera/solver/seen_clip.h"
-#include "viscera/solver/seen_thread.h"
+#include "viscera/solver/clip_state.h"
 #include "viscera/solver/state.h"
+#include "viscera/solver/suture_state.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {
 
-/// What a tick brought, as a task is judged by it.
+/// Results of a tick by which a task is judged.
 struct TaskTick {
   ToolMotions motions{};
-  std::vector<Vector3d> cuts_m;     ///< where springs were cut in it: of the tissue at rest
-  bool apart = false;               ///< TaskJudge::isApart() after it, where something was cut in it
-  std::vector<SeenThread> threads;  ///< where the task heeds them
-  SeenClips clips;                  ///< where the task heeds them
-  double blood_ml = 0;              ///< that has run out since the last reset
-  std::optional<double> gap_m;      ///< TaskJudge::gapOf() after it, where that was asked for
+  std::vector<Vector3d> cuts_m;      ///< positions of springs cut in the tick, in the rest shape
+  bool apart = false;                ///< TaskJudge::isApart() after the tick, where something was cut in it
+  std::vector<SutureState> sutures;  ///< where the task needs them
+  ClipStates clips;                  ///< where the task needs them
+  double blood_ml = 0;               ///< lost since the last reset
+  std::optional<double> gap_m;       ///< TaskJudge::gapOf() after the tick, where requested
   layout::TickStats stats{};
   double tick_s = 0;
 };
 
-/// How far the tip of a tool that cuts or burns went in a tick, across a direction [m]; of two that of the one that
-/// went farther.
+/// Returns the distance that the tip of a tool that cuts or burns moved in a tick, across a direction [m]; the larger
+/// one of two.
 double bladeTravel(const TaskTick& tick, const Vector3d& normal);
-/// Why it cannot be a direction, or empty. @param key  of it
+/// Returns why a vector cannot be a direction, or empty. @param key  of it
 std::string directionFault(const Vector3d& direction, const char* key);
-/// What a kind's group of keys must be there for. @param name  of it
+/// Returns why a kind's group of keys is needed, or empty. @param name  of it
 std::string groupFault(bool given, const char* name);
-/// Corners of a circle, the first one twice. @param normal  of any length
+/// Returns the corners of a circle, the first one twice. @param normal  of any length
 std::vector<Vector3d> circleOf(const Vector3d& center_m, const Vector3d& normal, double radius_m);
 
-/// Lines to draw, and the plane in which they lie.
+/// Lines to draw, and the normal of their plane.
 struct TaskShapes {
-  std::vector<std::vector<Vector3d>> lines_m;  ///< at rest
+  std::vector<std::vector<Vector3d>> lines_m;  ///< in the rest shape
   Vector3d normal = Vector3d::UnitZ();
 };
 
-/// Looks at a task's ticks in order and says how far its goal is. It knows nothing of the clock.
+/// Judge of a task's ticks, in order, that reports progress towards the goal. It does not depend on wall-clock time.
 class TaskJudge {
  public:
   virtual ~TaskJudge() = default;
   virtual void judge(const TaskTick& tick, TaskTally& tally) = 0;
-  /// Does it ask where springs were cut? Then the tissue is waited for after ticks that may have cut.
-  virtual bool heedsCuts() const { return false; }
-  /// Whether what was to be cut off is; asked on the session's thread.
+  /// Returns whether it needs the positions of cut springs. Then ticks that may have cut are waited for.
+  virtual bool usesCuts() const { return false; }
+  /// Returns whether the piece to be cut off is separate; called on the session's thread.
   virtual bool isApart(const CutState&) const { return false; }
-  /// Does it ask for knots?
-  virtual bool heedsThreads() const { return false; }
-  /// Does it ask for clips?
-  virtual bool heedsClips() const { return false; }
-  /// Is it to be known how far a wound gapes? Then the tissue is waited for.
-  virtual bool asksForGap(const std::vector<SeenThread>&) const { return false; }
-  /// How much farther apart the sides of a wound are than at rest [m]; asked on the session's thread.
+  /// Returns whether it needs knots.
+  virtual bool usesSutures() const { return false; }
+  /// Returns whether it needs clips.
+  virtual bool usesClips() const { return false; }
+  /// Returns whether it needs the gap of a wound. Then the tissue is waited for.
+  virtual bool asksForGap(const std::vector<SutureState>&) const { return false; }
+  /// Returns how much farther apart the sides of a wound are than at rest [m]; called on the session's thread.
   virtual double gapOf(const HostState&) const { return 0; }
   virtual double progress() const = 0;  ///< 0..1
   virtual bool reached() const = 0;
-  virtual std::string step() const = 0;  ///< what is to be done now
+  virtual std::string step() const = 0;  ///< what the trainee has to do now
 };
 
 }  // namespace viscera

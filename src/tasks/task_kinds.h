@@ -12,14 +12,14 @@ namespace viscera {
 
 class Session;
 
-/// One kind of task: all that the rest of the program asks of it.
+/// One kind of task, with everything that the rest of the program needs to know of it.
 struct TaskKind {
   TaskGoal goal;
-  const char* name;  ///< in files; also of the group with its keys
-  /// Why a task of this kind cannot be judged, as 'key' is ..., or empty.
+  const char* name;  ///< name in files; also of the group with its keys
+  /// Returns why a task of this kind cannot be judged, as 'key' is ..., or empty.
   std::string (*fault)(const TaskConfig&);
   std::unique_ptr<TaskJudge> (*judge)(const TaskConfig&, const Session&);
-  /// What is to be cut, touched or lifted, to be drawn: polylines [m].
+  /// Returns what is to be cut, touched or lifted, for drawing: polylines [m].
   TaskShapes (*shapes)(const TaskConfig&);
 };
 
@@ -44,9 +44,9 @@ std::string clipFault(const TaskConfig&);
 std::unique_ptr<TaskJudge> clipJudge(const TaskConfig&, const Session&);
 TaskShapes clipShapes(const TaskConfig&);
 
-/// Of kinds that have a line to cut among their goals.
+/// Returns the judge for kinds that include cutting along a line.
 std::unique_ptr<TaskJudge> judgeOfLine(const LineGoal& line, double spacing_m);
-/// @param group  of its keys
+/// Returns the fault of a line, or empty. @param group  of its keys
 std::string faultOfLine(const LineGoal& line, const std::string& group);
 TaskShapes shapesOfLine(const LineGoal& line);
 

@@ -4,7 +4,7 @@
 
 namespace viscera {
 
-/// What is counted while a task runs.
+/// Measures that are counted while a task runs.
 struct TaskTally {
   double off_path_mm = 0, deviation_mm = 0;
   double wrong_touches = 0, drops = 0;
@@ -16,7 +16,7 @@ struct TaskTally {
   double path_m = 0;
 };
 
-/// A measure of a task: what rules (TaskRule) may name.
+/// A measure of a task, which rules (TaskRule) refer to by name.
 struct TaskMeasure {
   const char* name;
   const char* meaning;
@@ -25,24 +25,26 @@ struct TaskMeasure {
 
 inline constexpr TaskMeasure kTaskMeasures[] = {
     {"off_path_mm",
-     "mm: way of the tip of a blade or cautery in ticks in which springs were cut, by the share of cut points out of "
-     "the corridor",
+     "mm: path length of the tip of a blade or cautery in ticks in which springs were cut, times the share of cut "
+     "points outside the corridor",
      &TaskTally::off_path_mm},
     {"deviation_mm", "mm: largest distance of a cut point from the line", &TaskTally::deviation_mm},
     {"wrong_touches", "contacts that begin anywhere but at the target that is due", &TaskTally::wrong_touches},
     {"drops", "times that lifted tissue was lost before the goal was reached", &TaskTally::drops},
-    {"gap_mm", "mm: how much farther apart the sides of the wound are than at rest, now", &TaskTally::gap_mm},
+    {"gap_mm", "mm: current mean increase of the distance between the sides of the wound over that at rest",
+     &TaskTally::gap_mm},
     {"weak_knots", "tied knots that are neither square nor surgeon's", &TaskTally::weak_knots},
-    {"clip_off_mm", "mm: largest distance of a clip, of those at their places, from its place, at rest",
+    {"clip_off_mm", "mm: largest distance at rest between a clip that is placed and its position",
      &TaskTally::clip_off_mm},
-    {"bad_clips", "clips at no place or at one that has a clip, that closed on nothing, or were taken off",
+    {"bad_clips",
+     "clips at no position or at one that has a clip, clips that closed on nothing, and clips that were taken off",
      &TaskTally::bad_clips},
-    {"blood_ml", "ml: what has run out of vessels (bleeding.flow_ml_per_min)", &TaskTally::blood_ml},
-    {"force_s", "s in which a hand felt more than limits.force_n", &TaskTally::force_s},
-    {"peak_force_n", "N: largest force on any hand", &TaskTally::peak_force_n},
-    {"strain_s", "s in which a spring was strained more than limits.strain", &TaskTally::strain_s},
+    {"blood_ml", "ml: blood that has flowed out of vessels (bleeding.flow_ml_per_min)", &TaskTally::blood_ml},
+    {"force_s", "s: time in which the force on a stylus was above limits.force_n", &TaskTally::force_s},
+    {"peak_force_n", "N: largest force on any stylus", &TaskTally::peak_force_n},
+    {"strain_s", "s: time in which the strain of a spring was above limits.strain", &TaskTally::strain_s},
     {"peak_strain", "largest strain of a spring", &TaskTally::peak_strain},
-    {"path_m", "m: ways of all tips together", &TaskTally::path_m},
+    {"path_m", "m: total path length of all tips", &TaskTally::path_m},
 };
 
 }  // namespace viscera

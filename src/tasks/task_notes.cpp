@@ -12,7 +12,7 @@ namespace viscera {
 
 namespace {
 
-/// A measure that some kinds alone count; the others are counted in every task.
+/// Measure that only some kinds count; the others are counted in every task.
 struct MeasureOfKind {
   std::string_view measure;
   TaskGoal goal;
@@ -45,8 +45,8 @@ std::vector<std::string> taskNotes(const TaskConfig& task) {
     std::string counted;
     for (const TaskMeasure& measure : kTaskMeasures)
       if (isCounted(measure.name, task.kind)) counted += (counted.empty() ? "" : ", ") + std::string(measure.name);
-    notes.push_back("measure " + rule.measure + " stays 0 in a task of kind " + kindOf(task.kind).name +
-                    ", which counts " + counted);
+    notes.push_back("measure " + rule.measure + " is always 0 in a task of kind " + kindOf(task.kind).name +
+                    ", which measures " + counted);
   }
   return notes;
 }

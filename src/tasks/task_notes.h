@@ -9,7 +9,8 @@
 
 namespace viscera {
 
-/// Returns what a task says in vain, one line each for a person: rules of measures that its kind does not count.
+/// Returns keys of a task that have no effect, one line each for a person: rules of measures that its kind does not
+/// count.
 std::vector<std::string> taskNotes(const TaskConfig& task);
 
 }  // namespace viscera

@@ -31,7 +31,7 @@ void drawTask(const TaskConfig& task, const CameraConfig& camera, ImageFrame& im
   const auto seen = [&](const Vector3d& place) {
     return pixelOf(camera, optical.orientation.conjugate() * (place - optical.position_m));
   };
-  constexpr int kPieces = 64;  // of a line, so that each is short on the picture
+  constexpr int kPieces = 64;  // pieces of a line, so that each is short in the image
   for (const std::vector<Vector3d>& line : kindOf(task.kind).shapes(task).lines_m) {
     for (size_t i = 1; i < line.size(); ++i) {
       for (int k = 0; k < kPieces; ++k) {

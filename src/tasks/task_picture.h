@@ -8,8 +8,7 @@
 
 namespace viscera {
 
-/// Draws the lines of a task over a picture, where the tissue at rest has them. @param camera  one that no frame
-/// carries
+/// Draws the lines of a task over an image, at their positions in the rest shape. @param camera  one without a frame
 void drawTask(const TaskConfig& task, const CameraConfig& camera, ImageFrame& image);
 
 }  // namespace viscera

@@ -13,7 +13,7 @@ namespace viscera {
 
 namespace {
 
-/// A row per number: whose, what, its value.
+/// Returns one row per number: owner, name, value.
 std::string reportCsv(const nlohmann::ordered_json& report) {
   TextOut out;
   out << "of,measure,value\n";
@@ -22,7 +22,7 @@ std::string reportCsv(const nlohmann::ordered_json& report) {
         << '\n';
   for (const auto& [name, measure] : report["measures"].items())
     out << "task," << name << ',' << measure["value"].dump() << '\n';
-  for (const auto& hand : report["hands"])
+  for (const auto& hand : report["tools"])
     for (const auto& [name, value] : hand.items())
       if (value.is_number()) out << hand["stylus"].get<std::string>() << ',' << name << ',' << value.dump() << '\n';
   return out.str();
@@ -47,19 +47,19 @@ nlohmann::ordered_json toJson(const TaskResult& result) {
   for (const TaskMeasure& measure : kTaskMeasures)
     out["measures"][measure.name] = {{"value", result.status.tally.*measure.value},
                                      {"cost_s", costOf(result.task, result.status.tally, measure)}};
-  out["hands"] = result.hands.metrics();
+  out["tools"] = result.hands.metrics();
   return out;
 }
 
 void writeReport(const std::string& folder, const TaskResult& result, const std::vector<ReportPicture>& pictures) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw Error(folder + ": cannot be made into a folder for a report: " + error.message());
+  if (error) throw Error(folder + ": cannot create this folder for a report: " + error.message());
   const nlohmann::ordered_json report = toJson(result);
   writeFile(folder + "/report.json", FileKind::kJson,
             report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
   writeFile(folder + "/report.csv", FileKind::kText, reportCsv(report));
-  result.hands.write(folder + "/hands.csv");
+  result.hands.write(folder + "/tools.csv");
   result.hands.writeJigsaws(folder + "/kinematics.txt");
   writeFile(folder + "/report.html", FileKind::kHtml, reportPage(result, pictures));
 }

@@ -10,16 +10,16 @@
 
 namespace viscera {
 
-/// A picture of a report, as a PNG file that is there.
+/// Image of a report, as an existing PNG file.
 struct ReportPicture {
   std::string caption, file;
 };
 
-/// State, score, measures and hands of a task that has ended.
+/// Returns state, score, measures and tools of a finished task.
 nlohmann::ordered_json toJson(const TaskResult& result);
 
-/// Writes report.json, report.csv, hands.csv, kinematics.txt (HandRows::writeJigsaws()) and report.html, a page that
-/// opens without a network. @param folder  is made if it is not there   @throws Error  one cannot be written
+/// Writes report.json, report.csv, tools.csv, kinematics.txt (ToolRows::writeJigsaws()) and report.html, a page that
+/// needs no network. @param folder  is created if missing   @throws Error  a file cannot be written
 void writeReport(const std::string& folder, const TaskResult& result, const std::vector<ReportPicture>& pictures = {});
 
 }  // namespace viscera

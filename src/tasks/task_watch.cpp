@@ -30,12 +30,12 @@ TaskWatch::TaskWatch(Session& session, std::function<void(TaskResult&&)> ended)
 
 void TaskWatch::begin(std::unique_ptr<TaskJudge> judge) {
   status_ = {};
-  status_.step = "begins with the first tracked hand";
+  status_.step = "starts with the first tracked stylus";
   judge_ = std::move(judge);
   cut_watch_.emplace(session_.model());
-  if (judge_->heedsCuts()) {
+  if (judge_->usesCuts()) {
     session_.solver().readCuts(cuts_);
-    cut_watch_->fresh(cuts_);  // what was cut before is not this hand's
+    cut_watch_->fresh(cuts_);  // earlier cuts do not belong to this task
   }
   base_tick_ = session_.tick();
   base_blood_ml_ = seenBlood(session_).bled_ml;
@@ -46,10 +46,10 @@ void TaskWatch::begin(std::unique_ptr<TaskJudge> judge) {
 }
 
 void TaskWatch::taskNoted(Session&, const std::string& name, const std::string& yaml) {
-  if (yaml.empty()) return giveUp("it was given up");
+  if (yaml.empty()) return giveUp("the task was given up");
   TaskConfig task = parseTask(yaml, name);
   std::unique_ptr<TaskJudge> judge =
-      kindOf(task.kind).judge(task, session_);  // or it throws, and what was there goes on
+      kindOf(task.kind).judge(task, session_);  // if it throws, the present task continues
   task_ = std::move(task);
   begin(std::move(judge));
 }
@@ -68,15 +68,15 @@ void TaskWatch::stepped(Session& session, const StylusSamples& samples) {
   TaskTick tick;
   tick.motions = session.motions();
   tick.tick_s = session.tick_s();
-  if (judge_->heedsCuts() && session.solver().readCuts(cuts_)) {  // whatever cuts: blades, heat, sutures, tears
+  if (judge_->usesCuts() && session.solver().readCuts(cuts_)) {  // any cause: blades, heat, sutures, tears
     tick.cuts_m = cut_watch_->fresh(cuts_);
     tick.apart = judge_->isApart(cuts_);
   }
-  if (judge_->heedsThreads()) {
-    tick.threads = seenThreads(session);
-    if (judge_->asksForGap(tick.threads)) tick.gap_m = judge_->gapOf(session.solver().readState());
+  if (judge_->usesSutures()) {
+    tick.sutures = sutureStates(session);
+    if (judge_->asksForGap(tick.sutures)) tick.gap_m = judge_->gapOf(session.solver().readState());
   }
-  if (judge_->heedsClips()) tick.clips = seenClips(session);
+  if (judge_->usesClips()) tick.clips = seenClips(session);
   tick.blood_ml = seenBlood(session).bled_ml;
   stepped_.push_back(std::move(tick));
   judgeNoted();
@@ -103,7 +103,7 @@ void TaskWatch::judge(const TaskTick& tick) {
   const auto present = [](const StylusMotion& motion) { return motion.present; };
   if (status_.state == TaskPhase::kWaiting) {
     if (std::none_of(tick.motions.begin(), tick.motions.end(), present)) {
-      hands_->rows.erase(hands_->rows.begin());  // of hands that are not there
+      hands_->rows.erase(hands_->rows.begin());  // ticks without a tracked stylus
       hands_->felt.erase(hands_->felt.begin());
       return;
     }
@@ -122,7 +122,7 @@ void TaskWatch::judge(const TaskTick& tick) {
   decide();
 }
 
-/// What is counted whatever the kind.
+/// Counts what all kinds count.
 void TaskWatch::count(const TaskTick& tick) {
   TaskTally& tally = status_.tally;
   tally.blood_ml = tick.blood_ml - base_blood_ml_;
@@ -144,20 +144,20 @@ void TaskWatch::count(const TaskTick& tick) {
 
 void TaskWatch::decide() {
   if (!judge_->reached()) {
-    if (status_.time_s >= task_->time_limit_s) end(TaskPhase::kFailed, "the time was over before the goal was reached");
+    if (status_.time_s >= task_->time_limit_s) end(TaskPhase::kFailed, "the time limit was reached before the goal");
     return;
   }
   for (const TaskRule& rule : task_->measures) {
     for (const TaskMeasure& measure : kTaskMeasures) {
       if (rule.measure != measure.name || status_.tally.*measure.value <= rule.most) continue;
       TextOut why;
-      why << measure.name << " is " << status_.tally.*measure.value << ", and " << rule.most << " at most passes";
+      why << measure.name << " is " << status_.tally.*measure.value << "; to pass it must be at most " << rule.most;
       return end(TaskPhase::kFailed, why.str());
     }
   }
   if (status_.score >= task_->pass_score) return end(TaskPhase::kPassed, "done");
   TextOut why;
-  why << "the score is " << status_.score << ", and " << task_->pass_score << " at least passes";
+  why << "the score is " << status_.score << "; to pass it must be at least " << task_->pass_score;
   end(TaskPhase::kFailed, why.str());
 }
 
@@ -169,7 +169,7 @@ void TaskWatch::end(TaskPhase state, const std::string& why) {
   status_.state = state;
   status_.step = why;
   if (!judge_->reached()) status_.score = 0;
-  hands_->rows.resize(std::min(hands_->rows.size(), hands_->felt.size()));  // later ticks are no part of it
+  hands_->rows.resize(std::min(hands_->rows.size(), hands_->felt.size()));  // later ticks do not belong to it
   if (ended_) ended_({*task_, status_, *hands_, cuts_m_, springs_cut_});
 }
 

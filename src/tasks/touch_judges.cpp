@@ -12,14 +12,14 @@ namespace viscera {
 
 namespace {
 
-/// A contact that is lost for less is the same one: a tip that trembles on the tissue touches it once.
+/// A contact that is interrupted for less counts as one: a tip that trembles on the tissue touches it once.
 constexpr double kContactGap_s = 0.1;
-/// Of the height to reach: tissue that was never so high was not dropped.
+/// Share of the height to reach: tissue that was never this high was not dropped.
 constexpr double kLiftedShare = 0.25;
 
 using Styluses = std::vector<StylusConfig>;
 
-/// How far the reach of a tip is from a place [m]; below 0 within it.
+/// Returns the distance from the reach of a tip to a position [m]; below 0 inside.
 double gapTo(const Vector3d& place_m, const StylusMotion& motion, const StylusConfig& stylus) {
   return (motion.to.position_m - place_m).norm() - kindOf(motion.mode).reach_m(stylus);
 }
@@ -36,7 +36,7 @@ class TouchJudge : public TaskJudge {
       if (contact.gap_s > kContactGap_s) contact.at.reset();
       if (!touches) continue;
       const size_t here = targetAt(tick.motions[s], styluses_[s]);
-      // from a target onto the tissue beside it is not a touch of its own
+      // Sliding from a target onto the tissue next to it is not a new touch.
       if (contact.at && (here == *contact.at || here == kNowhere)) continue;
       contact.at = here;
       if (here == due_) {
@@ -56,7 +56,7 @@ class TouchJudge : public TaskJudge {
  private:
   static constexpr size_t kNowhere = SIZE_MAX;
   struct Contact {
-    std::optional<size_t> at;  ///< target that it is with, or kNowhere
+    std::optional<size_t> at;  ///< index of the touched target, or kNowhere
     double gap_s = 0;
   };
   size_t targetAt(const StylusMotion& motion, const StylusConfig& stylus) const {
@@ -132,7 +132,8 @@ class LiftJudge : public TaskJudge {
 
 std::string touchFault(const TaskConfig& task) {
   if (!task.touch.given) return groupFault(false, "touch_targets");
-  return task.touch.targets.empty() ? "'touch_targets.targets' is a list of one place or more; found none" : "";
+  return task.touch.targets.empty() ? "'touch_targets.targets' must be a list of one or more positions; found none"
+                                    : "";
 }
 
 std::unique_ptr<TaskJudge> touchJudge(const TaskConfig& task, const Session& session) {

@@ -12,13 +12,13 @@ namespace {
 
 constexpr double kNone = -std::numeric_limits<double>::infinity();
 
-/// What a viewer along -z sees at a point.
+/// Surface point that a viewer along -z sees.
 struct Skinned {
-  double height_m = kNone;  ///< kNone: no skin
+  double height_m = kNone;  ///< kNone: no surface
   bool is_held = false;
 };
 
-/// How many of some places the skin lies under.
+/// Number of positions with the surface below them.
 struct Met {
   size_t free = 0, all = 0;  ///< where it can move; anywhere
   bool operator<(const Met& other) const { return std::tie(free, all) < std::tie(other.free, other.all); }
@@ -28,7 +28,7 @@ struct Met {
   }
 };
 
-/// How near to a viewer along -z the skins are, on a grid of points across.
+/// Heights of the surfaces for a viewer along -z, on a grid of points across.
 class HeightMap {
  public:
   HeightMap(const Model& model, const Quaterniond& to_anchor) {
@@ -98,7 +98,7 @@ Quaterniond frameAlong(const Vector3d& back) {
 }
 
 Vector3d shiftOntoSkin(const Model& model, const Anchor& anchor, const std::vector<Vector3d>& spots_m) {
-  constexpr double kSlope = 0.6;  // of the spots' reach: a steeper skin is out of a blade's
+  constexpr double kSlope = 0.6;  // share of the spots' reach: a steeper surface is out of a blade's reach
   const Quaterniond frame = frameAlong((anchor.from_m - anchor.towards_m).normalized());
   const HeightMap map(model, frame.conjugate());
   if (map.step_m() <= 0) return Vector3d::Zero();

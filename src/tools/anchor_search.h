@@ -8,15 +8,15 @@
 
 namespace viscera {
 
-/// Axes of an anchor's own frame: z back along its ray, x horizontal, y upwards.
+/// Returns the axes of an anchor's own frame: z back along its ray, x horizontal, y upwards.
 Quaterniond frameAlong(const Vector3d& back);
 
-/// Is a vertex of a body's skin bound to nodes that are all held in space?
+/// Returns whether a vertex of a body's surface mesh is bound to fixed nodes only.
 bool isHeld(const Body& body, uint32_t vertex);
 
-/// An anchor that was made for another organ, beside which this one may be narrow, hollow, held or not there: by how
-/// much to move it across its ray, so that skin that can move lies under as many of the strokes' spots as anywhere,
-/// then skin at all; the least that does.
+/// Returns the shift [m] across its ray that moves an anchor, made for another organ, onto this one, which may be
+/// narrower, hollow, fixed or absent there. The shift maximises the number of stroke spots above tissue that can move,
+/// then above any tissue; of equal shifts it is the smallest.
 /// @param spots_m  where the strokes touch, in the anchor's frame; only x and y count
 Vector3d shiftOntoSkin(const Model& model, const Anchor& anchor, const std::vector<Vector3d>& spots_m);
 

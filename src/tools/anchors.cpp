@@ -16,11 +16,11 @@ namespace viscera {
 
 namespace {
 
-/// Distance along the unit direction at which a ray meets a triangle (Moeller and Trumbore), or infinity.
+/// Returns the distance along the unit direction at which a ray meets a triangle (Moeller and Trumbore), or infinity.
 double hitDistance(const Vector3d& from, const Vector3d& direction, const Vector3d& a, const Vector3d& b,
                    const Vector3d& c) {
   constexpr double kMiss = std::numeric_limits<double>::infinity();
-  constexpr double kBorder = 1e-9;  // of an edge: rounding must not let a ray slip between two triangles
+  constexpr double kBorder = 1e-9;  // share of an edge: rounding must not let a ray slip between two triangles
   const Vector3d ab = b - a, ac = c - a, p = direction.cross(ac);
   const double det = ab.dot(p);
   if (det == 0) return kMiss;
@@ -31,7 +31,7 @@ double hitDistance(const Vector3d& from, const Vector3d& direction, const Vector
   return u >= -kBorder && v >= -kBorder && u + v <= 1 + kBorder && t > 0 ? t : kMiss;
 }
 
-/// Where a ray first meets a skin.
+/// First intersection of a ray with a surface.
 struct Hit {
   double distance_m = std::numeric_limits<double>::infinity();
   bool is_held = false;  ///< no corner of the triangle can move
@@ -63,9 +63,9 @@ std::string rayText(const Anchor& anchor) {
   return "from " + pointText(anchor.from_m) + " towards " + pointText(anchor.towards_m);
 }
 
-/// Where a stroke works on the skin, in its anchor's frame: keys that are not far above it.
+/// Adds the positions where a stroke works on the surface, in its anchor's frame: keys that are not far above it.
 void addSpots(const Stroke& stroke, std::vector<Vector3d>& spots_m) {
-  constexpr double kNear = 0.2;  // of how far the stroke goes
+  constexpr double kNear = 0.2;  // share of the stroke's reach
   double reach_m = 0;
   for (const Stroke::Key& key : stroke.keys) reach_m = std::max(reach_m, key.pose.position_m.norm());
   for (const Stroke::Key& key : stroke.keys)
@@ -76,8 +76,8 @@ bool same(const Anchor& a, const Anchor& b) {
   return a.from_m == b.from_m && a.towards_m == b.towards_m;
 }
 
-/// @param frame  of the stroke's anchor   @param above_m  above all skins, along z of it
-/// @returns empty, unless all that a stroke meets is held
+/// Returns a note if a stroke meets only fixed tissue, else empty.
+/// @param frame  of the stroke's anchor   @param above_m  distance above all surfaces, along its z
 std::string heldNote(const Stroke& stroke, const Model& model, const Pose& frame, double above_m) {
   std::vector<Vector3d> spots_m = {Vector3d::Zero()};
   addSpots(stroke, spots_m);
@@ -87,11 +87,11 @@ std::string heldNote(const Stroke& stroke, const Model& model, const Pose& frame
     if (std::isfinite(hit.distance_m) && !hit.is_held) return "";
   }
   return "the stroke of stylus '" + stroke.stylus + "', anchored at " + pointText(frame.position_m) +
-         " m, meets only tissue that is held, which neither moves nor pushes back: give it another anchor, or hold " +
+         " m, meets only fixed tissue, which neither moves nor pushes back. Use another anchor, or fix " +
          "less (bodies[].fixed)";
 }
 
-/// Anchored strokes on an organ in the place of another. Those with one anchor stay together.
+/// Moves anchored strokes to an organ in the place of another. Those with one anchor stay together.
 void follow(const OrganFit& fit, const Model& model, std::vector<Stroke>& strokes) {
   for (Stroke& stroke : strokes) {
     if (!stroke.anchor) continue;
@@ -133,7 +133,7 @@ std::vector<std::string> resolveAnchors(Strokes& strokes, const Model& model, co
 }
 
 std::string strokesYaml(const Strokes& strokes) {
-  constexpr int kFileDigits = 9;  // YAML::Emitter writes numbers as the program's locale has them
+  constexpr int kFileDigits = 9;  // YAML::Emitter formats numbers by the program's locale
   YAML::Emitter out;
   const auto vector = [&out](const char* key, const Vector3d& v) {
     out << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginSeq;
@@ -143,8 +143,8 @@ std::string strokesYaml(const Strokes& strokes) {
   out << YAML::BeginMap;
   if (strokes.tick_hz > 0) {
     out << YAML::Key << "tick_hz" << YAML::Value << exactText(strokes.tick_hz) << YAML::Key << "ticks" << YAML::Value
-        << std::to_string(strokes.ticks) << YAML::Key << "hands_anew" << YAML::Value << YAML::Flow << YAML::BeginSeq;
-    for (const uint64_t tick : strokes.hands_anew) out << std::to_string(tick);
+        << std::to_string(strokes.ticks) << YAML::Key << "input_reset" << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    for (const uint64_t tick : strokes.input_reset) out << std::to_string(tick);
     out << YAML::EndSeq;
     const RecordedFrom& from = strokes.recorded;
     if (!from.scene.empty()) {

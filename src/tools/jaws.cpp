@@ -11,8 +11,9 @@ namespace viscera {
 
 namespace {
 
-constexpr double kRounding = 1e-9;        // of a sum of as many ticks as fingers take to close
-constexpr double kOpensAgain_rad = 0.02;  // beyond what keeps them apart, and they let go: more than a hand trembles
+constexpr double kRounding = 1e-9;  // rounding of the sum over the ticks of a closing
+// Jaws release when they open this far beyond the tissue: more than a user's tremor.
+constexpr double kOpensAgain_rad = 0.02;
 
 double closedBy(const Jaws& jaws, double opening_rad) {
   return std::clamp((jaws.open_rad - opening_rad) / (jaws.open_rad - jaws.closed_rad), 0.0, 1.0);
@@ -20,17 +21,17 @@ double closedBy(const Jaws& jaws, double opening_rad) {
 
 }  // namespace
 
-double Fingers::openingNow(const Jaws& jaws) const {
+double Gripper::openingNow(const Jaws& jaws) const {
   return std::max(openingOf(jaws, closed_), met_rad_);
 }
 
-void Fingers::letGo() {
+void Gripper::letGo() {
   holds_ = false;
   met_rad_ = press_nm_ = 0;
   slid_before_m_ = slid_m_ = Vector3d::Zero();
 }
 
-void Fingers::advance(const Jaws& jaws, bool grips, float told_rad, bool appears, double tick_s,
+void Gripper::advance(const Jaws& jaws, bool grips, float told_rad, bool appears, double tick_s,
                       const std::function<std::optional<Between>(double)>& feel, StylusMotion& motion) {
   const bool told = told_rad >= 0;
   const double wanted = told ? closedBy(jaws, told_rad) : 1;
@@ -65,9 +66,9 @@ void Fingers::advance(const Jaws& jaws, bool grips, float told_rad, bool appears
   motion.opens_to_rad = openingNow(jaws);
 }
 
-/// Of what is held, the tissue has the stretch that it had at the rated force, by the secant; and while the tool goes
-/// on against the pull, what it holds stays behind by as much.
-void Fingers::pulled(const StylusMotion& motion, const Vector3d& force_n, double rated_n) {
+/// Computes the slip from the secant stiffness: the tissue keeps the stretch that it had at the rated force. While the
+/// tool moves on against the force, the held tissue stays behind by the same distance.
+void Gripper::pulled(const StylusMotion& motion, const Vector3d& force_n, double rated_n) {
   const double pull_n = force_n.norm();
   if (!holds_ || !(pull_n > rated_n)) return;
   const Vector3d along = force_n / pull_n, held_m = motion.to.position_m + slid_m(motion);
@@ -77,19 +78,19 @@ void Fingers::pulled(const StylusMotion& motion, const Vector3d& force_n, double
   slid_m_ += motion.to.orientation.conjugate() * (slides_m * along);
 }
 
-StylusMotion Fingers::ofHeld(const StylusMotion& motion) const {
+StylusMotion Gripper::ofHeld(const StylusMotion& motion) const {
   StylusMotion out = motion;
   out.from.position_m += motion.from.orientation * slid_before_m_;
   out.to.position_m += motion.to.orientation * slid_m_;
   return out;
 }
 
-double Fingers::moment_nm(const Jaws& jaws) const {
+double Gripper::moment_nm(const Jaws& jaws) const {
   if (!holds_ || met_rad_ == 0) return 0;
   return press_nm_ * std::max(0.0, met_rad_ - openingOf(jaws, closed_)) / met_rad_;
 }
 
-void Fingers::persist(Archive& archive) {
+void Gripper::persist(Archive& archive) {
   for (bool* flag : {&follows_, &closing_, &holds_}) archive.value(*flag);
   for (double* value : {&closed_, &mouth_rad_, &met_rad_, &press_nm_}) archive.value(*value);
   for (Vector3d* value : {&taken_at_m_, &slid_before_m_, &slid_m_}) archive.value(*value);

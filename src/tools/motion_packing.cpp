@@ -19,7 +19,7 @@ layout::ToolMotion substep(const StylusMotion& motion, const StylusConfig& confi
   const ToolKind& kind = kindOf(motion.mode);
   const BladeSpan blade = bladeSpan(config.cut);
   const Vector3d near_end(0, 0, kind.severs() ? blade.high_m : 0), far_end(0, 0, blade.low_m);
-  layout::ToolMotion out{};  // Ticks fills in the length of the substep before it
+  layout::ToolMotion out{};  // TissueStepper sets the length of the previous substep
   out.from = pack(from * near_end, kind.reach_m(config));
   out.to = pack(to * near_end, kind.grip ? kind.grip(config).release_speed_m_per_s : 0);
   out.orientation = pack(to.orientation.vec(), to.orientation.w());

@@ -11,13 +11,13 @@ namespace viscera {
 
 struct StylusConfig;
 
-/// What a stylus does to tissue in a tick, of ToolEffect: scissors that do not close cut nothing.
+/// Returns the effects of a stylus on tissue in a tick, bits of ToolEffect: scissors that do not close cut nothing.
 uint32_t effectsOf(const StylusMotion& motion);
 
-/// ToolMotion.info of a mode: its number, and what it does to tissue (ToolEffect).
+/// Returns ToolMotion.info of a mode: its number, and its effects on tissue (ToolEffect).
 layout::uvec4 toolInfo(ToolMode mode);
 
-/// Motions cut into substeps for the solver: [substeps * kMaxStyluses], substep-major (physics.md 2: tool poses are
+/// Divides motions into substeps for the solver: [substeps * kMaxStyluses], substep-major (physics.md 2: tool poses are
 /// interpolated over the substeps of a tick).
 void interpolateMotions(const ToolMotions& motions, const std::vector<StylusConfig>& configs, int substeps,
                         std::vector<layout::ToolMotion>& out);

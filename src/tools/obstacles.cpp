@@ -11,13 +11,13 @@ namespace {
 
 constexpr double kRadian = 3.14159265358979323846 / 180;
 
-/// The turn that a rotation vector [rad] stands for.
+/// Returns the rotation of a rotation vector [rad].
 Quaterniond turned(const Vector3d& by) {
   const double angle = by.norm();
   return angle > 0 ? Quaterniond(Eigen::AngleAxisd(angle, by / angle)) : Quaterniond::Identity();
 }
 
-/// The rotation vector [rad] of the shorter turn from a to b.
+/// Returns the rotation vector [rad] of the shorter rotation from a to b.
 Vector3d turnBetween(const Quaterniond& a, const Quaterniond& b) {
   const Eigen::AngleAxisd turn(b * a.conjugate());
   constexpr double kPi = 180 * kRadian;
@@ -36,9 +36,9 @@ double radiusOf(const ObstacleConfig& config) {
   return config.shape == ObstacleShape::kSphere || config.shape == ObstacleShape::kCapsule ? config.radius_m : 0;
 }
 
-/// How far a surface lies from the place that it turns about, at most [m].
+/// Returns the largest distance of a surface point from the centre of rotation [m].
 double farthestSurface(const ObstacleConfig& config) {
-  constexpr double kPlane_m = 1;  // as far as tissue is looked for: solver.sleep_distance_m, unless it is given
+  constexpr double kPlane_m = 1;  // default of solver.sleep_distance_m, the range of tissue
   switch (config.shape) {
     case ObstacleShape::kSphere:
       return config.radius_m;
@@ -79,7 +79,7 @@ static_assert(static_cast<uint32_t>(ObstacleShape::kBox) == layout::kShapeBox);
 Obstacles::Obstacles(const std::vector<ObstacleConfig>& configs, double max_travel_m)
     : configs_(configs),
       max_travel_m_(max_travel_m),
-      held_back_(configs.size()),
+      speed_limited_(configs.size()),
       frames_(configs.size()),
       frames_before_(configs.size()),
       motions_(configs.size()) {
@@ -91,7 +91,7 @@ void Obstacles::setFrame(size_t obstacle, const Pose& frame) {
   frames_[obstacle] = {frame.position_m, frame.orientation.normalized()};
 }
 
-/// Where an obstacle is at a time, its frame being where it is.
+/// Returns the pose of an obstacle at a time, for a pose of its frame.
 Pose Obstacles::placed(size_t obstacle, double time_s, const Pose& frame) const {
   const ObstacleConfig& config = configs_[obstacle];
   Pose pose = frame * Pose{config.position_m, rotationFromDegrees(config.rotation_deg)};
@@ -100,20 +100,20 @@ Pose Obstacles::placed(size_t obstacle, double time_s, const Pose& frame) const 
   return pose;
 }
 
-/// No farther than a surface may go in a tick.
+/// Limits a motion to the distance that a surface may move in a tick.
 RigidMotion Obstacles::limited(size_t obstacle, const RigidMotion& wanted) {
   const double turn = turnBetween(wanted.from.orientation, wanted.to.orientation).norm();
   const double travel_m =
       (wanted.to.position_m - wanted.from.position_m).norm() + turn * farthestSurface(configs_[obstacle]);
   if (travel_m <= max_travel_m_) return wanted;
-  held_back_[obstacle] = true;
+  speed_limited_[obstacle] = true;
   return {wanted.from, interpolate(wanted.from, wanted.to, max_travel_m_ / travel_m)};
 }
 
 void Obstacles::advance(double time_s, double tick_s) {
   for (size_t i = 0; i < configs_.size(); ++i) {
     const Pose now = frames_[i].value_or(Pose{});
-    held_back_[i] = false;
+    speed_limited_[i] = false;
     if (frames_before_[i]) {
       motions_[i] = limited(i, {motions_[i].to, placed(i, time_s + tick_s, now)});
     } else {
@@ -125,7 +125,7 @@ void Obstacles::advance(double time_s, double tick_s) {
 
 void Obstacles::reset() {
   frames_before_ = frames_;
-  held_back_.assign(configs_.size(), false);
+  speed_limited_.assign(configs_.size(), false);
   for (size_t i = 0; i < configs_.size(); ++i) {
     const Pose start = placed(i, 0, frames_[i].value_or(Pose{}));
     motions_[i] = {start, start};
@@ -137,9 +137,9 @@ void Obstacles::persist(Archive& archive) {
   for (size_t i = 0; i < configs_.size(); ++i) {
     archive.value(frames_[i]);
     archive.value(frames_before_[i]);
-    bool held_back = held_back_[i];
-    archive.value(held_back);
-    held_back_[i] = held_back;
+    bool speed_limited = speed_limited_[i];
+    archive.value(speed_limited);
+    speed_limited_[i] = speed_limited;
   }
 }
 

@@ -9,7 +9,7 @@ namespace viscera {
 
 /// Checks a mode that was read from a saved state. @throws Error  there is no such mode
 void requireMode(const Archive& archive, ToolMode mode);
-/// The same of the modes of motions.
+/// Checks the modes of motions that were read from a saved state.
 void requireModes(const Archive& archive, const ToolMotions& motions);
 
 }  // namespace viscera

@@ -13,14 +13,14 @@
 namespace viscera {
 namespace {
 
-constexpr double kFarthest_m = 100;      ///< as of way-points
-constexpr double kUnitTolerance = 1e-6;  ///< of a quaternion's length: it is stepped as it is, not normalised
+constexpr double kFarthest_m = 100;      ///< as for way-points
+constexpr double kUnitTolerance = 1e-6;  ///< of a quaternion's length: it is used as recorded, not normalised
 constexpr const char* kAccepted =
-    "a sample is: tick x y z qx qy qz qw button1 button2, and of jaws their opening, with a tick from 1 on that is "
-    "greater than the one before, "
+    "a sample must be: tick x y z qx qy qz qw button1 button2, and for jaws their opening, with a tick from 1 on that "
+    "is greater than the one before, "
     "-100 .. 100 m, a quaternion of length 1, buttons 0 or 1, an opening of 0 .. 3.1416 rad";
 
-/// One line. @returns whether it is a sample
+/// Reads one line. @returns whether it is a sample
 bool read(std::istringstream& in, Stroke::Sample& sample) {
   double at[7];
   int button1 = 0, button2 = 0;

@@ -9,13 +9,13 @@
 
 namespace viscera {
 
-/// A sample as a line of text: tick, position [m], orientation x y z w, buttons, the opening of jaws if it is known
-/// [rad]; so many digits that the same doubles are read back.
+/// Returns a sample as a line of text: tick, position [m], orientation x y z w, buttons, and the opening of jaws if
+/// known [rad]. It has enough digits to read the same doubles back.
 std::string sampleLine(const Stroke::Sample& sample);
 
-/// Samples as such lines.
+/// Parses samples from such lines.
 /// @param first_line  of the text in the file, for errors
-/// @throws StrokesError  file, line and what a line must hold
+/// @throws StrokesError  file, line and what a line must contain
 std::vector<Stroke::Sample> parseSamples(const std::string& text, const std::string& file, int first_line);
 
 }  // namespace viscera

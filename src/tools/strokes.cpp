@@ -18,9 +18,9 @@ constexpr double kLongestStrokeS = 3600;
 constexpr double kMostKeys = 1e6;
 constexpr Range kTickRate{1, 1000};  // as solver.tick_hz
 constexpr double kMostTicks = kLongestStrokeS * 1000;
-constexpr double kTickRounding = 1e-6;  // of a tick: a time that was made of a tick must find it again
+constexpr double kTickRounding = 1e-6;  // in ticks: a time computed from a tick must map back to it
 
-/// A key as it stands in the file; what is left out is zero or released.
+/// Key as in the file; missing values are zero or released.
 struct FileKey {
   int line = 0;
   double t_s = 0;
@@ -50,7 +50,7 @@ struct FileRecorded : RecordedFrom {};
 struct FileStrokes {
   double tick_hz = 0, ticks = 0;
   FileRecorded recorded;
-  std::vector<double> hands_anew;
+  std::vector<double> input_reset;
   std::vector<FileStroke> strokes;
   std::vector<FileMark> marks;
 };
@@ -58,46 +58,47 @@ struct FileStrokes {
 void visitFields(YamlReader& v, FileKey& c) {
   c.line = v.line();
   v.number("t_s", c.t_s, {0, kLongestStrokeS}, "s", "time from the start");
-  v.vector("position_m", c.position_m, {-100, 100}, "m", "stylus tip, tissue frame");
-  v.vector("rotation_deg", c.rotation_deg, {-360, 360}, "deg", "turns about the fixed x, then y, then z axis");
+  v.vector("position_m", c.position_m, {-100, 100}, "m", "position of the stylus tip in the tissue frame");
+  v.vector("rotation_deg", c.rotation_deg, {-360, 360}, "deg",
+           "rotation of the stylus: turns about the fixed x, then y, then z axis");
   v.boolean("button1", c.button1, "");
   v.boolean("button2", c.button2, "");
-  v.number("jaw_rad", c.jaw_rad, {0, kWidestJaw_rad}, "rad", "opening of the tool's jaws, in place of a button");
+  v.number("jaw_rad", c.jaw_rad, {0, kWidestJaw_rad}, "rad", "opening of the tool's jaws, instead of a button");
 }
 
 void visitFields(YamlReader& v, FileAnchor& c) {
-  v.vector("from_m", c.from_m, {-100, 100}, "m", "start of the ray, tissue frame");
-  v.vector("towards_m", c.towards_m, {-100, 100}, "m", "a point that the ray goes through");
+  v.vector("from_m", c.from_m, {-100, 100}, "m", "start of the ray in the tissue frame");
+  v.vector("towards_m", c.towards_m, {-100, 100}, "m", "point that the ray passes through");
 }
 
 void visitFields(YamlReader& v, FileStroke& c) {
   c.line = v.line();
   c.anchored = v.has("anchor");
-  v.group("anchor", c.anchor, "keys are relative to where this ray meets the skin");
+  v.group("anchor", c.anchor, "ray; keys are relative to the point where it meets the surface");
   v.text("stylus", c.stylus, "name of a stylus of the scene");
   v.list("keys", c.keys, kMostKeys, "");
-  v.block("samples", c.samples, c.samples_line, "recorded: a line per tick");
+  v.block("samples", c.samples, c.samples_line, "recorded samples, a line per tick");
 }
 
 void visitFields(YamlReader& v, FileMark& c) {
   c.line = v.line();
-  v.text("name", c.name, "of the picture");
+  v.text("name", c.name, "name of the picture");
   v.number("t_s", c.t_s, {0, kLongestStrokeS}, "s", "time from the start");
 }
 
 void visitFields(YamlReader& v, FileRecorded& c) {
   v.text("scene", c.scene, "name or path of the scene that was recorded");
-  v.text("overrides", c.overrides, "its overrides, between semicolons");
-  v.text("state_hash", c.state_hash, "at the end of the recording, 16 hexadecimal digits");
+  v.text("overrides", c.overrides, "overrides of the scene, separated by semicolons");
+  v.text("state_hash", c.state_hash, "state hash at the end of the recording, 16 hexadecimal digits");
 }
 
 void visitFields(YamlReader& v, FileStrokes& c) {
-  v.number("tick_hz", c.tick_hz, kTickRate, "Hz", "of what was recorded");
-  v.number("ticks", c.ticks, {0, kMostTicks}, "1", "how many were recorded");
-  v.group("recorded", c.recorded, "what was recorded");
-  v.numbers("hands_anew", c.hands_anew, kMostKeys, {1, kMostTicks}, "1");
+  v.number("tick_hz", c.tick_hz, kTickRate, "Hz", "ticks per second of the recording");
+  v.number("ticks", c.ticks, {0, kMostTicks}, "1", "number of recorded ticks");
+  v.group("recorded", c.recorded, "source of the recording");
+  v.numbers("input_reset", c.input_reset, kMostKeys, {1, kMostTicks}, "1");
   v.list("strokes", c.strokes, 16, "recorded strokes");
-  v.list("marks", c.marks, 1000, "moments worth a picture");
+  v.list("marks", c.marks, 1000, "times at which a picture is taken");
 }
 
 std::string lineOf(const std::string& name, int line) {
@@ -110,11 +111,12 @@ Stroke checked(const FileStroke& file, size_t index, const std::string& name) {
   Stroke stroke;
   stroke.stylus = file.stylus;
   if (file.samples_line > 0) {
-    if (!file.keys.empty() || file.anchored) throw StrokesError(where + ": 'samples' go without 'keys' and 'anchor'");
+    if (!file.keys.empty() || file.anchored)
+      throw StrokesError(where + ": 'samples' cannot be combined with 'keys' or 'anchor'");
     stroke.samples = parseSamples(file.samples, name, file.samples_line);
     return stroke;
   }
-  if (file.keys.empty()) throw StrokesError(where + ": 'keys' must hold at least one key");
+  if (file.keys.empty()) throw StrokesError(where + ": 'keys' must contain at least one key");
   if (file.anchored) {
     if (file.anchor.from_m == file.anchor.towards_m)
       throw StrokesError(where + ": anchor: 'from_m' and 'towards_m' must differ");
@@ -133,7 +135,7 @@ Stroke checked(const FileStroke& file, size_t index, const std::string& name) {
   return stroke;
 }
 
-/// That of exactly this tick.
+/// Returns the sample of exactly this tick.
 StylusSample sampleOf(const Stroke& stroke, uint64_t tick) {
   const auto found = std::lower_bound(stroke.samples.begin(), stroke.samples.end(), tick,
                                       [](const Stroke::Sample& sample, uint64_t t) { return sample.tick < t; });
@@ -165,14 +167,14 @@ double Strokes::duration_s() const {
   return end;
 }
 
-bool Strokes::handsAnew(uint64_t tick) const {
-  return std::binary_search(hands_anew.begin(), hands_anew.end(), tick);
+bool Strokes::inputReset(uint64_t tick) const {
+  return std::binary_search(input_reset.begin(), input_reset.end(), tick);
 }
 
 void Strokes::requireTickRate(double scene_tick_hz) const {
   if (tick_hz == 0 || tick_hz == scene_tick_hz) return;
-  throw StrokesError(file + ": 'tick_hz' is " + numberText(tick_hz) + " Hz, and the scene's 'solver.tick_hz' is " +
-                     numberText(scene_tick_hz) + " Hz: recorded ticks are replayed as they were, or not at all");
+  throw StrokesError(file + ": 'tick_hz' is " + numberText(tick_hz) + " Hz, but 'solver.tick_hz' of the scene is " +
+                     numberText(scene_tick_hz) + " Hz; recorded ticks can only be replayed at their own rate");
 }
 
 bool Strokes::anchored() const {
@@ -194,22 +196,22 @@ StylusSamples Strokes::at(double time_s, const std::vector<StylusConfig>& config
 
 namespace {
 
-/// What samples need beside them.
+/// Checks the keys that samples need.
 void checkTicks(const FileStrokes& file, Strokes& out) {
   out.tick_hz = file.tick_hz;
   out.ticks = static_cast<uint64_t>(file.ticks);
   out.recorded = file.recorded;
-  for (const double tick : file.hands_anew) out.hands_anew.push_back(static_cast<uint64_t>(tick));
+  for (const double tick : file.input_reset) out.input_reset.push_back(static_cast<uint64_t>(tick));
   const bool recorded = std::any_of(file.strokes.begin(), file.strokes.end(),
                                     [](const FileStroke& stroke) { return stroke.samples_line > 0; });
   if (recorded != (out.tick_hz > 0) || recorded != (out.ticks > 0))
-    throw StrokesError(out.file + ": 'samples' need 'tick_hz' and 'ticks', and these need samples");
-  if (!std::is_sorted(out.hands_anew.begin(), out.hands_anew.end()))
-    throw StrokesError(out.file + ": 'hands_anew' must be increasing ticks");
+    throw StrokesError(out.file + ": 'samples' need 'tick_hz' and 'ticks', and these need 'samples'");
+  if (!std::is_sorted(out.input_reset.begin(), out.input_reset.end()))
+    throw StrokesError(out.file + ": 'input_reset' must be increasing ticks");
   for (const Stroke& stroke : out.strokes) {
     if (!stroke.samples.empty() && stroke.samples.back().tick > out.ticks)
       throw StrokesError(out.file + ": stylus '" + stroke.stylus + "' has a sample of tick " +
-                         std::to_string(stroke.samples.back().tick) + ", and 'ticks' is " + std::to_string(out.ticks));
+                         std::to_string(stroke.samples.back().tick) + ", but 'ticks' is " + std::to_string(out.ticks));
   }
 }
 
@@ -235,7 +237,7 @@ Strokes parseStrokes(const std::string& yaml, const std::string& name) {
     }
     out.marks.push_back({mark.name, mark.t_s});
   }
-  if (out.strokes.empty()) throw StrokesError(name + ": 'strokes' must hold at least one stroke");
+  if (out.strokes.empty()) throw StrokesError(name + ": 'strokes' must contain at least one stroke");
   return out;
 }
 

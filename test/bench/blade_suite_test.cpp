@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The law of docs/cutting.md in a block; `viscera bench blade` has more of it.
+// The law of docs/physics.md 10 in a block; `viscera bench blade` measures more of it.
 #include "bench/suites/blade/blade_trial.h"
 #include "bench/suites/blade/tear_trial.h"
 
@@ -9,11 +9,11 @@
 namespace viscera::bench {
 namespace {
 
-constexpr double kForce = 0.05;  // of J w: the issue's limit
-constexpr double kRipple = 0.1;  // of J w
-constexpr double kWork = 0.02;   // of the work: what is not parting, elastic, kinetic or damping
+constexpr double kForce = 0.05;  // share of J w: the limit of the issue
+constexpr double kRipple = 0.1;  // share of J w
+constexpr double kWork = 0.02;   // share of the work that is not cutting, elastic, kinetic or damping
 constexpr double kLeastDet = 0.1;
-constexpr double kTear = 0.15;  // of the toughness: what is promised
+constexpr double kTear = 0.15;  // share of the toughness: the documented limit
 
 BladeTrial trialOf(double spacing_m, double young_modulus_pa, double toughness_j_per_m2) {
   BladeTrial trial;
@@ -46,7 +46,7 @@ TEST(BladeSuite, SoItIsOfSprings) {
 }
 
 TEST(BladeSuite, WorkDoesNotDependOnTheDirection) {
-  BladeTrial trial = trialOf(0.004, 20e3, 200);  // J / (E h) = 2.5, as much as is carried
+  BladeTrial trial = trialOf(0.004, 20e3, 200);  // J / (E h) = 2.5, the largest supported value
   for (const double angle_deg : {20.0, 45.0}) {
     trial.angle_deg = angle_deg;
     expectLaw(trial);

@@ -14,38 +14,40 @@
 #include "bench/suites/speed/speed_parts.h"
 #include "solver/cpu/cpu_solver.h"
 
-// Ratios of speed within one run, of one thread's fastest rounds in turn, which the noise of a machine hardly touches:
-// a lost factor of two is seen. That a tick allocates nothing is held by HotLoop in test/solver.
+// Ratios of speed within one run, from the fastest rounds of each on one thread in turn. Noise of the machine hardly
+// affects them, so that a lost factor of two shows. HotLoop in test/solver checks that a tick allocates nothing.
 
 namespace viscera::bench {
 namespace {
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which slow different code differently
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // code slows down unevenly there
 
-// Of what was measured (docs/benchmarks.md), on the processor that it was measured on: rounds differ by a tenth, and
-// half of it is not reached. Others have other widths and caches: there a lost factor of three is seen.
+// Least share of the measured ratios (docs/benchmarks.md). On the processor of the measurements rounds differ by a
+// tenth, and only half of the ratio fails. Other processors have other vector widths and caches: there a lost factor of
+// three shows.
 constexpr double kHeldThere = 2.0 / 3, kHeldElsewhere = 1.0 / 3;
 const std::set<std::string> kMeasuredOn = {"vendor_id\t: AuthenticAMD", "cpu family\t: 26"};
-constexpr double kRound_s = 0.001;  // a tick or two: shorter than what a busy machine gives a thread at once
+constexpr double kRound_s = 0.001;  // a tick or two: shorter than the time slice that a busy machine gives a thread
 constexpr int kRounds = 31;
-constexpr int kAttempts = 4;  // something else may run throughout one
-constexpr int kEdge = 20;     // nodes; 8,000 in all
+constexpr int kAttempts = 4;  // another program may run throughout one attempt
+constexpr int kEdge = 20;     // nodes along an edge; 8,000 in total
 constexpr double kSettle_s = 1.5;
 
 double held() {
   std::ifstream file("/proc/cpuinfo");
   size_t found = 0;
-  for (std::string line; std::getline(file, line) && !line.empty();) found += kMeasuredOn.count(line);  // the first's
+  for (std::string line; std::getline(file, line) && !line.empty();) found += kMeasuredOn.count(line);  // first CPU
   return found == kMeasuredOn.size() ? kHeldThere : kHeldElsewhere;
 }
 
-/// How many times as long a node's substep takes in one as in the other.
+/// Returns the time of a node's substep in `slow` over that in `fast`.
 double timesAsLong(const Candidate& slow, const Candidate& fast) {
   const std::vector<Rate> rates = measureRates({slow, fast}, kRound_s, kRounds);
   return rates[0].fastest_s / slow.nodes / (rates[1].fastest_s / fast.nodes);
 }
 
-/// Holds timesAsLong() at held() of its nominal value at least and, if asked, at its inverse at most.
+/// Expects timesAsLong() to be at least held() of its nominal value and, with `at_most`, at most the inverse of held()
+/// times it.
 void hold(const std::string& what, double nominal, const Candidate& slow, const Candidate& fast, bool at_most = false) {
   const double share = held();
   std::vector<double> seen;
@@ -73,7 +75,7 @@ Candidate scalarLoop(const Specimen& specimen) {
 }
 
 TEST(Guard, SimdIsAsMuchFasterThanTheScalarLoopAsItWas) {
-  // By instruction set, without and with a dashpot.
+  // Nominal ratios by instruction set, without and with a dashpot.
   const std::map<std::string, std::array<double, 2>> nominal = {
       {"AVX3", {15.5, 17}}, {"AVX2", {7.9, 9.5}}, {"SSE4", {3.4, 4.2}}};
   const Specimen plain = cubeOf(kEdge), damped = cubeOf(kEdge, specimenMaterial(0.2));
@@ -107,7 +109,7 @@ TEST(Guard, WhatASceneDoesNotHaveCostsNothing) {
                                                  {"cautery", 1},
                                                  {"bleeding", 1},
                                                  {"compensated sums", 1.1},
-                                                 {"governor", 1},
+                                                 {"stability_monitor", 1},
                                                  {"cut state (one spring in every brick)", 1},
                                                  {"fixed nodes (half of them)", 1.9}};
   for (const Feature& feature : featuresOf(kEdge)) {

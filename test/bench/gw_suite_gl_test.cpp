@@ -19,15 +19,15 @@
 namespace viscera::bench {
 namespace {
 
-constexpr double kFloat = 2e-6;   ///< of the largest force: what sums of float32 are off by
-constexpr double kMotion = 1e-5;  ///< of the largest u, after kSubsteps
+constexpr double kFloat = 2e-6;   ///< share of the largest force: error of float32 sums
+constexpr double kMotion = 1e-5;  ///< share of the largest u, after kSubsteps
 constexpr int kSubsteps = 50;
 
 Misfit errorOf(const GwNetwork& network, const Field& measured, const Field& truth) {
   return misfit(network.model, {{measured}, 0}, {{truth}, 0});
 }
 
-// A square of two triangles, corners 0 1 2 3 counter-clockwise, its diagonal from 0 to 2.
+// A square of two triangles, corners 0 1 2 3 counter-clockwise, with its diagonal from 0 to 2.
 class Square : public ::testing::Test {
  protected:
   Square() : triangulation(at_m, {{0, 1, 2}, {0, 2, 3}}) {}
@@ -44,7 +44,7 @@ class Square : public ::testing::Test {
 
 TEST_F(Square, FlipsItsDiagonal) {
   ASSERT_TRUE(hasEdge(0, 2));
-  std::set<bool> seen;  // as many tries as there are say nothing of which diagonal comes last
+  std::set<bool> seen;  // the number of attempts does not determine the last diagonal
   for (int i = 0; i < 20; ++i) {
     triangulation.flipAtRandom({2, 3, 2}, random);
     EXPECT_NE(hasEdge(0, 2), hasEdge(1, 3));
@@ -80,7 +80,7 @@ TEST(IrregularSheet, IsATriangulationOfTheSameNodesWithValences3To12) {
   EXPECT_EQ(irregular.nodes(), 1600u);
   EXPECT_EQ(irregular.springs(), regular.springs());
   EXPECT_EQ(irregular.network().triangles.size(), regular.network().triangles.size());
-  constexpr double kJittered = 0.02;  // of the area: nodes of the border were moved too
+  constexpr double kJittered = 0.02;  // share of the area: the nodes of the border were moved too
   EXPECT_NEAR(areaOf(irregular.network()) / areaOf(regular.network()), 1, kJittered);
   EXPECT_EQ(valencesOf(regular).most, 6u);
   EXPECT_EQ(valencesOf(irregular).most, 12u);
@@ -94,7 +94,7 @@ TEST(HangingCloth, HasFourFixedNodes) {
   EXPECT_EQ(fixed, 4u);
 }
 
-/// The ways of gathering forces, on meshes that fill bricks and work groups and such that do not.
+/// The methods of gathering forces, on meshes that fill bricks and work groups and on meshes that do not.
 class GwForces : public ::testing::TestWithParam<uint32_t> {
  protected:
   GwForces() : sheet(irregularSheet(GetParam())), kernels(sheet), u_m(deformed(sheet)) {
@@ -173,7 +173,7 @@ TEST(GwScale, LeavesRoomForTheLargestSum) {
 }
 
 #ifdef VISCERA_HAS_COMMAND
-/// Times are not judged here: the machine may be doing other things.
+/// Times are not checked, as the machine may be busy.
 TEST(GwSuite, HasGwsTablesAndReachesItsErrorsInItsShortForm) {
   const test::TemporaryFolder folder;
   const test::Ending ending = test::runProgram(kCommand, {"bench", "gw", "--short", "--out", folder.path()});
@@ -181,11 +181,11 @@ TEST(GwSuite, HasGwsTablesAndReachesItsErrorsInItsShortForm) {
   const auto rows = [&](const std::string& table) {
     return test::linesOf(test::readFile(folder.file("gw_" + table + ".csv"))).size() - 1;
   };
-  EXPECT_EQ(rows("costs"), 4u);           // two meshes, two ways
-  EXPECT_EQ(rows("stages"), 4u);          // ways
-  EXPECT_EQ(rows("valences"), 4u);        // ways
-  EXPECT_EQ(rows("force_errors"), 12u);   // two meshes, six ways
-  EXPECT_EQ(rows("motion_errors"), 36u);  // two scenes, six ways, three moments
+  EXPECT_EQ(rows("costs"), 4u);           // two meshes, two methods
+  EXPECT_EQ(rows("stages"), 4u);          // methods
+  EXPECT_EQ(rows("valences"), 4u);        // methods
+  EXPECT_EQ(rows("force_errors"), 12u);   // two meshes, six methods
+  EXPECT_EQ(rows("motion_errors"), 36u);  // two scenes, six methods, three times
   size_t errors = 0;
   for (const std::string& line : test::linesOf(test::readFile(folder.file("gw_checks.csv")))) {
     if (!test::says(line, {"a force"})) continue;

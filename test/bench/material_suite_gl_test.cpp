@@ -32,7 +32,7 @@ void expectMaterialLimits(const std::string& backend) {
   for (const char* stem : {"walls", "circle", "slopes", "stack"}) {
     EXPECT_TRUE(says(readFile(folder.file(std::string("out/material_") + stem + ".csv")), {backend})) << stem;
   }
-  // Every kind of measurement has said what it found.
+  // Every kind of measurement has reported its result.
   const std::string checks = readFile(folder.file("out/material_checks.csv"));
   EXPECT_TRUE(says(checks, {"tension", "finite stretch", "chains", "plane waves", "cantilever", "Hertz", "probe"}));
   EXPECT_TRUE(says(checks, {"tension, cell weights, forces of " + backend, "finite stretch, forces of " + backend,

@@ -12,8 +12,7 @@ namespace {
 
 #ifdef VISCERA_HAS_COMMAND
 
-/// A suite in its short form, with what it wrote: each is run once. Times are not judged here: the machine may be doing
-/// other things.
+/// A suite in its short form and its output; each is run once. Times are not checked, as the machine may be busy.
 class PerformanceSuite : public ::testing::Test {
  protected:
   void run(const std::string& suite, const std::vector<std::string>& more = {}) {
@@ -23,13 +22,13 @@ class PerformanceSuite : public ::testing::Test {
     ending_ = test::runProgram(kCommand, arguments);
     ASSERT_EQ(ending_.status, 0) << ending_.out << ending_.err;
   }
-  /// Lines of a table below its head.
+  /// Returns the lines of a table below its head.
   std::vector<std::string> rows(const std::string& table) const {
     std::vector<std::string> lines = test::linesOf(test::readFile(folder_.file(suite_ + "_" + table + ".csv")));
     if (!lines.empty()) lines.erase(lines.begin());
     return lines;
   }
-  /// Rows that hold all of some words.
+  /// Returns the number of rows that contain all of some words.
   size_t rowsWith(const std::string& table, const std::vector<std::string>& words) const {
     size_t count = 0;
     for (const std::string& row : rows(table)) count += test::says(row, words) ? 1 : 0;
@@ -45,14 +44,14 @@ TEST_F(PerformanceSuite, SizesHaveEveryWayOfEveryBodyBesideThePaper) {
   run("speed", {"--only", "sizes", "--nodes", "10000", "130000"});
   for (const std::string way : {"cpu scalar", "cpu simd, 1 thread", "cpu simd, all threads", "gpu"})
     EXPECT_EQ(rowsWith("sizes", {"heart", way}), 2u) << way;  // dashpot 0 and 0.2
-  EXPECT_EQ(rowsWith("sizes", {"839.8"}), 12u);               // VR05 at 10,000 nodes, beside all but the scalar loop
+  EXPECT_EQ(rowsWith("sizes", {"839.8"}), 12u);               // VR05 at 10,000 nodes, next to all but the scalar loop
   EXPECT_EQ(rowsWith("sizes", {"cube,13"}), 3u);              // a large one: no scalar loop, no heart
   EXPECT_EQ(rows("machine").size(), 3u);
 }
 
 TEST_F(PerformanceSuite, SizesNeedNoGpu) {
   run("speed", {"--only", "sizes", "--nodes", "1000", "--backend", "cpu"});
-  EXPECT_EQ(rows("sizes").size(), 12u);  // two bodies, two dashpots, three ways
+  EXPECT_EQ(rows("sizes").size(), 12u);  // two bodies, two dashpots, three methods
   EXPECT_EQ(rows("machine").size(), 2u);
   EXPECT_EQ(rowsWith("sizes", {",gpu,"}), 0u);
 }
@@ -61,10 +60,10 @@ TEST_F(PerformanceSuite, HapticsHasARowOfEachCellAndMeetsItsChecks) {
   run("haptics");
   EXPECT_EQ(rows("matrix").size(), 16u);         // two tissues, delays, masses, drivers
   EXPECT_EQ(rowsWith("matrix", {",no,"}), 16u);  // limit cycles
-  EXPECT_EQ(rows("events").size(), 8u);          // four, two drivers
+  EXPECT_EQ(rows("events").size(), 8u);          // four events, two drivers
   EXPECT_EQ(rowsWith("events", {",no,"}), 8u);
   EXPECT_EQ(rowsWith("once_per_tick", {",yes,"}), 1u);
-  EXPECT_EQ(rowsWith("needle", {",no,"}), 28u);  // two devices, drivers; skin twice, inside, through, and between them
+  EXPECT_EQ(rowsWith("needle", {",no,"}), 28u);  // two devices, drivers; surface twice, inside, through, between
   EXPECT_EQ(rowsWith("thread", {",no,"}), 12u);  // pulled twice, and out
   EXPECT_EQ(rowsWith("checks", {"needle, ", ",ok"}), 5u) << ending_.out;
   EXPECT_EQ(rowsWith("checks", {"thread, ", ",ok"}), 5u) << ending_.out;
@@ -79,14 +78,14 @@ TEST_F(PerformanceSuite, SpeedHasARowOfEachPartOnEachBackend) {
   EXPECT_EQ(rows("ticks").size(), 4u);
   EXPECT_GE(rows("stages").size(), 12u);
   for (const std::string feature : {"dashpot", "strengths by part", "contacts", "cuts", "cautery", "compensated sums",
-                                    "governor", "cut state", "fixed nodes"})
+                                    "stability_monitor", "cut state", "fixed nodes"})
     EXPECT_EQ(rowsWith("features", {feature}), 2u) << feature;
   EXPECT_EQ(rowsWith("cells", {"cube, full cells"}), 3u);  // one thread, all threads, GPU
   EXPECT_EQ(rowsWith("cells", {"heart"}), 3u);
   EXPECT_EQ(rowsWith("sleep", {",cpu,"}), 2u);
   EXPECT_EQ(rowsWith("sleep", {",gpu,"}), 3u);
   EXPECT_EQ(rows("views").size(), 14u);
-  // Not a matter of time: these hold on any machine.
+  // These do not depend on time and hold on any machine.
   EXPECT_EQ(rowsWith("checks", {"largest difference", ",ok"}), 1u) << ending_.out;
   EXPECT_EQ(rowsWith("checks", {"not wanted", ",ok"}), 2u) << ending_.out;
 }
@@ -94,7 +93,7 @@ TEST_F(PerformanceSuite, SpeedHasARowOfEachPartOnEachBackend) {
 TEST_F(PerformanceSuite, CutHasEveryShareOnEachBackend) {
   run("cut");
   EXPECT_EQ(rows("shares").size(), 12u);           // two bodies, two backends, three shares
-  EXPECT_EQ(rows("incision").size(), 6u);          // two backends, whole and two lengths
+  EXPECT_EQ(rows("incision").size(), 6u);          // two backends, uncut and two lengths
   EXPECT_EQ(rowsWith("incision", {",0,0,"}), 2u);  // the others cut something
 }
 
@@ -105,7 +104,7 @@ TEST_F(PerformanceSuite, EgveHasTimeAndErrorOfEachMapping) {
     EXPECT_EQ(rowsWith("errors", {"," + mapping + ","}), 12u) << mapping;  // two fillings, three motions, two lattices
     EXPECT_EQ(rowsWith("finer", {"," + mapping + ","}), 3u) << mapping;
   }
-  EXPECT_EQ(rowsWith("times", {"6.67"}), 0u);  // of bodies of the paper's size only
+  EXPECT_EQ(rowsWith("times", {"6.67"}), 0u);  // only for bodies of the paper's size
   EXPECT_EQ(rows("checks").size(), 4u);
   EXPECT_EQ(rowsWith("checks", {"MISSED"}), 0u);
 }

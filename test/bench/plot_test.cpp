@@ -51,7 +51,7 @@ TEST(Plot, ALogAxisOfFewValuesIsLabelledWithThem) {
   EXPECT_EQ(scriptOf(plot).find("xtics"), std::string::npos);
   plot.log_x = true;
   EXPECT_TRUE(test::says(scriptOf(plot), {"set xtics (1, 2, 3)\n"}));
-  plot.series[0].x[1] = 1.2345678;  // measured: too long to read below an axis
+  plot.series[0].x[1] = 1.2345678;  // a measured value: too long for a label of the axis
   EXPECT_EQ(scriptOf(plot).find("xtics"), std::string::npos);
   plot.series[0].x.resize(20);
   plot.series[0].y.assign(20, 1);

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A slit in a held sheet gapes by 4 sigma a / E sqrt(1 - x^2 / a^2); `viscera bench blade` has more of it.
+// A slit in a held sheet gapes by 4 sigma a / E sqrt(1 - x^2 / a^2); `viscera bench blade` measures more of it.
 #include "bench/suites/blade/prestress_slit.h"
 
 #include <gtest/gtest.h>
@@ -10,8 +10,8 @@
 namespace viscera::bench {
 namespace {
 
-constexpr double kOpening = 0.05;  // of the law: the issue's limit
-constexpr double kUncut = 1e-3;    // of the opening
+constexpr double kOpening = 0.05;  // share of the law's opening: the limit of the issue
+constexpr double kUncut = 1e-3;    // share of the opening
 
 void expectLaw(const SlitTrial& trial) {
   const SlitResult result = openSlit(trial);

@@ -31,8 +31,8 @@ TEST(Rate, IsTheMedianOfRoundsTakenInTurn) {
                      }};
   };
   const std::vector<Rate> rates = measureRates({sleeper('a', 2), sleeper('b', 8)}, 1e-3, 3);
-  EXPECT_EQ(turns, "aabbababab");  // two warm up, then each has a tick a round
-  // A sleep takes as long as it says, or longer on a busy machine.
+  EXPECT_EQ(turns, "aabbababab");  // two warm-up ticks each, then one tick each per round
+  // A sleep takes at least the requested time, and longer on a busy machine.
   EXPECT_LE(rates[0].substeps_per_s, 10 / 2e-3);
   EXPECT_GT(rates[0].substeps_per_s, rates[1].substeps_per_s);
   EXPECT_DOUBLE_EQ(rates[1].node_updates_per_s, 1000 * rates[1].substeps_per_s);

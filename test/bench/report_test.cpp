@@ -65,7 +65,7 @@ TEST_F(Reporting, MeasuresOnePartOrAll) {
     measureParts(none, parts);
     FAIL();
   } catch (const Error& e) {
-    EXPECT_STREQ(e.what(), "--only third: suite suite has the parts first, second");
+    EXPECT_STREQ(e.what(), "--only third: unknown part; suite suite has the parts first, second");
   }
 }
 
@@ -102,7 +102,7 @@ TEST_F(Reporting, TablesStandWithoutGnuplotAndOneLineSaysSo) {
 TEST_F(Reporting, RefusesAFolderThatCannotBeMade) {
   const std::string file = folder_.write("file", "");
   EXPECT_TRUE(test::says(test::messageOf<Error>([&] { Report("suite", optionsFor(file + "/x"), text_); }),
-                         {"--out", "cannot be made"}));
+                         {"--out", "cannot be created"}));
 }
 
 }  // namespace

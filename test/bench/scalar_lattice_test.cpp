@@ -10,10 +10,10 @@ namespace viscera::bench {
 namespace {
 
 constexpr int kScalarLatticeSubsteps = 40;
-// Displacements of about 1e-3 m after as many additions in float32 [m].
+// Rounding error of displacements of about 1e-3 m after as many additions in float32 [m].
 constexpr double kRounding_m = 1e-3 * kScalarLatticeSubsteps / (1 << 24);
 
-/// Largest difference of a displacement from the float64 reference [m].
+/// Returns the largest difference of a displacement from the float64 reference [m].
 double errorOf(const Specimen& specimen) {
   const double dt_s = 0.5 * safeTimeStep(specimen.model);
   ScalarLattice scalar(specimen.model, specimen.start, dt_s);
@@ -40,7 +40,7 @@ TEST(ScalarLattice, IsTheReferenceInFloat32) {
 
 TEST(ScalarLattice, KnowsDashpotAndDrag) {
   MaterialConfig material = specimenMaterial(0.3);
-  material.drag_per_s = 50;
+  material.mass_damping_per_s = 50;
   EXPECT_LT(errorOf(cubeOf(6, material)), kRounding_m);
 }
 

@@ -10,7 +10,7 @@ namespace {
 constexpr int kSide = 40;
 constexpr double kRounding = 1e-9;
 
-/// Stripes of a width, with a border of 8 pixels.
+/// Returns stripes of a given width, with a border of 8 pixels.
 std::vector<uint8_t> stripes(int width_px, int bright) {
   std::vector<uint8_t> out;
   for (int y = 0; y < kSide; ++y) {
@@ -33,7 +33,7 @@ TEST(Similarity, IsOneForTheSamePictureAndLessForOthers) {
   EXPECT_LT(other.seen, other.all) << "the border is alike";
 }
 
-/// Of two even pictures what the formula leaves is the ratio of their means.
+/// In uniform pictures the formula reduces to the ratio of their means.
 TEST(Similarity, OfEvenPicturesIsThatOfTheirMeans) {
   const std::vector<uint8_t> a(size_t{3} * kSide * kSide, 100), b(size_t{3} * kSide * kSide, 120);
   const double c = 2.55 * 2.55;

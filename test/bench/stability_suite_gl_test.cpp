@@ -21,7 +21,7 @@ TEST(ExtremeStarts, AreEightAndDeserveTheirNames) {
     if (start.name == "mirrored") {
       EXPECT_LT(energy_j, 1e-6) << "springs do not see it";
     } else {
-      EXPECT_GT(energy_j, 1e-4) << start.name;  // J; all of it at c_p would be 0.1
+      EXPECT_GT(energy_j, 1e-4) << start.name;  // J; if all of it moved at c_p, it would be 0.1
     }
   }
 }
@@ -33,26 +33,26 @@ TEST_P(StabilityTrial, ExplosionWithoutGovernorIsSeen) {
   const Backend backend = GetParam();
   const Model model = blockModel({3, 3, 3}, 0.005, {});
   Scene scene = sceneAt(model, Integrator::kLeapfrog, 10);
-  scene.solver.governor = false;
+  scene.solver.stability_monitor = false;
   const Outcome wild = tryStart(backend, model, scene, extremeStarts(model)[0], 20);
   EXPECT_TRUE(!wild.finite || wild.energy_ratio > 1e6);
-  scene.solver.governor = true;
+  scene.solver.stability_monitor = true;
   const Outcome governed = tryStart(backend, model, scene, extremeStarts(model)[0], 20);
   EXPECT_TRUE(governed.finite);
   EXPECT_GT(governed.trips, 0u);
   EXPECT_LT(governed.over_bound, 1);
 }
 
-/// Roll-backs alone would keep such starts within all bounds by keeping them as they are.
+/// Roll-backs alone would keep such starts within all bounds by never leaving them.
 TEST_P(StabilityTrial, TissueOfTheLawGetsOutOfExtremeStarts) {
   constexpr int kTicks = 60;
   const gpu::Context context;
   const Model model = askewBox(4, 0.45);
   Scene scene = sceneAt(model, Integrator::kLeapfrog, 1);
-  scene.solver.substeps = 0;  // as measured
+  scene.solver.substeps = 0;  // chosen by measurement
   for (const Start& start : extremeStarts(model)) {
     const bool is_chosen =
-        start.name == "random" || start.name == "mirrored";  // others are dear on a software rasteriser
+        start.name == "random" || start.name == "mirrored";  // others are slow on a software renderer
     if (start.name == kCollapsed || (!is_chosen && GetParam() == Backend::kGpu)) continue;
     const Outcome outcome = tryStart(GetParam(), model, scene, start, kTicks);
     EXPECT_TRUE(outcome.finite) << start.name;
@@ -65,7 +65,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, StabilityTrial, ::testing::Values(Backend::kC
 
 #ifdef VISCERA_HAS_COMMAND
 void expectStabilityLimits(const std::string& backend) {
-  const bool on_cpu = backend == "cpu";  // without a device, where `both` is the CPU alone and says so
+  const bool on_cpu = backend == "cpu";  // without a device, so that `both` is the CPU alone and reports that
   std::vector<std::string> environment;
   if (on_cpu) environment.emplace_back("__EGL_VENDOR_LIBRARY_FILENAMES=/dev/null");
   const test::TemporaryFolder folder;
@@ -74,8 +74,8 @@ void expectStabilityLimits(const std::string& backend) {
       {"bench", "stability", "--short", "--strict", "--backend", on_cpu ? "both" : backend, "--out", folder.path()},
       environment);
   EXPECT_EQ(ending.status, 0) << ending.out << ending.err;
-  EXPECT_EQ(bool(test::says(ending.out, {"alone, as there is no OpenGL context"})), on_cpu);
-  EXPECT_TRUE(test::says(ending.out, {"extreme starts", "what tools do", "random cuts", "state hash", ", 0 missed"}));
+  EXPECT_EQ(bool(test::says(ending.out, {"only, because there is no OpenGL context"})), on_cpu);
+  EXPECT_TRUE(test::says(ending.out, {"extreme starts", "effect of tools", "random cuts", "state hash", ", 0 missed"}));
   for (const char* table : {"starts", "starts_law", "fractions", "tools", "cuts", "ratios", "rest", "units", "far",
                             "sizes", "hashes", "hashes_law"}) {
     const std::string rows = test::readFile(folder.file(std::string("stability_") + table + ".csv"));

@@ -1,8 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// `viscera bench validate`: measured curves are read as they are or refused; scenes are rubber and Hertz at small
-// depth.
+// `viscera bench validate`: measured curves are read or refused; scenes are rubber and Hertz contact at small depth.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,7 +29,7 @@ std::vector<MeasuredCurve> readText(const std::string& text) {
   return readMeasuredCurves(path, kMost);
 }
 
-/// A neo-Hookean rubber, E in kPa, at strains of 0 to 0.6.
+/// Returns a neo-Hookean rubber, E in kPa, at strains of 0 to 0.6.
 std::string rubber(double young_kpa) {
   std::ostringstream out;
   out << "strain,rubber_mean_kpa\r\n";
@@ -59,15 +58,15 @@ TEST(MeasuredCurves, AreRefusedWithLineAndColumn) {
     }
   };
   refused("", "empty");
-  refused("force,A_mean_kpa\n", ":1: wanted a first column 'strain'");
-  refused("strain,A_sd_kpa\n", ":1: wanted columns NAME_mean_kpa");
-  refused(kHead + "0,0,0,0\n", ":2: wanted 5 columns; found 4");
-  refused(kHead + "0,0,0,x,0\n", ":2: B_mean_kpa: wanted a number");
+  refused("force,A_mean_kpa\n", ":1: the first column must be 'strain'");
+  refused("strain,A_sd_kpa\n", ":1: there must be columns NAME_mean_kpa");
+  refused(kHead + "0,0,0,0\n", ":2: must have 5 columns; found 4");
+  refused(kHead + "0,0,0,x,0\n", ":2: B_mean_kpa: must be a number");
   refused(kHead + "0,nan,0,0,0\n", ":2: A_mean_kpa");
-  refused(kHead + "0,0,0,0,0\n0,0,0,0,0\n", ":3: strain: wanted more");
-  refused(kHead + "2,0,0,0,0\n", ":2: strain: wanted a number 0 .. 0.99");
-  refused(kHead + "0,0,0,0,0\n0.4,0,0,0,0\n", "0 .. 0.5 at least");
-  refused(kHead + "0.1,0,0,0,0\n0.6,0,0,0,0\n", "0 .. 0.5 at least");
+  refused(kHead + "0,0,0,0,0\n0,0,0,0,0\n", ":3: strain: must be larger");
+  refused(kHead + "2,0,0,0,0\n", ":2: strain: must be a number, 0 .. 0.99");
+  refused(kHead + "0,0,0,0,0\n0.4,0,0,0,0\n", "at least 0 .. 0.5");
+  refused(kHead + "0.1,0,0,0,0\n0.6,0,0,0,0\n", "at least 0 .. 0.5");
 }
 
 TEST(MeasuredCurves, TakeWhateverBytes) {

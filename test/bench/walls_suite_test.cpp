@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// `viscera bench walls`: its organs are those that CalculiX was given, and its short form reaches its limits.
+// `viscera bench walls`: its organs are those of the CalculiX reference, and its short form reaches its limits.
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -14,10 +14,10 @@
 namespace viscera::bench {
 namespace {
 
-/// What flat triangles take from the volume of a curved wall, at most.
+/// Largest share by which flat triangles reduce the volume of a curved wall.
 constexpr double kFlat = 4e-3;
 
-/// Of half the organ, as bench/references/walls.py prints it: meshed [cm3].
+/// Returns the meshed volume of half the organ, as bench/references/walls.py prints it [cm3].
 double meshed_cm3(const std::string& organ) {
   if (organ == "bowl") return 11.524;
   if (organ == "bladder") return 15.109;

@@ -14,17 +14,17 @@
 #include "support/gpu_fixture.h"
 #include "support/text.h"
 #include "viscera/math/error.h"
-#include "viscera/solver/governor.h"
+#include "viscera/solver/stability_monitor.h"
 
 namespace viscera {
 namespace {
 
 using namespace test;
 
-constexpr StepTime kMachine{5e-7, 4e-9};  ///< 250 M nodes/s once busy: given, so that the choice is always the same
-constexpr double kMostLoad = 1.02;  ///< the rule of substeps is taken from a coarse lattice, whole ones are counted
+constexpr StepTime kMachine{5e-7, 4e-9};  ///< 250 M nodes/s once busy: fixed, so that the choice is always the same
+constexpr double kMostLoad = 1.02;  ///< the number of substeps is an integer, and its rule comes from a coarse lattice
 
-/// The block of other tests with spacing_m: auto, on a machine whose speed is known.
+/// The block of other tests with spacing_m: auto, on a machine of known speed.
 class AutoSpacing : public GpuTest {
  protected:
   AutoSpacing() {
@@ -38,8 +38,8 @@ class AutoSpacing : public GpuTest {
   Scene scene_ = blockScene();
 };
 
-/// Clock time that stepping a second of a scene takes on the known machine, while the tissue is strained [s]: as far as
-/// measured substeps follow, or beyond.
+/// Returns the clock time for one second of a scene on the known machine, while the tissue is strained [s]. If the
+/// limit of the substep is measured, takes as many substeps as it requires.
 double seconds(const Scene& scene) {
   const Model model = buildModel(scene);
   const SubstepPlan plan = planSubsteps(model, scene.solver, safeTimeStep(model));
@@ -58,7 +58,7 @@ TEST_F(AutoSpacing, IsTheFinestLatticeThatTheMachineStepsInTime) {
   EXPECT_FALSE(scene.bodies[0].auto_spacing);
   const double load = seconds(scene) * scene.solver.real_time_factor / share();
   EXPECT_LT(load, kMostLoad);
-  EXPECT_GT(load, 0.8);  // the block has some 20 layers: one more is a sixth more nodes
+  EXPECT_GT(load, 0.8);  // the block has some 20 layers: one more means a sixth more nodes
 }
 
 TEST(ShareOfSteps, LeavesASoftwareRasteriserWhatTenPicturesASecondTake) {
@@ -88,7 +88,7 @@ TEST_F(AutoSpacing, FollowsTheFactorTheStiffnessAndTheCameras) {
   scene_.solver.real_time_factor *= 16;
   EXPECT_NEAR(chosenSpacing_m(), 2 * usual_m, 0.2 * usual_m);
   scene_.solver.real_time_factor /= 16;
-  scene_.bodies[0].material.young_modulus_pa *= 9;  // three times the substeps
+  scene_.bodies[0].material.young_modulus_pa *= 9;  // makes three times as many substeps
   EXPECT_NEAR(chosenSpacing_m(), std::pow(3, 0.25) * usual_m, 0.1 * usual_m);
   scene_.bodies[0].material.young_modulus_pa /= 9;
   scene_.cameras.clear();
@@ -108,7 +108,7 @@ TEST_F(AutoSpacing, IsAcceptedByTheSolverWhereItsLimitsDecide) {
   Scene scene = chosen();
   EXPECT_TRUE(says(scene.bodies[0].spacing_note, {"solver.max_substeps"}));
   const Model model = buildModel(scene);
-  EXPECT_GE(planSubsteps(model, scene.solver, safeTimeStep(model)).strained, 34);  // one cell less; throws above 40
+  EXPECT_GE(planSubsteps(model, scene.solver, safeTimeStep(model)).strained, 34);  // for one cell less; throws above 40
   scene_.solver.substeps = 30;
   scene = chosen();
   const Model given = buildModel(scene);
@@ -143,7 +143,7 @@ TEST_F(AutoSpacing, OfSeveralBodiesIsOneAndOthersKeepTheirs) {
   EXPECT_EQ(scene.bodies[0].spacing_m, scene.bodies[1].spacing_m);
   EXPECT_EQ(scene.bodies[2].spacing_m, scene_.bodies[2].spacing_m);
   EXPECT_TRUE(scene.bodies[1].spacing_note.empty());
-  scene_.bodies[2].spacing_m /= 4;  // leaves less for the two
+  scene_.bodies[2].spacing_m /= 4;  // leaves less for the two others
   EXPECT_GT(chosenSpacing_m(), alone_m);
 }
 

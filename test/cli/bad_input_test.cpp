@@ -10,10 +10,10 @@ namespace {
 
 using namespace test;
 
-/// A folder with a good scene; every test spoils one thing.
+/// A folder with a valid scene; every test makes one thing invalid.
 class BadInput : public ::testing::Test {
  protected:
-  /// The command must end with status 1 and one line that names the culprit, and print no result.
+  /// Expects that the command ends with status 1 and one line that names the fault, and prints no result.
   static void expectRefusal(const std::vector<std::string>& arguments, const std::vector<std::string>& parts,
                             const std::vector<std::string>& environment = {}) {
     const Ending ending = viscera(arguments, environment);
@@ -24,7 +24,7 @@ class BadInput : public ::testing::Test {
     EXPECT_TRUE(says(errors[0], parts));
     EXPECT_EQ(ending.out.find("state_hash"), std::string::npos);
   }
-  /// The same of a run of the good scene with these options.
+  /// Expects the same of a run of the valid scene with these options.
   void expectRunRefusal(std::vector<std::string> options, const std::vector<std::string>& parts) {
     options.insert(options.begin(), {"run", scene_, "--seconds", "0.05"});
     expectRefusal(options, parts);
@@ -32,7 +32,7 @@ class BadInput : public ::testing::Test {
   void expectSetRefusal(const std::string& key_value, const std::vector<std::string>& parts) {
     expectRunRefusal({"--set", key_value}, parts);
   }
-  /// Strokes of one key of a stylus.
+  /// Returns strokes with one key of a stylus.
   std::string strokes(const std::string& stylus, const std::string& more = "") {
     return folder_.write("strokes.yaml", "strokes:\n  - {stylus: " + stylus + ", keys: [{t_s: 0}]" + more + "}\n");
   }
@@ -60,7 +60,7 @@ TEST_F(BadInput, KeysAndValuesThatWereRemoved) {
     expectRunRefusal({"--set", "solver.integrator=" + integrator},
                      {"'solver.integrator: " + integrator + "' was removed", "use leapfrog"});
   expectRunRefusal({"--set", "bodies[0].structure=tetrahedra"}, {"was removed", "use lattice", "Gmsh"});
-  expectRunRefusal({"--set", "solver.spring_forces=edge"}, {"'solver.spring_forces' was removed", "leave it out"});
+  expectRunRefusal({"--set", "solver.spring_forces=edge"}, {"'solver.spring_forces' was removed", "remove it"});
   expectRunRefusal({"--set", "bodies[0].material.cells=moments"}, {"material.cells' was removed", "material.law"});
   for (const std::string key : {"search=grid", "partitions=2", "window=8"})
     expectRunRefusal({"--set", "collision." + key}, {"was removed", "the search for contacts is complete"});
@@ -105,7 +105,7 @@ TEST_F(BadInput, MeshFile) {
   expectRunRefusal({"--mesh", folder_.write("inch.obj",
                                             "v 0 0 0\nv 3.937 0 0\nv 0 2.362 0\nv 0 0 1.575\nf 1 3 2\n"
                                             "f 1 2 4\nf 1 4 3\nf 2 3 4\n")},
-                   {"inch.obj", "3.937 m wide: unit_scale_m=", "0.0254 (inches)?"});
+                   {"inch.obj", "3.937 m wide; should it be unit_scale_m=", "0.0254 (inches)?"});
   expectRunRefusal({"--mesh", folder_.write("nan.obj", "v nan 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n")}, {"nan.obj"});
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-/// What is wrong is said in one line that is safe to print, whatever was given.
+/// Errors are reported in one line that is safe to print, for any input.
 class ErrorLines : public ::testing::Test {
  protected:
   static std::string lineOf(const Ending& ending, bool is_understood = true) {
@@ -48,7 +48,7 @@ TEST_F(ErrorLines, ControlCharactersOfTheInputAreEscaped) {
 
 TEST_F(ErrorLines, LongInputIsCutInTheMiddle) {
   const std::string line = lineOfRun({"--set", "bodies[0].spacing_m=" + std::string(50000, 'x')});
-  EXPECT_TRUE(says(line, {"override: 'bodies[0].spacing_m' is a number", " ... "}));
+  EXPECT_TRUE(says(line, {"override: 'bodies[0].spacing_m' must be a number", " ... "}));
   EXPECT_TRUE(says(lineOfRun({"--strokes", std::string(3000, 'n') + ".yaml"}), {"nnn ... nnn", "cannot be read"}));
 }
 
@@ -69,7 +69,7 @@ TEST_F(ErrorLines, VersionIsNoError) {
 }
 
 TEST_F(ErrorLines, MemoryThatDoesNotSufficeSaysWhatFor) {
-  // A million cells need some 100 MB more than a program that has loaded its libraries.
+  // A million cells need about 100 MB more than a program that has loaded its libraries.
   const std::string command = "ulimit -v 600000; exec " + shellQuoted(kCommand) + " run " + shellQuoted(scene_) +
                               " --no-view --set bodies[0].spacing_m=0.0001";
   const std::string line = lineOf(runProgram("bash", {"-c", command}));

@@ -16,7 +16,7 @@ namespace {
 using namespace test;
 using Json = nlohmann::json;
 
-/// An ellipsoid as a mesh file.
+/// Returns an ellipsoid as a mesh file.
 std::string ellipsoid(const Vector3d& size_m) {
   constexpr int kRings = 24, kSides = 48;
   std::string points, faces;
@@ -34,7 +34,7 @@ std::string ellipsoid(const Vector3d& size_m) {
   return points + faces;
 }
 
-/// Organs that the built-in heart's session is played on, without a word about any of them.
+/// Organs for the built-in heart's session, which is not adapted to any of them.
 struct Organ {
   const char* name;
   Vector3d size_m;
@@ -54,7 +54,7 @@ class FitCommand : public ::testing::Test {
     return {"heart", "--mesh", folder_.write("organ.obj", ellipsoid(organ.size_m)), "--set",
             "bodies[0].up_axis=" + organ.up_axis};
   }
-  /// What a run of so much of the demo's session prints.
+  /// Returns the output of a run of part of the demo's session.
   Json run(std::vector<std::string> arguments, const std::string& seconds, const std::string& strokes) const {
     arguments.insert(arguments.begin(), "run");
     arguments.insert(arguments.end(), {"--no-view", "--seconds", seconds, "--strokes", strokes});
@@ -68,16 +68,16 @@ class FitCommand : public ::testing::Test {
 };
 
 TEST_F(FitCommand, DemoDentsAndCutsOrgansOfOtherSizes) {
-  constexpr int kLeast = 15;  // springs, at so few nodes: a stroke that just grazes the skin cuts fewer
+  constexpr int kLeast = 15;  // springs, with this few nodes: a stroke that only grazes the surface cuts fewer
   for (const Organ& organ : organs()) {
     SCOPED_TRACE(organ.name);
     std::vector<std::string> session = options(organ);
-    session.insert(session.end(), {"--set", "bodies[0].target_nodes=2500"});  // quick
+    session.insert(session.end(), {"--set", "bodies[0].target_nodes=2500"});  // runs fast
     const Json dent = run(session, "1.1", demo_), incision = run(session, "2.8", demo_);
     EXPECT_GT(dent["peak_force_n"], 0.0);
     EXPECT_EQ(dent["springs_cut"], 0);
     EXPECT_GE(incision["springs_cut"], kLeast);
-    if (organ.up_axis == "z" && organ.size_m.x() < 0.2) continue;  // the whole demo, where it is turned farthest
+    if (organ.up_axis == "z" && organ.size_m.x() < 0.2) continue;  // the whole demo, for the organ that is rotated most
     const Json flap = run(session, "6.2", demo_);
     EXPECT_GE(flap["springs_cut"].get<int>() - incision["springs_cut"].get<int>(), kLeast);
   }
@@ -85,7 +85,7 @@ TEST_F(FitCommand, DemoDentsAndCutsOrgansOfOtherSizes) {
 
 TEST_F(FitCommand, WrittenSceneAndStrokesAreWhatWasRun) {
   std::vector<std::string> session = options(organs()[0]);
-  session.insert(session.end(), {"--set", "bodies[0].target_nodes=3000"});  // quick
+  session.insert(session.end(), {"--set", "bodies[0].target_nodes=3000"});  // runs fast
   const std::string scene = folder_.file("scene.yaml"), strokes = folder_.file("strokes.yaml");
   std::vector<std::string> fit = session, anchor = session;
   fit.insert(fit.begin(), "fit");

@@ -22,9 +22,9 @@ namespace {
 
 using namespace test;
 
-constexpr int kSide = 24;                          // voxels
-constexpr double kVoxelMm = 2;                     // of 2 mm
-constexpr int kLow = 4, kHigh = 20, kBorder = 12;  // of a block of labels 3 (right, k below the border) and 7
+constexpr int kSide = 24;                          // [voxels]
+constexpr double kVoxelMm = 2;                     // size of a voxel
+constexpr int kLow = 4, kHigh = 20, kBorder = 12;  // block of labels 3 (right, k below the border) and 7
 
 /// A PNG file as RGB, rows from the top.
 struct Picture {
@@ -35,7 +35,7 @@ struct Picture {
     rgb.resize(PNG_IMAGE_SIZE(image));
     png_image_finish_read(&image, nullptr, rgb.data(), 0, nullptr);
   }
-  /// Mean x and y, as shares of the picture, of what is coloured: neither grey nor black.
+  /// Returns the mean x and y of coloured pixels (neither grey nor black), relative to the image.
   Eigen::Vector2d colouredMiddle() const {
     Eigen::Vector2d sum(0, 0);
     double count = 0;
@@ -54,7 +54,7 @@ struct Picture {
 
 class ImportCommand : public ::testing::Test {
  protected:
-  /// A block of 16 x 16 x 16 voxels in two halves, as NRRD in LPS.
+  /// Returns a block of 16 x 16 x 16 voxels in two halves, as NRRD in LPS.
   std::string scan(const std::string& space = "space: left-posterior-superior\n") const {
     std::string voxels;
     for (int k = 0; k < kSide; ++k)
@@ -68,7 +68,7 @@ class ImportCommand : public ::testing::Test {
                                           "encoding: raw\n\n" +
                                           voxels);
   }
-  /// Real numbers of 24 x 24 x 24 voxels as NRRD in LPS.
+  /// Returns real numbers of 24 x 24 x 24 voxels as NRRD in LPS.
   std::string realScan(const std::string& name, const std::function<float(int, int, int)>& value) const {
     std::string voxels;
     for (int k = 0; k < kSide; ++k)
@@ -98,8 +98,8 @@ class ImportCommand : public ::testing::Test {
 TEST_F(ImportCommand, ListsLabelsAndRange) {
   const Ending ending = import({scan(), "--list"});
   EXPECT_EQ(ending.status, 0) << ending.err;
-  EXPECT_TRUE(says(ending.out,
-                   {"format: NRRD", "24 x 24 x 24", "2, 2, 2 mm", "lead to LPS", "0 to 7", "3, -, 2048", "7, -, 2048"}))
+  EXPECT_TRUE(says(ending.out, {"format: NRRD", "24 x 24 x 24", "2, 2, 2 mm", "directions of i, j, k: LPS", "0 to 7",
+                                "3, -, 2048", "7, -, 2048"}))
       << ending.out;
 }
 
@@ -108,7 +108,7 @@ TEST_F(ImportCommand, ScenePlaysAndMeshesHaveTheLabelsVolume) {
   const Ending ending = import({scan(), "--spacing", "0.004", "--out", out});
   ASSERT_EQ(ending.status, 0) << ending.err;
   constexpr double kVolumeM3 = 2048 * kVoxelMm * kVoxelMm * kVoxelMm * 1e-9;
-  constexpr double kSame = 0.01;  // surfaces are rounded, and keep the voxels' volume within
+  constexpr double kSame = 0.01;  // surfaces are rounded, and keep the voxels' volume to this accuracy
   for (const char* file : {"/label_3.ply", "/label_7.ply"})
     EXPECT_NEAR(signedVolume(importMesh(out + file, 1)), kVolumeM3, kSame * kVolumeM3);
   const Ending run = viscera({"run", out + "/scene.yaml", "--no-view", "--seconds", "0.05"});
@@ -124,7 +124,7 @@ TEST_F(ImportCommand, WhatIsExportedLiesOverTheScan) {
   const std::filesystem::directory_iterator files(out + "/export");
   Eigen::AlignedBox3d box;
   for (const Vector3f& p : importMesh(files->path(), 1).positions_m) box.extend(p.cast<double>());
-  constexpr double kSkinMm = kVoxelMm;  // a skin follows its lattice within half a spacing, which is two voxels
+  constexpr double kSkinMm = kVoxelMm;  // a surface mesh follows its lattice within half a spacing, which is two voxels
   const Vector3d low = kVoxelMm * Vector3d(kLow - 0.5, kLow - 0.5, kBorder - 0.5);
   EXPECT_LT((box.min() - low).cwiseAbs().maxCoeff(), kSkinMm) << box.min().transpose();
   EXPECT_LT((box.max() - Vector3d::Constant(kVoxelMm * (kHigh - 0.5))).cwiseAbs().maxCoeff(), kSkinMm);
@@ -134,7 +134,7 @@ TEST_F(ImportCommand, StrokesTouchAndCut) {
   const std::string out = folder_.file("organs");
   const Ending ending = import({scan(), "--spacing", "0.003", "--out", out});
   ASSERT_EQ(ending.status, 0) << ending.err;
-  EXPECT_TRUE(says(ending.out, {"reading", "surfaces", "previews", "play it: viscera run", "/strokes.yaml"}))
+  EXPECT_TRUE(says(ending.out, {"reading", "surfaces", "previews", "run it: viscera run", "/strokes.yaml"}))
       << ending.out;
   const Ending run = viscera({"run", out + "/scene.yaml", "--strokes", out + "/strokes.yaml", "--no-view"});
   ASSERT_EQ(run.status, 0) << run.err;
@@ -143,7 +143,7 @@ TEST_F(ImportCommand, StrokesTouchAndCut) {
 }
 
 TEST_F(ImportCommand, SmallOrgansAreNotHiddenByTheToolThatDentsThem) {
-  constexpr double kTissue = 0.1, kTools = 0.05;  // shares of the picture: at least, at most; a shaft of 12 cm has 0.06
+  constexpr double kTissue = 0.1, kTools = 0.05;  // shares of the image: at least, at most; a shaft of 12 cm has 0.06
   for (const double radius : {5.0, 10.0}) {       // voxels: 2 and 4 cm across
     SCOPED_TRACE(radius);
     const std::string ball = realScan("ball.nrrd", [&](int i, int j, int k) {
@@ -171,7 +171,7 @@ TEST_F(ImportCommand, SmallOrgansAreNotHiddenByTheToolThatDentsThem) {
 }
 
 TEST_F(ImportCommand, StrokesTouchWhatIsNotHeld) {
-  // A bowl, open to the front: what is seen in the middle is the inner side of its rear, which is held.
+  // A bowl, open to the front: its visible middle is the inner side of its rear, which is fixed.
   const std::string bowl = realScan("bowl.nrrd", [](int i, int j, int k) {
     const double away = (Vector3d(i, j, k) - Vector3d::Constant(11.5)).norm();
     return j >= 8 && away > 8 && away < 10.5 ? 1.0F : 0.0F;
@@ -181,13 +181,13 @@ TEST_F(ImportCommand, StrokesTouchWhatIsNotHeld) {
   const Ending run =
       viscera({"run", out + "/scene.yaml", "--strokes", out + "/strokes.yaml", "--no-view", "--seconds", "1.1"});
   ASSERT_EQ(run.status, 0) << run.err;
-  EXPECT_EQ(run.out.find("only tissue that is held"), std::string::npos) << run.out;
-  const std::string key = "\"peak_force_n\":";  // of all tools together, before those of each
+  EXPECT_EQ(run.out.find("only fixed tissue"), std::string::npos) << run.out;
+  const std::string key = "\"peak_force_n\":";  // of all tools together, before those of each tool
   EXPECT_NE(run.out.substr(run.out.find(key) + key.size(), 4), "0.0,") << run.out;
 }
 
 TEST_F(ImportCommand, PreviewsHaveLeftWhereTheirLettersSay) {
-  // A block in the left, anterior, upper corner: x of LPS grows to the left, y to behind.
+  // A block in the left, anterior, upper corner: x of LPS grows to the left, y to the back.
   const auto corner = [](int i, int j, int k) {
     return i >= 14 && i < 21 && j >= 3 && j < 10 && k >= 14 && k < 21 ? 1.0F : 0.0F;
   };
@@ -196,8 +196,8 @@ TEST_F(ImportCommand, PreviewsHaveLeftWhereTheirLettersSay) {
   ASSERT_EQ(import({labels, "--grey", grey, "--out", folder_.file("a")}).status, 0);
   ASSERT_EQ(import({labels, "--no-previews", "--out", folder_.file("b")}).status, 0);
   EXPECT_FALSE(std::filesystem::exists(folder_.file("b/preview")));
-  constexpr double kNear = 0.02;                    // of a picture: lines are pixels wide
-  const double far = 17.5 / kSide, near = 1 - far;  // middle of the block
+  constexpr double kNear = 0.02;                    // relative to the image: lines are pixels wide
+  const double far = 17.5 / kSide, near = 1 - far;  // centre of the block
   const std::vector<std::pair<std::string, Eigen::Vector2d>> slices = {
       {"axial", {far, near}}, {"coronal", {far, near}}, {"sagittal", {near, near}}};
   for (const auto& [name, expected] : slices) {
@@ -215,7 +215,7 @@ TEST_F(ImportCommand, PreviewsHaveLeftWhereTheirLettersSay) {
 }
 
 TEST_F(ImportCommand, AWindowsSurfaceIsWhereValuesCrossIt) {
-  const double kRadius = 7.3, kMiddle = 11.4;  // voxels
+  const double kRadius = 7.3, kMiddle = 11.4;  // [voxels]
   const auto inside = [&](int i, int j, int k) {
     return kRadius - (Eigen::Vector3d(i, j, k) - Eigen::Vector3d::Constant(kMiddle)).norm();
   };
@@ -226,9 +226,9 @@ TEST_F(ImportCommand, AWindowsSurfaceIsWhereValuesCrossIt) {
       realScan("mask.nrrd", [&](int i, int j, int k) { return inside(i, j, k) >= 0 ? 1.0F : 0.0F; });
   ASSERT_EQ(import({ball, "--window", "0,1000", "--no-previews", "--out", folder_.file("values")}).status, 0);
   ASSERT_EQ(import({mask, "--no-previews", "--out", folder_.file("mask")}).status, 0);
-  const auto error = [&](const std::string& file) {  // RMS, voxels
+  const auto error = [&](const std::string& file) {  // RMS [voxels]
     const TriangleMesh mesh = importMesh(folder_.file(file), 1);
-    const Vector3d middle = kMiddle * kVoxelMm * 1e-3 * Vector3d(-1, 1, 1);  // of LPS, as anterior, left, up
+    const Vector3d middle = kMiddle * kVoxelMm * 1e-3 * Vector3d(-1, 1, 1);  // from LPS to anterior, left, up
     double sum = 0;
     for (const Vector3f& p : mesh.positions_m) {
       const Vector3d way = p.cast<double>() - middle;
@@ -236,7 +236,7 @@ TEST_F(ImportCommand, AWindowsSurfaceIsWhereValuesCrossIt) {
     }
     return std::sqrt(sum / static_cast<double>(mesh.positions_m.size()));
   };
-  constexpr double kMost = 0.05;  // docs/surface_net.md
+  constexpr double kMost = 0.05;  // docs/volumes.md
   EXPECT_LT(error("values/window.ply"), kMost);
   EXPECT_GT(error("mask/label_1.ply"), 2 * error("values/window.ply"));
 }
@@ -255,7 +255,7 @@ TEST_F(ImportCommand, ALabelWhoseVoxelsOthersHaveIsLeftOut) {
           voxels);
   const Ending ending = import({two, "--out", folder_.file("out")});
   EXPECT_EQ(ending.status, 0) << ending.err;
-  EXPECT_TRUE(says(ending.out, {"left out: other labels have all its voxels"})) << ending.out;
+  EXPECT_TRUE(says(ending.out, {"left out: all its voxels belong to other labels"})) << ending.out;
 }
 
 TEST_F(ImportCommand, VolumeThatASmoothSurfaceLosesIsNoted) {
@@ -277,7 +277,7 @@ TEST_F(ImportCommand, TakesALabelOrAWindow) {
   EXPECT_FALSE(std::filesystem::exists(folder_.file("seven/label_3.ply")));
   const Ending window = import({scan(), "--window", "2,8", "--out", folder_.file("all")});
   EXPECT_EQ(window.status, 0) << window.err;
-  EXPECT_TRUE(says(window.out, {"4096 voxels in the window", "no segmentation"})) << window.out;
+  EXPECT_TRUE(says(window.out, {"4096 voxels in the window", "not a segmentation"})) << window.out;
   EXPECT_TRUE(std::filesystem::exists(folder_.file("all/window.ply")));
 }
 
@@ -286,11 +286,11 @@ TEST_F(ImportCommand, TakesTheTissueThatALabelIsNamedAfter) {
                     out = folder_.file("named");
   const Ending ending = import({scan(), "--names", names, "--spacing", "0.004", "--out", out});
   ASSERT_EQ(ending.status, 0) << ending.err;
-  EXPECT_TRUE(says(ending.out, {"m, tissue kidney\n", "m, no tissue of its name"})) << ending.out;
+  EXPECT_TRUE(says(ending.out, {"m, tissue kidney\n", "m, no known tissue of this name"})) << ending.out;
   EXPECT_TRUE(says(readFile(out + "/scene.yaml"),
                    {"material: {tissue: kidney, poisson_ratio: 0.45}", "{young_modulus_pa: 10000,"}));
   const Ending run = viscera({"run", out + "/scene.yaml", "--no-view", "--seconds", "0.05"});
-  EXPECT_TRUE(says(run.out, {"left_kidney: tissue kidney: E 5000 Pa", "nu 0.45 of the scene instead of 0.49"}))
+  EXPECT_TRUE(says(run.out, {"left_kidney: tissue kidney: E 5000 Pa", "nu 0.45 from the scene instead of 0.49"}))
       << run.err;
 }
 

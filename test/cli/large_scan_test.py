@@ -18,11 +18,11 @@ import time
 
 SIZE = (512, 512, 1000)
 SPACING_MM = (0.8, 0.8, 1.0)
-# Label, middle and half axes [mm]: two lungs, a heart between them, a liver, two kidneys.
+# Label, centre and half axes [mm]: two lungs, a heart between them, a liver, two kidneys.
 ORGANS = [(1, (110, 200, 700), (55, 85, 140)), (2, (300, 200, 700), (55, 85, 140)), (3, (205, 180, 640), (50, 50, 60)),
           (4, (150, 190, 470), (90, 75, 70)), (5, (120, 280, 350), (30, 25, 55)), (6, (290, 280, 350), (30, 25, 55))]
 MOST_BYTES = 10**9
-SAME = 0.005  # of a volume: voxels of 1 mm at organs of 100 mm
+SAME = 0.005  # relative to a volume: voxels of 1 mm, organs of 100 mm
 
 
 def header():

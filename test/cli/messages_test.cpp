@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Errors and notes say where a mistake is, what was probably meant, and what has no effect.
+// Errors and notes name the place of a mistake, a likely correction, and settings without effect.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -15,7 +15,7 @@ using namespace test;
 
 class Messages : public ::testing::Test {
  protected:
-  /// The one line with which the command gives up.
+  /// Returns the one line with which the command gives up.
   static std::string lineOf(const std::vector<std::string>& arguments) {
     const Ending ending = viscera(arguments);
     EXPECT_NE(ending.status, 0);
@@ -28,7 +28,7 @@ class Messages : public ::testing::Test {
   static void expectSays(const std::string& line, const std::string& text) {
     EXPECT_NE(line.find(text), std::string::npos) << line;
   }
-  /// What a run says before its JSON. @param more  of the block scene
+  /// Returns the output of a run before its JSON. @param more  further options of the block scene
   std::string notesOf(const std::vector<std::string>& more) const {
     std::vector<std::string> arguments = {"run", scene_, "--no-view", "--seconds", "0.01"};
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -45,33 +45,33 @@ TEST_F(Messages, CheckSaysHowManyCellsTheWallsOfASceneHave) {
   const Ending heart = viscera({"check", "heart", "--set", "bodies[0].spacing_m=0.006"});
   EXPECT_EQ(heart.status, 0) << heart.err;
   expectSays(heart.out, "spacing 6 mm");
-  expectSays(heart.out, "walls: least ");
-  expectSays(heart.out, " % (an open bowl) too stiff, with material.walls: rows ");
-  expectSays(heart.out, "; with spacing_m 0.00");
+  expectSays(heart.out, "walls: thinnest ");
+  expectSays(heart.out, " % (an open bowl) too stiff in bending, at most ");
+  expectSays(heart.out, "; at spacing_m 0.00");
   const Ending rows =
       viscera({"check", "heart", "--set", "bodies[0].spacing_m=0.006", "--set", "bodies[0].material.walls=rows"});
   EXPECT_EQ(rows.status, 0) << rows.err;
-  expectSays(rows.out, "material.walls: rows: in ");
-  expectSays(rows.out, " % (an open bowl) too stiff; with spacing_m 0.00");
+  expectSays(rows.out, "material.walls: rows: used in ");
+  expectSays(rows.out, " % (an open bowl) too stiff in bending; at spacing_m 0.00");
   const Ending block = viscera({"check", scene_});
   EXPECT_EQ(block.status, 0) << block.err;
-  expectSays(block.out, "walls: least ");
+  expectSays(block.out, "walls: thinnest ");
   expectSays(lineOf({"check", "--set", "bodies[0].spacing_m=0.006"}), "--set requires scene");
   expectSays(lineOf({"check", "nosuch"}), "'nosuch' is neither a file nor the name of a shipped scene");
 }
 
 TEST_F(Messages, CallTabsAndWrongIndentsSo) {
-  const std::string tab = "indented by a tab; YAML accepts blanks alone";
+  const std::string tab = "indented by a tab; YAML accepts only spaces";
   expectSays(lineOfScene("name: a\nbodies:\n\t- name: b\n"), "bad.yaml:3: the line is " + tab);
   expectSays(lineOfScene("name: a\nbodies:\n  - name: b\n\t  source: box\n"), "bad.yaml:4: the line is " + tab);
   expectSays(lineOfScene("name: a\nbodies:\n  - name: b\n   source: box\n"),
-             "bad.yaml:4: wrong indent: the line is indented by 3, keys above by 0, 4");
+             "bad.yaml:4: wrong indentation: the line is indented by 3, keys above by 0, 4");
   expectSays(lineOfScene("name: a\nbodies:\n  - name: b\n    source: box\n  spacing_m: 1\n"),
-             "bad.yaml:5: wrong indent: the line is indented by 2, keys above by 0, 4");
+             "bad.yaml:5: wrong indentation: the line is indented by 2, keys above by 0, 4");
   expectSays(lineOfScene("name: a\nsolver:\n  tick_hz: 100\n    max_substeps: 4\n"),
-             "bad.yaml:4: wrong indent: the line is indented by 4, keys above by 0, 2");
+             "bad.yaml:4: wrong indentation: the line is indented by 4, keys above by 0, 2");
   expectSays(lineOfScene("bodies:\n   - name: a\n  - name: b\n"),
-             "bad.yaml:3: wrong indent: the line is indented by 2, items above by 3");
+             "bad.yaml:3: wrong indentation: the line is indented by 2, items above by 3");
   const std::string other = lineOfScene("name: a: b\n");
   expectSays(other, "bad.yaml:1: ");
   EXPECT_EQ(other.find("indent"), std::string::npos) << other;
@@ -80,11 +80,11 @@ TEST_F(Messages, CallTabsAndWrongIndentsSo) {
 TEST_F(Messages, NameWhatIsNearestFirst) {
   expectSays(lineOf({"rnu", "heart"}), "nearest to 'rnu' are run, ");
   expectSays(lineOf({"run", "heart", "--sceonds", "1"}), "nearest to '--sceonds' are --seconds, ");
-  expectSays(lineOf({"run", "heard"}), "shipped are heart, ");
-  expectSays(lineOf({"task", "cut_a_disk"}), "is neither a file nor the name of a shipped task; shipped are ");
+  expectSays(lineOf({"run", "heard"}), "shipped: heart, ");
+  expectSays(lineOf({"task", "cut_a_disk"}), "is neither a file nor the name of a shipped task; shipped: ");
   const std::string key = lineOf({"run", scene_, "--set", "solver.max_substep=3"});
   expectSays(key, "unknown key 'solver.max_substep'; accepted here: max_substeps, ");
-  expectSays(lineOf({"run", scene_, "--set", "solver.backend=gqu"}), "is one of gpu, ");
+  expectSays(lineOf({"run", scene_, "--set", "solver.backend=gqu"}), "must be one of gpu, ");
 }
 
 TEST_F(Messages, RefuseOptionsThatWriteNothing) {
@@ -94,11 +94,11 @@ TEST_F(Messages, RefuseOptionsThatWriteNothing) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return lineOf(arguments);
   };
-  expectSays(run({"--export", "threads"}), "--export threads: the scene has none");
-  expectSays(run({"--export", "network"}), "--export network: the scene has none");
+  expectSays(run({"--export", "sutures"}), "--export sutures: the scene has no sutures");
+  expectSays(run({"--export", "network"}), "--export network: no body has structure explicit");
   expectSays(run({"--export", "skin", "--every", "2"}), "--every 2 s is longer than the run, 0.1 s");
-  expectSays(run({"--depth"}), "--depth: comes with pictures, and there are none: leave out --no-view");
-  expectSays(run({"--labels"}), "--labels: comes with pictures");
+  expectSays(run({"--depth"}), "--depth: needs pictures; remove --no-view");
+  expectSays(run({"--labels"}), "--labels: needs pictures");
   EXPECT_FALSE(std::filesystem::exists(out)) << "nothing is made before the run is refused";
 }
 
@@ -115,10 +115,10 @@ TEST_F(Messages, SayFileAndLineOfPartsRegionsAndMeshes) {
 }
 
 TEST_F(Messages, NoteWhatHasNoEffectOrIsStrange) {
-  const std::string soft = "is softer than any organ: is it in kPa?";
+  const std::string soft = "is softer than any organ; was it given in kPa?";
   EXPECT_NE(notesOf({"--set", "bodies[0].material.young_modulus_pa=20"}).find(soft), std::string::npos);
   EXPECT_EQ(notesOf({}).find(soft), std::string::npos);
-  EXPECT_NE(notesOf({"--set", "bodies[0].target_nodes=200"}).find("spacing_m 0.01 is not used: target_nodes 200"),
+  EXPECT_NE(notesOf({"--set", "bodies[0].target_nodes=200"}).find("spacing_m 0.01 is ignored: target_nodes 200"),
             std::string::npos);
   const std::string far = folder_.write("far.yaml",
                                         "strokes:\n  - stylus: left\n    keys:\n"

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What the command writes destroys nothing: no input, no file of another kind, nothing that a full disk cuts short.
+// The command's outputs destroy nothing: no input, no file of another kind, and no file if the disk is full.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -25,7 +25,7 @@ class Outputs : public ::testing::Test {
       if (file.is_regular_file()) out.insert(file.path().lexically_relative(top).string());
     return out;
   }
-  /// The command says so in one line, and everything is as it was.
+  /// Expects an error in one line, and unchanged files.
   void expectRefused(const std::vector<std::string>& arguments, const std::string& says) const {
     std::map<std::string, std::string> before;
     for (const std::string& name : files()) before[name] = readFile(folder_.file(name));
@@ -37,11 +37,11 @@ class Outputs : public ::testing::Test {
     EXPECT_EQ(files().size(), before.size());
     for (const auto& [name, bytes] : before) EXPECT_EQ(readFile(folder_.file(name)), bytes) << name;
   }
-  /// Ends as where a disk is full. @param blocks  of 512 bytes, the most that a file may have
+  /// Runs a command as on a full disk. @param blocks  largest file size, in blocks of 512 bytes
   Ending withFileLimit(int blocks, const std::vector<std::string>& arguments) const {
     std::string command = "trap '' XFSZ; ulimit -f " + std::to_string(blocks) + "; exec " + shellQuoted(kCommand);
     for (const std::string& argument : arguments) command += " " + shellQuoted(argument);
-    Ending ending = runProgram("sh", {"-c", command + " 2>&1"});  // as files have no room
+    Ending ending = runProgram("sh", {"-c", command + " 2>&1"});  // because files cannot grow
     ending.err = ending.out;
     return ending;
   }
@@ -87,7 +87,7 @@ TEST_F(Outputs, OfOneRunHaveNamesOfTheirOwn) {
                 "--out and --save both write");
   ASSERT_EQ(viscera({"run", scene_, "--no-view", "--seconds", "0.1", "--record", file}).status, 0);
   expectRefused({"run", scene_, "--no-view", "--save", file},
-                file + ": cannot be written: there is already a recording of that name");
+                file + ": cannot be written: it already exists as a recording");
 }
 
 TEST_F(Outputs, StatesGoOnUnderOneNameAndEndInPartAsTheyLike) {
@@ -115,7 +115,7 @@ TEST_F(Outputs, OfAnOlderRunGoCompletely) {
   ASSERT_EQ(run({"--no-view", "--strokes", strokes_, "--seconds", "0.5", "--export", "skin", "--save", out + "/state"})
                 .status,
             0);
-  EXPECT_EQ(files("/out").count("hands.csv"), 1U);
+  EXPECT_EQ(files("/out").count("tools.csv"), 1U);
   EXPECT_EQ(files("/out").count("export/skin.pvd"), 1U);
   folder_.write("out/notes.txt", "mine");
   folder_.write("out/export/mine.vtp", "mine");

@@ -19,7 +19,7 @@ namespace {
 using namespace test;
 using Json = nlohmann::json;
 
-/// The probe presses the block's side, then grabs and lets go.
+/// The probe presses the block's side, then grabs and releases.
 constexpr const char* kTouch =
     "strokes:\n"
     "  - stylus: left\n"
@@ -30,7 +30,7 @@ constexpr const char* kTouch =
     "      - {t_s: 0.25, position_m: [0, -0.025, 0.002], button1: true}\n"
     "      - {t_s: 0.3, position_m: [0, -0.04, 0]}\n";
 
-/// A hand that takes the block's free end with button 1 and pulls it down.
+/// A stylus that grips the block's free end with button 1 and pulls it down.
 constexpr const char* kPull =
     "strokes:\n"
     "  - stylus: left\n"
@@ -68,23 +68,23 @@ class BenchReference : public ::testing::Test {
 }  // namespace
 
 TEST_F(BenchReference, NeedsNoGpuAndSaysTheSameThings) {
-  const Json gpu = lastLine(run({"--strokes", strokes_, "--set", "solver.governor=false"}));
+  const Json gpu = lastLine(run({"--strokes", strokes_, "--set", "solver.stability_monitor=false"}));
   const Json truth = lastLine(reference({"--strokes", strokes_}, {kNoDevice}));
   EXPECT_EQ(truth["backend"], "reference");
   EXPECT_EQ(truth["renderer"], "none");
   EXPECT_FALSE(truth.contains("gpu_error"));
   for (const auto& [key, value] : gpu.items()) {
-    EXPECT_TRUE(truth.contains(key) || key == "hands") << key;  // those are a session's, which it has not
+    EXPECT_TRUE(truth.contains(key) || key == "tools") << key;  // "tools" exists in sessions only
   }
   for (const char* key : {"nodes", "springs", "springs_cut", "faces", "steps", "dt_s", "dt_safe_s", "simulated_s"})
     EXPECT_EQ(truth[key], gpu[key]) << key;
   for (const char* key : {"max_stretch", "max_speed_m_per_s", "peak_force_n"}) {
-    EXPECT_NEAR(truth[key].get<double>() / gpu[key].get<double>(), 1, 1e-3) << key;  // float32, touched by a tool
+    EXPECT_NEAR(truth[key].get<double>() / gpu[key].get<double>(), 1, 1e-3) << key;  // float32, with a tool in contact
   }
 }
 
 TEST_F(BenchReference, GpuIsCloseToIt) {
-  constexpr double kTouched = 1e-5;  // of the largest displacement: float32 while a tool presses, grabs and lets go
+  constexpr double kTouched = 1e-5;  // relative to the largest displacement: float32 with a tool in contact
   EXPECT_LT(gpuError({}), kTouched);
   EXPECT_LT(gpuError({"bodies[0].material.poisson_ratio=0.4"}), kTouched);
 }
@@ -143,10 +143,10 @@ TEST_F(BenchReference, RefusesWhatRunRefuses) {
   EXPECT_TRUE(says(refusal({"--set", "bodies[0].spacing=1"}), {"override", "'bodies[0].spacing'"}));
 }
 
-/// Whether something lives in a scene's tissue that the reference does not know.
+/// Returns whether the tissue of a scene has processes that the reference does not support.
 bool usesProcesses(const std::filesystem::path& file) {
   const Scene scene = loadScene(file.string());
-  return hasThreadsOrClips(scene) || mayBurn(scene.styluses);
+  return hasSuturesOrClips(scene) || mayBurn(scene.styluses);
 }
 
 bool resistsBlades(const std::filesystem::path& scene) {
@@ -155,9 +155,9 @@ bool resistsBlades(const std::filesystem::path& scene) {
                      [](const BodyConfig& body) { return body.material.cut.toughness_j_per_m2 > 0; });
 }
 
-/// Shipped scenes are what they are, but for hearts, which are coarser than a user would want to look at them, and for
-/// blades that tissue resists, threads, needles and clips, which the reference says it has not: without them it takes
-/// their scene too.
+/// Shipped scenes are used as they are, with two exceptions. Hearts are coarser than for viewing. Blades that tissue
+/// resists, sutures, needles and clips are removed, since the reference reports that it does not support them; it
+/// accepts the scenes without them.
 TEST_F(BenchReference, RefusesNoSceneThatComesWithIt) {
   size_t scenes = 0;
   for (const auto& file : std::filesystem::directory_iterator(sourceFolder() + "/config/scenes")) {
@@ -170,7 +170,7 @@ TEST_F(BenchReference, RefusesNoSceneThatComesWithIt) {
       const bool counted = name == "pig_heart_size";
       options.insert(options.end(), {"--set", counted ? "bodies[0].target_nodes=2000" : "bodies[0].spacing_m=0.01"});
     }
-    if (usesProcesses(file.path())) options.insert(options.end(), {"--set", "threads=[]", "--set", "styluses=[]"});
+    if (usesProcesses(file.path())) options.insert(options.end(), {"--set", "sutures=[]", "--set", "styluses=[]"});
     if (resistsBlades(file.path())) options.insert(options.end(), {"--set", "bodies[0].material.cut={}"});
     const Json metrics = lastLine(viscera(options, {kNoDevice}));
     EXPECT_GT(metrics["nodes"], 0);

@@ -49,15 +49,15 @@ TEST_F(ReplayCommand, EndsInTheRecordedHashThreeTimes) {
     EXPECT_EQ(replayed["state_hash"], live["state_hash"]);
     EXPECT_EQ(replayed["recorded_hash_met"], true);
     EXPECT_EQ(replayed["to_recorded_end"], true);
-    EXPECT_EQ(replayed["pieces"][0], live["hands"]) << "measures are those of the session";
+    EXPECT_EQ(replayed["pieces"][0], live["tools"]) << "measures are those of the session";
   }
-  EXPECT_NEAR(live["hands"][0]["path_m"], 0.085 * 29 / 30, 1e-9) << "from the first tick to the end of the stroke";
-  EXPECT_LT(live["hands"][0]["sparc"], -1);
+  EXPECT_NEAR(live["tools"][0]["path_m"], 0.085 * 29 / 30, 1e-9) << "from the first tick to the end of the stroke";
+  EXPECT_LT(live["tools"][0]["sparc"], -1);
 }
 
 TEST_F(ReplayCommand, WhatWasRecordedBeforeAKillReplays) {
   Ending ending;
-  for (const char* seconds : {"2", "10", "40"}) {  // of a run that takes far longer; a busy machine has hardly begun
+  for (const char* seconds : {"2", "10", "40"}) {  // a busy machine has hardly begun after the first
     std::filesystem::remove(file_);
     runProgram("timeout",
                {"-s", "KILL", seconds, kCommand, "run", scene_, "--no-view", "--seconds", "80000", "--record", file_});
@@ -65,7 +65,7 @@ TEST_F(ReplayCommand, WhatWasRecordedBeforeAKillReplays) {
     if (ending.status == 0 && resultOf(ending)["recorded_s"] > 1) break;
   }
   ASSERT_EQ(ending.status, 0) << ending.err;
-  EXPECT_NE(ending.err.find("replayed up to there"), std::string::npos) << ending.err;
+  EXPECT_NE(ending.err.find("replayed up to that point"), std::string::npos) << ending.err;
   const nlohmann::json replayed = resultOf(ending);
   EXPECT_GT(replayed["recorded_s"], 1);
   EXPECT_TRUE(replayed.contains("cut"));
@@ -88,7 +88,7 @@ TEST_F(ReplayCommand, WritesPicturesOfOtherCameras) {
   const Ending ending = viscera({"replay", file_, "--out", out, "--depth", "--labels", "--set",
                                  "cameras=[{name: other, position_m: [0, -0.3, 0], width_px: 32, height_px: 32}]",
                                  "--set", "bodies[0].color=[0, 0, 1]", "--set", "solver.backend=cpu"});
-  // solver.backend is no key that may be another
+  // solver.backend must not be changed
   EXPECT_NE(ending.status, 0);
   EXPECT_NE(ending.err.find("solver.backend"), std::string::npos) << ending.err;
   const Ending taken = viscera({"replay", file_, "--out", out, "--depth", "--labels", "--set",
@@ -96,18 +96,18 @@ TEST_F(ReplayCommand, WritesPicturesOfOtherCameras) {
                                 "--set", "bodies[0].color=[0, 0, 1]"});
   ASSERT_EQ(taken.status, 0) << taken.err;
   for (const char* file : {"frames/other_000012.png", "frames/other_depth_000012.npy", "frames/other_labels_000012.png",
-                           "hands.csv", "metrics.json", "surface.ply"})
+                           "tools.csv", "metrics.json", "surface.ply"})
     EXPECT_TRUE(std::filesystem::exists(out + "/" + file)) << file;
-  EXPECT_EQ(linesOf(readFile(out + "/hands.csv")).size(), 13U);
+  EXPECT_EQ(linesOf(readFile(out + "/tools.csv")).size(), 13U);
 }
 
 TEST_F(ReplayCommand, SaysWhatIsWrong) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-      {{"replay", scene_}, "scene.yaml: is no recorded session"},
+      {{"replay", scene_}, "scene.yaml: is not a recorded session"},
       {{"replay", folder_.file("none")}, "none: cannot be read"},
-      {{"replay", folder_.path()}, "is no recorded session"},
+      {{"replay", folder_.path()}, "is not a recorded session"},
       {{"run", scene_, "--no-view", "--record", scene_}, "scene.yaml: cannot be written: this command reads it"},
-      {{"run", scene_, "--no-view", "--record", folder_.file("a/b")}, "a/b: cannot be made for a recording"},
+      {{"run", scene_, "--no-view", "--record", folder_.file("a/b")}, "a/b: cannot be created for a recording"},
   };
   for (const auto& [arguments, text] : cases) {
     const Ending ending = viscera(arguments);

@@ -16,7 +16,7 @@ std::string renew(const std::string& document, const std::string& command) {
   return "renew the table: sed -i '/^|/d' " + document + " && build/viscera " + command + " >> " + document;
 }
 
-/// Lines from the head of the table to the end of the text.
+/// Returns the lines from the header of the table to the end of the text.
 std::vector<std::string> tableOf(const std::string& text, const std::string& of) {
   const size_t head = text.find("| " + of + " |");
   return head == std::string::npos ? std::vector<std::string>() : linesOf(text.substr(head));

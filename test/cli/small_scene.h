@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,7 @@
 
 namespace viscera::test {
 
-/// A block of 4 x 4 x 4 cells that hangs from its top, with one stylus and one camera: 125 nodes, quick to run.
+/// A block of 4 x 4 x 4 cells that hangs from its top, with one stylus and one camera: 125 nodes, which run fast.
 constexpr const char* kBlockScene =
     "name: block\n"
     "bodies:\n"
@@ -26,7 +27,7 @@ inline Ending viscera(const std::vector<std::string>& arguments, const std::vect
   return runProgram(kCommand, arguments, environment);
 }
 
-/// Lines on standard error that say why the program gave up.
+/// Returns the lines on standard error that say why the program gave up.
 inline std::vector<std::string> complaints(const Ending& ending) {
   std::vector<std::string> out;
   for (const std::string& line : linesOf(ending.err))
@@ -34,7 +35,13 @@ inline std::vector<std::string> complaints(const Ending& ending) {
   return out;
 }
 
-/// Makes EGL find no device at all.
+/// Returns the JSON object on the last line of the output; discarded if that is none.
+inline nlohmann::json lastLine(const Ending& ending) {
+  const std::vector<std::string> lines = linesOf(ending.out);
+  return lines.empty() ? nlohmann::json() : nlohmann::json::parse(lines.back(), nullptr, false);
+}
+
+/// Makes EGL find no device.
 constexpr const char* kNoDevice = "__EGL_VENDOR_LIBRARY_FILENAMES=/dev/null";
 
 }  // namespace viscera::test

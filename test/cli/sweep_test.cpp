@@ -23,7 +23,7 @@ namespace {
 using namespace test;
 namespace fs = std::filesystem;
 
-/// Lines of a sweep's table by number of the run; commas in cells are not looked for.
+/// Returns the lines of a sweep's table by number of the run; commas within cells are not handled.
 std::map<int, std::string> rowsOf(const std::string& folder) {
   std::map<int, std::string> out;
   for (const std::string& line : linesOf(readFile(folder + "/results.csv"))) {
@@ -40,7 +40,7 @@ class Sweep : public ::testing::Test {
     more.insert(more.begin(), {"sweep", plan, "--out", out_});
     return viscera(more);
   }
-  /// A worker beside this process, which may be killed.
+  /// Starts a worker process, which may be killed.
   pid_t worker(const std::string& plan) const {
     const pid_t child = fork();
     if (child != 0) return child;
@@ -120,12 +120,13 @@ TEST_F(Sweep, HasALineOfUnitsBelowTheNames) {
   EXPECT_TRUE(says(lines[3], {"1,failed,1,-1,", "young_modulus_pa"}));
 }
 
-/// In containers that share a folder two workers may have one process number: a draft of one is not the other's.
+/// In containers that share a folder two workers may have the same process id: each must leave the other's drafts
+/// alone.
 TEST_F(Sweep, LeavesDraftsOfOthersAlone) {
   const std::string file = plan("seconds: 0.01\n"), others = "half of a table";
   fs::create_directories(out_);
   const pid_t child = fork();
-  if (child == 0) {  // a worker whose number is known before it starts
+  if (child == 0) {  // a worker with a known process id
     for (const char* of : {"plan.txt", "results.csv"})
       std::ofstream(out_ + "/" + of + "." + std::to_string(getpid()) + ".draft") << others;
     execl(kCommand, kCommand, "sweep", file.c_str(), "--out", out_.c_str(), nullptr);
@@ -144,7 +145,7 @@ TEST_F(Sweep, LeavesDraftsOfOthersAlone) {
   EXPECT_EQ(drafts, 2u);
 }
 
-/// The stiffer, and the less compressible, the harder the pad presses back.
+/// The pad's force grows with stiffness and with incompressibility.
 TEST_F(Sweep, ShippedCalibrationTellsMaterialsApart) {
   const Ending ending = viscera({"sweep", sourceFolder() + "/config/sweeps/calibration.yaml", "--out", out_});
   EXPECT_EQ(ending.status, 0) << ending.err;
@@ -152,11 +153,11 @@ TEST_F(Sweep, ShippedCalibrationTellsMaterialsApart) {
   for (int run = 0; run < 15; ++run) {
     const std::string file = out_ + "/runs/" + (run < 10 ? "00000" : "0000") + std::to_string(run) + "/result.json";
     const auto result = nlohmann::json::parse(readFile(file));
-    EXPECT_EQ(result["governor_trips"], 0) << run;
+    EXPECT_EQ(result["roll_backs"], 0) << run;
     forces.push_back(result["peak_force_n"]);
   }
-  for (size_t run = 3; run < 15; ++run) EXPECT_GT(forces[run], 1.2 * forces[run - 3]) << run;         // E
-  for (const size_t run : {1, 2, 4, 5, 7, 8}) EXPECT_GT(forces[run], 1.02 * forces[run - 1]) << run;  // nu
+  for (size_t run = 3; run < 15; ++run) EXPECT_GT(forces[run], 1.2 * forces[run - 3]) << run;         // by E
+  for (const size_t run : {1, 2, 4, 5, 7, 8}) EXPECT_GT(forces[run], 1.02 * forces[run - 1]) << run;  // by nu
 }
 
 TEST_F(Sweep, GoesOnWhereItWasEnded) {
@@ -180,7 +181,7 @@ TEST_F(Sweep, TriesAgainAndSaysWhatFailed) {
   EXPECT_EQ(ending.err.find("exit status"), ending.err.rfind("exit status")) << "once";
   EXPECT_TRUE(says(rowsOf(out_)[0], {"0,done,0,0.5,"}));
   EXPECT_TRUE(says(rowsOf(out_)[1], {"1,failed,3,7,", "solver.dt_fraction"}));
-  EXPECT_EQ(sweep(file, {"--tries", "3"}).err.find("run 1"), std::string::npos);  // given up stays so
+  EXPECT_EQ(sweep(file, {"--tries", "3"}).err.find("run 1"), std::string::npos);  // a run that was given up stays so
   ending = sweep(file, {"--tries", "1", "--retry"});
   EXPECT_TRUE(says(ending.err, {"run 1 of 2 failed"}));
   EXPECT_TRUE(says(rowsOf(out_)[1], {"1,failed,1,7,"}));
@@ -188,7 +189,7 @@ TEST_F(Sweep, TriesAgainAndSaysWhatFailed) {
 
 TEST_F(Sweep, ARunOverItsLimitIsKilledAndTheNextIsDone) {
   constexpr int kLimit_s = 3;        // the second run takes a quarter of a second, the first a minute or more
-  constexpr double kFarLess_s = 40;  // than the first would take
+  constexpr double kFarLess_s = 40;  // than the first run would take
   const std::string file = plan(
       "seconds: 0.5\n"
       "set: {solver.integrator: pd}\n"
@@ -199,12 +200,12 @@ TEST_F(Sweep, ARunOverItsLimitIsKilledAndTheNextIsDone) {
   EXPECT_EQ(ending.status, 1) << ending.err;
   EXPECT_GE(took.count(), kLimit_s);
   EXPECT_LT(took.count(), kFarLess_s);
-  EXPECT_TRUE(says(rowsOf(out_)[0], {"0,failed,1,10000,", "over its 3 s"}));
+  EXPECT_TRUE(says(rowsOf(out_)[0], {"0,failed,1,10000,", "killed after 3 s"}));
   EXPECT_TRUE(says(rowsOf(out_)[1], {"1,done,0,1,"}));
 }
 
 TEST_F(Sweep, IsGivenToSlurmAsAJobArray) {
-  // In place of Slurm's sbatch: takes what it is given, and does what two of the array's jobs would.
+  // Replaces Slurm's sbatch: records its arguments, and runs two of the array's jobs.
   folder_.write("sbatch", "#!/bin/sh\nfor last; do :; done\necho \"$@\" > " + folder_.file("given") +
                               "\nsh \"$last\" && sh \"$last\"\n");
   fs::permissions(folder_.file("sbatch"), fs::perms::owner_all);
@@ -219,7 +220,7 @@ TEST_F(Sweep, IsGivenToSlurmAsAJobArray) {
   EXPECT_EQ(rowsOf(out_).size(), 2u);
   EXPECT_TRUE(says(rowsOf(out_)[1], {"1,done,0,0.6,"}));
   const Ending absent = viscera(arguments, {"PATH=" + folder_.file("out")});
-  EXPECT_TRUE(says(absent.err, {"sbatch is not there", "slurm.sh"}));
+  EXPECT_TRUE(says(absent.err, {"sbatch", "was not found", "slurm.sh"}));
 }
 
 TEST_F(Sweep, RefusesWhatItDoesNotUnderstand) {
@@ -242,7 +243,7 @@ TEST_F(Sweep, RefusesWhatItDoesNotUnderstand) {
   EXPECT_TRUE(says(sweep(folder_.write("none.yaml", "seconds: 1\n")).err, {"none.yaml: 'scene' is missing"}));
   EXPECT_TRUE(says(sweep(folder_.file("absent.yaml")).err, {"absent.yaml"}));
   EXPECT_EQ(sweep(plan("seconds: 0.01\n")).status, 0);
-  EXPECT_TRUE(says(fault("seconds: 0.02\n"), {out_ + " holds the runs of another plan"}));
+  EXPECT_TRUE(says(fault("seconds: 0.02\n"), {out_ + " contains the runs of another plan"}));
 }
 
 }  // namespace

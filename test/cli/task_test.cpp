@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Tasks that the command judges: shipped ones with the hands that come with them.
+// Tasks that the command judges: shipped ones with their shipped strokes.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -20,11 +20,6 @@ using namespace test;
 
 std::string strokesOf(const std::string& task, const std::string& hand) {
   return sourceFolder() + "/config/strokes/" + task + "_" + hand + ".yaml";
-}
-
-nlohmann::json lastLine(const Ending& ending) {
-  const std::vector<std::string> lines = linesOf(ending.out);
-  return lines.empty() ? nlohmann::json() : nlohmann::json::parse(lines.back(), nullptr, false);
 }
 
 std::string textIn(const std::string& path) {
@@ -64,7 +59,7 @@ TEST_P(ShippedTask, IsFailedByAClumsyOne) {
   const nlohmann::json result = judged(GetParam(), "clumsy");
   EXPECT_EQ(result["state"], "failed") << result["why"];
   EXPECT_NE(result["why"], "");
-  if (dividesVessel()) {  // where no clip closes one end
+  if (dividesVessel()) {  // if no clip closes an end
     EXPECT_GT(result["measures"]["blood_ml"]["value"], 1);
     EXPECT_GT(result["measures"]["blood_ml"]["cost_s"], 10);
   }
@@ -83,7 +78,7 @@ TEST(TaskCommand, ReplaysToTheSameScoreAndWritesAReport) {
   ASSERT_EQ(ending.status, 0) << ending.err;
   ASSERT_EQ(lastLine(ending)["tasks"].size(), 1u);
   EXPECT_EQ(lastLine(ending)["tasks"][0], live);
-  for (const char* file : {"report.json", "report.csv", "report.html", "hands.csv", "kinematics.txt"})
+  for (const char* file : {"report.json", "report.csv", "report.html", "tools.csv", "kinematics.txt"})
     EXPECT_EQ(textIn(out + "/report/" + file), textIn(again + "/report/" + file)) << file;
 
   const nlohmann::json report = nlohmann::json::parse(textIn(out + "/report/report.json"));
@@ -95,7 +90,8 @@ TEST(TaskCommand, ReplaysToTheSameScoreAndWritesAReport) {
   EXPECT_NE(page.find("Touch in order"), std::string::npos);
 }
 
-/// Of a pad that hangs together until its middle is cut. @param material, stylus, keys  of the scene and of the hand
+/// Returns the result for a pad that is connected until its middle is cut.
+/// @param material, stylus, keys  of the scene and the strokes
 nlohmann::json dividedBy(const std::string& material, const std::string& stylus, const std::string& keys) {
   const TemporaryFolder folder;
   folder.write("pad.yaml", "bodies: [{source: box, box_size_m: [0.024, 0.024, 0.012], spacing_m: 0.003, material: {" +
@@ -129,7 +125,7 @@ TEST(TaskCommand, NoticesWhatHeatAndTearsDivide) {
 }
 
 TEST(TaskCommand, KinematicsHaveTheColumnsOfJigsaws) {
-  constexpr double kRowDigits = 1e-6;  // as they are printed
+  constexpr double kRowDigits = 1e-6;  // as printed
   const TemporaryFolder folder;
   const std::string out = folder.file("out");
   judged("touch_targets", "good", {"--out", out});
@@ -142,8 +138,8 @@ TEST(TaskCommand, KinematicsHaveTheColumnsOfJigsaws) {
     ASSERT_EQ(rows.back().size(), 76u);
   }
   EXPECT_EQ(rows.size(), static_cast<size_t>(6.4 * 30)) << "30 a second, of 6.4 s";
-  const std::vector<double>& row = rows[30];  // 1 s: on the way up from the first mark
-  for (const size_t right : {19u, 57u}) {     // master and slave; no pose of the left hand
+  const std::vector<double>& row = rows[30];  // 1 s: on the path up from the first mark
+  for (const size_t right : {19u, 57u}) {     // master and slave; the left tool has no pose
     EXPECT_NEAR(row[right], -0.03, kRowDigits) << "x of the first mark";
     EXPECT_NEAR(row[right + 3], 1, kRowDigits);
     EXPECT_NEAR(row[right + 4], 0, kRowDigits);
@@ -154,7 +150,7 @@ TEST(TaskCommand, KinematicsHaveTheColumnsOfJigsaws) {
 }
 
 TEST(TaskCommand, KinematicsSayHowFarJawsAreOpen) {
-  constexpr double kDigits = 1e-6;  // as they are printed
+  constexpr double kDigits = 1e-6;  // as printed
   constexpr double kTold_rad = 0.4;
   const TemporaryFolder folder;
   const std::string out = folder.file("out");
@@ -184,13 +180,13 @@ TEST(TaskCommand, ErrorsNameTheFileTheLineAndTheKey) {
   };
   const std::string close =
       "kind: close_wound\nclose_wound: {path: [{position_m: [5, 0, 0]}, {position_m: [5, 1, 0]}]}\n";
-  const std::string threadless = complaint(folder.write("bare.yaml", "scene: practice_pad\n" + close));
-  EXPECT_NE(threadless.find("bare: 'kind' close_wound wants a scene with 'threads'"), std::string::npos) << threadless;
+  const std::string sutureless = complaint(folder.write("bare.yaml", "scene: practice_pad\n" + close));
+  EXPECT_NE(sutureless.find("bare: 'kind' close_wound needs a scene with 'sutures'"), std::string::npos) << sutureless;
   const std::string away = complaint(folder.write("away.yaml", "scene: wound_pad\n" + close));
-  EXPECT_NE(away.find("away: 'close_wound.path' lies where no tissue"), std::string::npos) << away;
+  EXPECT_NE(away.find("away: 'close_wound.path' has no tissue"), std::string::npos) << away;
   const std::string clipless = complaint(folder.write(
       "none.yaml", "scene: gauze\nkind: clip_and_divide\nclip_and_divide: {clips: [{position_m: [0, 0, 0]}, {}]}\n"));
-  EXPECT_NE(clipless.find("none: 'kind' clip_and_divide wants a scene with a stylus that has mode clip"),
+  EXPECT_NE(clipless.find("none: 'kind' clip_and_divide needs a scene with a stylus that has mode clip"),
             std::string::npos)
       << clipless;
   const std::string spoilt = folder.write("spoilt.yaml", "scene: gauze\nkind: lift\nlift: {radius_m: -1}\n");

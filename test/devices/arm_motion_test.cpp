@@ -34,7 +34,7 @@ TEST(ArmMotion, ServoIsFollowedAtOnce) {
 TEST(ArmMotion, MoveGoesNoFasterThanItMayAndEndsAtItsGoal) {
   ArmMotion arm(config());
   ASSERT_TRUE(arm.move(at(0.1)));
-  constexpr double kTick_s = 1e-3, kSecants = 1e-4;  // m/s: of a mean over a millisecond
+  constexpr double kTick_s = 1e-3, kSecants = 1e-4;  // m/s: error of a mean over a millisecond
   double fastest = 0, time_s = 0, before_m = 0;
   while (arm.busy()) {
     arm.advance(kTick_s);
@@ -84,7 +84,7 @@ TEST(ArmMotion, StaysWhereItIsUnlessEnabled) {
   EXPECT_FALSE(arm.servoJaw(0));
   EXPECT_FALSE(arm.command("disable"));
   EXPECT_STREQ(text(arm.state()), "DISABLED");
-  EXPECT_TRUE(arm.command("resume"));  // it says why not
+  EXPECT_TRUE(arm.command("resume"));  // returns an error
   EXPECT_FALSE(arm.command("enable"));
   EXPECT_TRUE(arm.servo(at(0.2)));
 }
@@ -95,21 +95,21 @@ TEST(ArmMotion, HomesAndRefusesWhatItDoesNotKnow) {
   EXPECT_FALSE(arm.homed());
   EXPECT_FALSE(arm.command("home"));
   EXPECT_TRUE(arm.homed());
-  EXPECT_EQ(arm.command("dance"), "'dance' is none of enable, disable, pause, resume, home, unhome");
+  EXPECT_EQ(arm.command("dance"), "'dance' is not one of enable, disable, pause, resume, home, unhome");
 }
 
 TEST(ArmMotion, VelocityGoesOnForAMomentAndIsHeldByNothingElse) {
   ArmMotion arm(config());
   ASSERT_TRUE(arm.servoVelocity({0.05, 0, 0}, {0, 0, 1}));
   EXPECT_TRUE(arm.moves());
-  EXPECT_FALSE(arm.busy());  // what waits for the end of a move does not wait for this
+  EXPECT_FALSE(arm.busy());  // a client that waits for the end of a move does not wait for this
   for (int i = 0; i < 10; ++i) {
     arm.advance(0.01);
     arm.servoVelocity({0.05, 0, 0}, {0, 0, 1});
   }
   EXPECT_NEAR(arm.setpoint().position_m.x(), 0.005, kRounding);
   EXPECT_NEAR(arm.setpoint().orientation.angularDistance(Quaterniond::Identity()), 0.1, 1e-9);
-  arm.advance(1);  // it is not told to go on
+  arm.advance(1);  // the command is not repeated
   EXPECT_NEAR(arm.setpoint().position_m.x(), 0.005 + 0.05 * ArmMotion::kVelocityHolds_s, kRounding);
   EXPECT_FALSE(arm.moves());
 }
@@ -139,7 +139,7 @@ TEST(ArmMotion, JawsMoveBesideTheArmAndTakeTheirTime) {
   arm.move(at(0.001));
   ASSERT_TRUE(arm.moveJaw(0));
   arm.advance(0.1);
-  EXPECT_TRUE(arm.busy());  // the jaws are
+  EXPECT_TRUE(arm.busy());  // the jaws are busy
   EXPECT_EQ(arm.setpoint().position_m.x(), 0.001);
   EXPECT_LT(arm.jaw_rad(), open_rad);
   EXPECT_GT(arm.jaw_rad(), 0);

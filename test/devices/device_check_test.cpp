@@ -27,15 +27,15 @@ DeviceProfile profileOf(const std::string& yaml = "about: a device\n", const Ove
   return parseDevice(yaml, "device.yaml", choice);
 }
 
-/// What a device says of which this is the true profile, while the hand goes from one pose to another (tissue frame).
-std::vector<HeardPose> course(const DeviceProfile& truth, const Pose& from, const Pose& to,
-                              const Quaterniond& base = kNoTurn) {
+/// Returns the poses of a device with this true profile that moves from one pose to another (tissue frame).
+std::vector<ReceivedPose> course(const DeviceProfile& truth, const Pose& from, const Pose& to,
+                                 const Quaterniond& base = kNoTurn) {
   const DeviceMap map(truth);
-  std::vector<HeardPose> out;
+  std::vector<ReceivedPose> out;
   for (int i = 0; i <= static_cast<int>(kSpan_s * kRate_hz); ++i) {
     const double t = i / kRate_hz, s = std::clamp((t - 0.5) / (kSpan_s - 1), 0.0, 1.0);
     const Pose at{from.position_m + s * (to.position_m - from.position_m), from.orientation.slerp(s, to.orientation)};
-    HeardPose heard;
+    ReceivedPose heard;
     heard.came_s = t;
     heard.clock_s = 100 + t;
     heard.stamp_s = heard.clock_s - 0.001;
@@ -64,14 +64,14 @@ HandMotions motionsOf(const DeviceProfile& truth, const Quaterniond& base = kNoT
   return out;
 }
 
-/// Of a text in one of the verdicts.
+/// Returns whether a verdict of this grade contains a text.
 bool says(const std::vector<Verdict>& verdicts, Grade grade, const std::string& text) {
   return std::any_of(verdicts.begin(), verdicts.end(), [&](const Verdict& verdict) {
     return verdict.grade == grade && verdict.text.find(text) != std::string::npos;
   });
 }
 
-/// Does one of them say that no profile helps?
+/// Returns whether a verdict says that no profile helps.
 bool isBeyond(const std::vector<Verdict>& verdicts) {
   return std::any_of(verdicts.begin(), verdicts.end(), [](const Verdict& verdict) { return verdict.beyond_profile; });
 }
@@ -122,7 +122,7 @@ TEST(DeviceCheck, WordsForWhatAWrongProfileDoes) {
   EXPECT_EQ(judged(Asked::kTiltAway, plain, plain).text, "tilt away from you: right, by 46 degrees");
   const Quaterniond askew(Eigen::AngleAxisd(0.8, Vector3d::UnitZ()));
   const HandMotion motion = *motionOf(course(plain, kBegin, after(Asked::kRight)));
-  EXPECT_NE(judgeMotion(Asked::kRight, motion, plain, askew).text.find("askew"), std::string::npos);
+  EXPECT_NE(judgeMotion(Asked::kRight, motion, plain, askew).text.find("oblique"), std::string::npos);
 }
 
 TEST(DeviceCheck, ABaseThatTfTurnsByRightAnglesCounts) {
@@ -131,7 +131,7 @@ TEST(DeviceCheck, ABaseThatTfTurnsByRightAnglesCounts) {
   const FoundMap found = findMap(motionsOf(truth, base), profileOf(), base);
   EXPECT_EQ(found.axes.value_or("none"), "x -z y");
   EXPECT_EQ(found.unit_m.value_or(0), 0.001);
-  EXPECT_TRUE(says(found.verdicts, Grade::kWrong, "makes 9000 cm: the device tells millimetres"));
+  EXPECT_TRUE(says(found.verdicts, Grade::kWrong, "moves 9000 cm: the device sends millimetres"));
 }
 
 TEST(DeviceCheck, WhatNoProfileMendsIsSaid) {
@@ -150,7 +150,7 @@ TEST(DeviceCheck, WhatNoProfileMendsIsSaid) {
   const Quaterniond askew(Eigen::AngleAxisd(0.8, Vector3d::UnitZ()));
   found = findMap(motionsOf(profileOf()), profileOf(), askew);
   EXPECT_FALSE(found.axes);
-  EXPECT_TRUE(says(found.verdicts, Grade::kWrong, "its base is turned"));
+  EXPECT_TRUE(says(found.verdicts, Grade::kWrong, "its base is rotated"));
   EXPECT_FALSE(isBeyond(found.verdicts)) << "register_stylus finds the base";
   motions = motionsOf(profileOf("{about: a, pose: {unit_m: 10}}"));
   found = findMap(motions, profileOf(), kNoTurn);
@@ -166,8 +166,8 @@ TEST(DeviceCheck, MotionsThatWereNotMadeAreUnclear) {
   EXPECT_FALSE(unclear(Asked::kRight, right, 0.001));
   EXPECT_TRUE(unclear(Asked::kRight, right, 0.02));
   EXPECT_FALSE(motionOf({}));
-  std::vector<HeardPose> bad = course(profileOf(), kBegin, kBegin);
-  for (HeardPose& heard : bad) heard.pose.orientation.coeffs().setZero();
+  std::vector<ReceivedPose> bad = course(profileOf(), kBegin, kBegin);
+  for (ReceivedPose& heard : bad) heard.pose.orientation.coeffs().setZero();
   EXPECT_FALSE(motionOf(bad));
 }
 
@@ -177,23 +177,23 @@ TEST(DeviceCheck, StreamOfAGoodDevice) {
 }
 
 TEST(DeviceCheck, StreamOfABadDevice) {
-  const std::vector<HeardPose> good = course(profileOf(), kBegin, kBegin);
+  const std::vector<ReceivedPose> good = course(profileOf(), kBegin, kBegin);
   const auto spoilt = [&](auto spoil) {
-    std::vector<HeardPose> heard = good;
+    std::vector<ReceivedPose> heard = good;
     for (size_t i = 0; i < heard.size(); ++i) spoil(heard[i], i);
     return judgeStream(heard, kSpan_s, kPort);
   };
-  EXPECT_TRUE(says(judgeStream({}, kSpan_s, kPort), Grade::kWrong, "no pose came"));
+  EXPECT_TRUE(says(judgeStream({}, kSpan_s, kPort), Grade::kWrong, "no pose arrived"));
   EXPECT_TRUE(says(judgeStream(good, 8 * kSpan_s, kPort), Grade::kWrong, "rate: 13 poses a second, too low"));
   EXPECT_TRUE(says(judgeStream(good, 2 * kSpan_s, kPort), Grade::kNote, "rate: 50 poses a second, low"));
-  using Heard = HeardPose;
+  using Heard = ReceivedPose;
   EXPECT_TRUE(says(spoilt([](Heard& it, size_t i) { it.came_s += i > 50 ? 0.1 : 0; }), Grade::kNote, "jitter"));
   EXPECT_TRUE(says(spoilt([](Heard& it, size_t i) { it.came_s += i > 50 ? 0.3 : 0; }), Grade::kWrong, "gaps"));
   EXPECT_TRUE(says(spoilt([](Heard& it, size_t) { it.stamp_s = 0; }), Grade::kWrong, "stamps: 0"));
   EXPECT_TRUE(says(spoilt([](Heard& it, size_t) { it.stamp_s = 5; }), Grade::kWrong, "always the same"));
   EXPECT_TRUE(says(spoilt([](Heard& it, size_t) { *it.stamp_s -= 2; }), Grade::kNote, "stale, 2.00 s"));
   EXPECT_TRUE(says(spoilt([](Heard& it, size_t) { it.stamp_s.reset(); }), Grade::kNote, "have none"));
-  EXPECT_TRUE(says(spoilt([](Heard& it, size_t) { it.frame = ""; }), Grade::kNote, "none is named"));
+  EXPECT_TRUE(says(spoilt([](Heard& it, size_t) { it.frame = ""; }), Grade::kNote, "poses name no frame"));
   PosePort named;
   named.frame = "Geomagic_base";
   EXPECT_TRUE(says(judgeStream(good, kSpan_s, named), Grade::kRight, "'Geomagic_base', as the profile says"));
@@ -207,14 +207,14 @@ TEST(DeviceCheck, StreamOfABadDevice) {
 
 TEST(DeviceCheck, NoProfileHelpsADeviceWithoutAGoodPose) {
   const auto spoilt = [&](auto spoil, size_t from) {
-    std::vector<HeardPose> heard = course(profileOf(), kBegin, kBegin);
+    std::vector<ReceivedPose> heard = course(profileOf(), kBegin, kBegin);
     for (size_t i = from; i < heard.size(); ++i) spoil(heard[i]);
     return isBeyond(judgeStream(heard, kSpan_s, kPort));
   };
-  const auto zero = [](HeardPose& it) { it.stamp_s = 0; };
-  const auto same = [](HeardPose& it) { it.stamp_s = 5; };
-  const auto odd = [](HeardPose& it) { it.pose.orientation.coeffs() *= 2; };
-  const auto bad = [](HeardPose& it) { it.pose.position_m.x() = std::numeric_limits<double>::quiet_NaN(); };
+  const auto zero = [](ReceivedPose& it) { it.stamp_s = 0; };
+  const auto same = [](ReceivedPose& it) { it.stamp_s = 5; };
+  const auto odd = [](ReceivedPose& it) { it.pose.orientation.coeffs() *= 2; };
+  const auto bad = [](ReceivedPose& it) { it.pose.position_m.x() = std::numeric_limits<double>::quiet_NaN(); };
   EXPECT_TRUE(spoilt(zero, 0) && spoilt(same, 0) && spoilt(odd, 0) && spoilt(bad, 0));
   EXPECT_FALSE(spoilt(zero, 50) || spoilt(same, 50) || spoilt(odd, 50) || spoilt(bad, 50)) << "some are used";
 }
@@ -223,7 +223,7 @@ TEST(DeviceCheck, ShaftOfAnUprightHandleIsFound) {
   const Pose upright{{0, 0, 0}, kNoTurn};
   EXPECT_FALSE(findTip(upright, profileOf(), kNoTurn).orientation);
   for (const Vector3d& shaft : {Vector3d(1, 0, 0), Vector3d(0, -1, 0), Vector3d(0, 0, -1), Vector3d(0, 1, 0)}) {
-    // an upright handle along whose shaft its frame has another axis
+    // an upright handle with another axis of its frame along its shaft
     const Quaterniond held = rotationBetween(shaft, Vector3d::UnitZ());
     const FoundTip found = findTip({{0, 0, 0}, held}, profileOf(), kNoTurn);
     EXPECT_EQ(found.verdict.grade, Grade::kWrong);
@@ -236,8 +236,8 @@ TEST(DeviceCheck, ShaftOfAnUprightHandleIsFound) {
   EXPECT_NE(askew.verdict.text.find("was it upright?"), std::string::npos);
 }
 
-std::vector<HeardButton> presses(const ButtonPort& port, std::initializer_list<int> values) {
-  std::vector<HeardButton> out;
+std::vector<ReceivedButton> presses(const ButtonPort& port, std::initializer_list<int> values) {
+  std::vector<ReceivedButton> out;
   for (int value : values) out.push_back({port, value});
   return out;
 }
@@ -247,21 +247,21 @@ TEST(DeviceCheck, ButtonIsSeenWhereverItIs) {
   EXPECT_EQ(judgeButton(presses(first, {1, 0}), first, "button1").text, "button1: seen on left/button1, number 0");
   EXPECT_EQ(judgeButton(presses(pedal, {0, 1, 1, 0}), first, "button1").text,
             "button1: not seen on left/button1, number 0, but on pedals, number 3");
-  EXPECT_NE(judgeButton({}, first, "button1").text.find("no message came at all"), std::string::npos);
+  EXPECT_NE(judgeButton({}, first, "button1").text.find("no message arrived"), std::string::npos);
   EXPECT_FALSE(pressedButton(presses(pedal, {1, 1}), first));
   EXPECT_FALSE(pressedButton(presses(pedal, {0, 0}), first));
-  EXPECT_EQ(pressedButton(presses(pedal, {2}), first)->index, 3);  // CRTK's click
-  std::vector<HeardButton> both = presses(pedal, {1, 0, 1, 0});
-  for (const HeardButton& event : presses({ButtonType::kJoy, "other", 1}, {1, 0})) both.push_back(event);
-  EXPECT_EQ(pressedButton(both, first)->topic, "other");  // pressed once, as was asked
+  EXPECT_EQ(pressedButton(presses(pedal, {2}), first)->index, 3);  // a click in CRTK
+  std::vector<ReceivedButton> both = presses(pedal, {1, 0, 1, 0});
+  for (const ReceivedButton& event : presses({ButtonType::kJoy, "other", 1}, {1, 0})) both.push_back(event);
+  EXPECT_EQ(pressedButton(both, first)->topic, "other");  // pressed once, as prompted
   EXPECT_EQ(pressedButton(both, pedal)->topic, "pedals");
 }
 
 TEST(DeviceCheck, ForceIsToOpposeTheWayIn) {
-  std::vector<HeardPose> heard;
-  std::vector<HeardForce> out, in, none;
+  std::vector<ReceivedPose> heard;
+  std::vector<ReceivedForce> out, in, none;
   for (int i = 0; i < 100; ++i) {
-    HeardPose pose;
+    ReceivedPose pose;
     pose.came_s = 0.01 * i;
     pose.pose.position_m = Vector3d(0, 0, 50 - 0.5 * i);  // mm, downwards
     heard.push_back(pose);
@@ -271,8 +271,8 @@ TEST(DeviceCheck, ForceIsToOpposeTheWayIn) {
     none.push_back({0.01 * i, {0, 0, 0}});
   }
   EXPECT_EQ(judgeForce(out, heard).grade, Grade::kRight);
-  for (int i = 100; i < 130; ++i) {  // out again, faster than forces fade
-    HeardPose pose;
+  for (int i = 100; i < 130; ++i) {  // retracts faster than forces fade
+    ReceivedPose pose;
     pose.came_s = 0.01 * i;
     pose.pose.position_m = Vector3d(0, 0, 10 * (i - 99));
     heard.push_back(pose);

@@ -8,7 +8,7 @@
 namespace viscera {
 namespace {
 
-constexpr double kDeviceMapRounding = 1e-12;  // m, and of quaternions' numbers: a chain of rotations in double
+constexpr double kDeviceMapRounding = 1e-12;  // m, and for components of quaternions: a chain of rotations in double
 
 DeviceProfile profile(const Overrides& overrides) {
   DeviceChoice choice;
@@ -25,7 +25,7 @@ DeviceProfile shipped(const std::string& name) {
 
 void expectNear(const Pose& a, const Pose& b) {
   EXPECT_LT((a.position_m - b.position_m).norm(), kDeviceMapRounding);
-  EXPECT_LT(a.orientation.angularDistance(b.orientation), 1e-7);  // whose arc cosine rounds to this
+  EXPECT_LT(a.orientation.angularDistance(b.orientation), 1e-7);  // rounding of the arc cosine
 }
 
 const Pose kHand{{0.01, 0.02, 0.03}, rotationFromDegrees({20, -30, 70})};
@@ -42,7 +42,7 @@ TEST(DeviceMap, TurnsAxesAndUnits) {
   EXPECT_LT((tip.position_m - Vector3d(0.01, -0.03, 0.02)).norm(), kDeviceMapRounding);
   EXPECT_LT((tip.orientation * Vector3d::UnitY() - Vector3d::UnitZ()).norm(), kDeviceMapRounding);
   EXPECT_LT((map.axesFromBase() * Vector3d::UnitZ() - Vector3d::UnitY()).norm(),
-            kDeviceMapRounding);  // a force upwards
+            kDeviceMapRounding);  // an upward force
 }
 
 TEST(DeviceMap, TipIsInTheFrameOfThePose) {
@@ -77,7 +77,7 @@ TEST(DeviceMap, ClutchHoldsThePlaceAndNotTheTurn) {
   EXPECT_LT((while_clutched.position_m - held_m).norm(), kDeviceMapRounding);
   EXPECT_LT(while_clutched.orientation.angularDistance(moved.orientation), 1e-7);
   map.setClutch(false);
-  EXPECT_LT((map.toBase(moved).position_m - held_m).norm(), kDeviceMapRounding);  // no leap
+  EXPECT_LT((map.toBase(moved).position_m - held_m).norm(), kDeviceMapRounding);  // no jump
   moved.position_m += Vector3d(0, 0.01, 0);
   EXPECT_LT((map.toBase(moved).position_m - held_m - Vector3d(0, 0.02, 0)).norm(), kDeviceMapRounding);
   map.setClutch(true);
@@ -106,14 +106,14 @@ TEST(DeviceMap, PlaceThatIsNotAcceptedMovesNoClutch) {
   expectNear(map.toBase(kHand), kHand);
 }
 
-/// Of the dVRK, z of the tip's frame points out of the instrument, along its jaws; the shaft is behind it.
+/// For the dVRK, z of the tip's frame points out of the instrument, along its jaws; the shaft is behind it.
 TEST(DeviceMap, ToolsOfTheDvrkPointAsTheirInstrumentsDo) {
   for (const char* name : {"dvrk_mtm", "crtk_arm"}) {
     DeviceMap map(shipped(name));
     const Quaterniond jaws = rotationFromDegrees({20, -30, 70});
     const Pose tip = map.toBase({{0.01, 0.02, 0.03}, jaws});
     EXPECT_LT((tip.position_m - Vector3d(0.01, 0.02, 0.03)).norm(), kDeviceMapRounding) << name;
-    const Vector3d ahead = tip.orientation * -Vector3d::UnitZ();  // as docs/user_guide.md has it
+    const Vector3d ahead = tip.orientation * -Vector3d::UnitZ();  // as in docs/user_guide.md
     EXPECT_LT((ahead - jaws * Vector3d::UnitZ()).norm(), kDeviceMapRounding) << name;
     expectNear(map.fromBase(tip), {{0.01, 0.02, 0.03}, jaws});
   }
@@ -128,14 +128,14 @@ TEST(DeviceMap, ArmStartsWithItsJawsTowardsTheTissue) {
   EXPECT_LT((tool.orientation * -Vector3d::UnitZ() - towards_tissue).norm(), kDeviceMapRounding);
 }
 
-/// As omni_common has it: the place is turned to z up, the orientation is the device's times a quarter turn about z.
+/// As in omni_common: the position is rotated to z up; the orientation is the device's times a quarter turn about z.
 TEST(DeviceMap, OmnisStylusPointsWhereItDoesInTheHand) {
   DeviceMap map(shipped("phantom_omni"));
   const Quaterniond in_device = rotationFromDegrees({20, -30, 70});  // y up
   const Quaterniond quarter(Eigen::AngleAxisd(-M_PI / 2, Vector3d::UnitZ()));
   const Quaterniond up(axesOf("x -z y", ""));
   const Pose tip = map.toBase({{0, 0, 0}, in_device * quarter});
-  EXPECT_LT(tip.orientation.angularDistance(up * in_device), 1e-6);  // eight decimals in the profile
+  EXPECT_LT(tip.orientation.angularDistance(up * in_device), 1e-6);  // the profile has eight decimals
 }
 
 }  // namespace

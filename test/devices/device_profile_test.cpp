@@ -78,7 +78,7 @@ TEST(DeviceProfile, RegistrationIsLaidOverIt) {
   choice.registration = path;
   const DeviceProfile device = parseDevice("{tip: {orientation_xyzw: [1, 0, 0, 0]}}", "device.yaml", choice);
   EXPECT_EQ(device.tip.position_m, Vector3d(0, 0, -0.15));
-  EXPECT_EQ(device.tip.orientation.x(), 1);  // a pivot calibration does not know it
+  EXPECT_EQ(device.tip.orientation.x(), 1);  // a pivot calibration does not determine it
   EXPECT_EQ(device.base.position_m, Vector3d(0.1, 0, 0));
   EXPECT_EQ(device.base.orientation.z(), 1);
   choice.overrides = {"scale=2"};
@@ -90,24 +90,26 @@ TEST(DeviceProfile, ErrorsNameFileLineKeyAndWhatIsAccepted) {
             "device.yaml:2: unknown key 'button3'; accepted here: button1, button2, about, name, pose, tip, base, "
             "scale, stale_after_s, delay_s, clutch, gripper, force, arm");
   EXPECT_EQ(fault("about: a\npose: {unit_m: 1000}\n"),
-            "device.yaml:2: 'pose.unit_m' is a number, 1e-06 .. 10 m; found '1000'");
+            "device.yaml:2: 'pose.unit_m' must be a number, 1e-06 .. 10 m; found '1000'");
   EXPECT_EQ(fault("about: a\npose: {type: tf, tf_frame: a}\n"),
             "device.yaml: 'pose.type' tf needs 'pose.tf_frame' and 'pose.tf_base'");
-  EXPECT_EQ(fault("[]"), "device.yaml: a device profile is a map of keys, as `viscera keys device` lists");
+  EXPECT_EQ(fault("[]"), "device.yaml: a device profile must be a map of keys; `viscera keys device` lists them");
   EXPECT_EQ(
       fault(kCrtk, {"pose.topic=a b"}),
-      "device.yaml: 'pose.topic' gives 'a b', which is no name of ROS; `{name}` and `{stylus}` are what can be put in");
-  EXPECT_EQ(fault(kCrtk, {"button1.type=joy"}), "device.yaml: 'button1.topic' must say where the button is");
+      "device.yaml: 'pose.topic' gives 'a b', which is not a valid ROS name; it may contain `{name}` and `{stylus}`");
+  EXPECT_EQ(fault(kCrtk, {"button1.type=joy"}), "device.yaml: 'button1.topic' must name the topic of the button");
   EXPECT_EQ(fault(kCrtk, {"tip.orientation_xyzw=[1,1,0,0]"}),
-            "override: 'tip.orientation_xyzw' is a list of x, y, z, w, a quaternion of length 1; found a list of 4");
+            "override: 'tip.orientation_xyzw' must be a list of x, y, z, w, a quaternion of length 1; found a list of "
+            "4 items");
 }
 
 TEST(DeviceProfile, RefusesWhatContradictsItself) {
   const std::string both = "{button1: {type: joy, topic: a}, gripper: {presses: button1}}";
-  EXPECT_EQ(fault(both), "device.yaml: 'gripper.presses' and 'button1.type' both press that button; give one of them");
+  EXPECT_EQ(fault(both),
+            "device.yaml: 'gripper.presses' and 'button1.type' both press that button; set only one of them");
   EXPECT_NE(fault("{gripper: {presses: button1, closed_below: 1, open_above: 0}}").find("must not be less"),
             std::string::npos);
-  EXPECT_NE(fault("{pose: {type: crtk_arm}, scale: 2}").find("who drives it has them"), std::string::npos);
+  EXPECT_NE(fault("{pose: {type: crtk_arm}, scale: 2}").find("its driver has its own"), std::string::npos);
   EXPECT_NE(fault("{button1: {type: omni_button, topic: a, index: 2}}").find("0 (grey) or 1 (white)"),
             std::string::npos);
 }
@@ -127,7 +129,7 @@ TEST(DeviceProfile, LimitsAreTheNarrower) {
   const DeviceProfile weak = parsed(kCrtk, {"force.max_force_n=3.3", "stale_after_s=0.5"});
   EXPECT_EQ(withDevice(stylus, weak).max_force_n, 3.3);
   EXPECT_EQ(withDevice(stylus, weak).stale_after_s, 0.5);
-  // A scene that asks for more than any usual device takes is held to less, until the profile says otherwise.
+  // A scene with a limit above that of usual devices is limited, unless the profile allows more.
   stylus.max_force_n = 1000;
   EXPECT_EQ(withDevice(stylus, parsed(kCrtk)).max_force_n, ForcePort{}.max_force_n);
   EXPECT_LE(ForcePort{}.max_force_n, 10);

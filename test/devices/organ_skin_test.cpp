@@ -9,9 +9,9 @@
 namespace viscera {
 namespace {
 
-constexpr double kFloat_m = 1e-7;  ///< of places that are told in single precision
+constexpr double kFloat_m = 1e-7;  ///< of positions in single precision
 
-/// The faces of a box, two triangles each.
+/// Returns the faces of a box, two triangles each.
 OrganSkin box(const Vector3d& low_m, const Vector3d& high_m) {
   OrganSkin out;
   for (int corner = 0; corner < 8; ++corner)
@@ -22,7 +22,7 @@ OrganSkin box(const Vector3d& low_m, const Vector3d& high_m) {
   return out;
 }
 
-/// Of a box about the origin: exact, outside and inside.
+/// Returns the distance to a box about the origin: exact, outside and inside.
 double distanceToBox(const Vector3d& half_m, const Vector3d& point_m) {
   const Vector3d beyond = point_m.cwiseAbs() - half_m;
   return beyond.cwiseMax(0).norm() + std::min(beyond.maxCoeff(), 0.0);
@@ -53,7 +53,7 @@ TEST(OrganSkin, ToolWaitsBeforeAnyOrganAndPointsAtItsMiddle) {
     for (const Vector3d& middle : {Vector3d(0, 0, 0), Vector3d(0.3, -0.2, 0.1)})
       for (const bool left : {true, false}) {
         const Vector3d half = size / 2 * Vector3d(1, 0.7, 0.4);
-        // corners alone are too few for what lies about a line
+        // corners alone are too few for the surface around a line
         OrganSkin skin = box(middle - half, middle + half);
         for (int i = 0; i < 4000; ++i) {
           const Vector3d way = Vector3d(std::sin(1.0 * i), std::sin(1.7 * i + 1), std::sin(2.3 * i + 2));
@@ -64,9 +64,9 @@ TEST(OrganSkin, ToolWaitsBeforeAnyOrganAndPointsAtItsMiddle) {
         const Vector3d away = start.position_m - middle;
         EXPECT_NEAR((start.orientation * Vector3d::UnitZ()).dot(away.normalized()), 1, kFloat_m);
         EXPECT_NEAR(start.orientation.norm(), 1, kFloat_m);
-        EXPECT_GE(distanceToBox(half, away), 0.4 * kStartGap_m) << size;  // a face may lie askew to the line
+        EXPECT_GE(distanceToBox(half, away), 0.4 * kStartGap_m) << size;  // a face may be oblique to the line
         EXPECT_LT(away.norm(), half.norm() + kStartGap_m + kFloat_m);
-        EXPECT_LT(away.y(), 0);  // before it: the view looks from there
+        EXPECT_LT(away.y(), 0);  // in front of it, where the viewer is
         EXPECT_GT(away.z(), 0);
         EXPECT_EQ(away.x() < 0, left);
       }

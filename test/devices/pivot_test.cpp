@@ -14,10 +14,10 @@ namespace {
 using test::says;
 
 const Vector3d kTip_m(0.01, -0.02, 0.14), kPivot_m(0.3, -0.2, 0.05);
-constexpr double kNoise_m = 2e-4;  ///< per coordinate, of an optical tracker
+constexpr double kNoise_m = 2e-4;  ///< per coordinate, for an optical tracker
 constexpr double kRounding_m = 1e-12;
 
-/// Poses of a device that is tilted to all sides about a tip that stands still.
+/// Returns poses of a device that is tilted to all sides about a fixed tip.
 std::vector<Pose> pivoting(size_t count, double tilt_rad, double noise_m, uint32_t seed = 1) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
@@ -49,7 +49,8 @@ TEST(Pivot, ExactPosesGiveTipAndPivot) {
 }
 
 TEST(Pivot, ResidualIsThatOfTheNoise) {
-  // Of 3 N numbers with this error six are fitted: the expected square of the residual is sigma^2 (3 - 6 / N).
+  // Six parameters are fitted to 3 N numbers with this error: the expected square of the residual is
+  // sigma^2 (3 - 6 / N).
   constexpr size_t kPoses = 40, kRounds = 50;
   double squares = 0, tip_squares = 0;
   for (uint32_t seed = 0; seed < kRounds; ++seed) {
@@ -58,9 +59,10 @@ TEST(Pivot, ResidualIsThatOfTheNoise) {
     tip_squares += (pivot.tip_m - kTip_m).squaredNorm() / kRounds;
   }
   const double expected_m = kNoise_m * std::sqrt(3 - 6.0 / kPoses);
-  // 50 rounds of 114 degrees of freedom: the mean square has a relative deviation of 1.9 %; five of these
+  // 50 rounds of 114 degrees of freedom: the mean square has a relative deviation of 1.9 %; the tolerance is five of
+  // these
   EXPECT_NEAR(squares / (expected_m * expected_m), 1, 0.1);
-  EXPECT_LT(std::sqrt(tip_squares), 5 * kNoise_m / std::sqrt(kPoses) / 0.2);  // some 1 / turned
+  EXPECT_LT(std::sqrt(tip_squares), 5 * kNoise_m / std::sqrt(kPoses) / 0.2);  // about 1 / turned
 }
 
 TEST(Pivot, TooFewPosesAreRefused) {
@@ -78,7 +80,7 @@ TEST(Pivot, RotationAboutOneAxisIsRefused) {
     const Quaterniond turn(Eigen::AngleAxisd(0.05 * i, Vector3d::UnitX()));
     poses.push_back({kPivot_m - turn * kTip_m, turn});
   }
-  EXPECT_TRUE(says(refusal(poses), {"one axis only"}));
+  EXPECT_TRUE(says(refusal(poses), {"only one axis"}));
 }
 
 TEST(Pivot, TipThatMovedIsRefused) {

@@ -70,7 +70,7 @@ TEST(Registration, ThreePointsAreEnough) {
 }
 
 TEST(Registration, ResidualIsThatOfTheNoise) {
-  // Six of the 3 N numbers are fitted: the expected square of the residual is sigma^2 (3 - 6 / N).
+  // Six parameters are fitted to 3 N numbers: the expected square of the residual is sigma^2 (3 - 6 / N).
   constexpr size_t kRounds = 400;
   double squares = 0;
   for (uint32_t seed = 0; seed < kRounds; ++seed) {
@@ -78,7 +78,8 @@ TEST(Registration, ResidualIsThatOfTheNoise) {
     squares += residual_m * residual_m / kRounds;
   }
   const double expected_m = kRegistrationNoise_m * std::sqrt(3 - 6.0 / static_cast<double>(kPoints.size()));
-  // 400 rounds of nine degrees of freedom: the mean square has a relative deviation of 2.4 %; five of these
+  // 400 rounds of nine degrees of freedom: the mean square has a relative deviation of 2.4 %; the tolerance is five of
+  // these
   EXPECT_NEAR(squares / (expected_m * expected_m), 1, 0.12);
 }
 
@@ -90,8 +91,9 @@ TEST(Registration, TooFewPointsAreRefused) {
 
 TEST(Registration, PointsOnALineAreRefused) {
   const std::vector<KnownPoint> line = {{"a", {0, 0, 0}}, {"b", {0.1, 0.001, 0}}, {"c", {0.2, 0, 0.001}}};
-  EXPECT_TRUE(says(refusal(line, touched(line, 0)), {"the known points lie on a line", "5.00 mm"}));
-  EXPECT_TRUE(says(refusal(kPoints, std::vector<Vector3d>(5, Vector3d::Zero())), {"the touched points lie on a line"}));
+  EXPECT_TRUE(says(refusal(line, touched(line, 0)), {"the known points are on one line", "5.00 mm"}));
+  EXPECT_TRUE(
+      says(refusal(kPoints, std::vector<Vector3d>(5, Vector3d::Zero())), {"the touched points are on one line"}));
 }
 
 TEST(Registration, PointsOfAnotherOrderAreRefused) {
@@ -113,7 +115,7 @@ TEST(RegistrationFile, ComesBackAsItWas) {
   saveRegistration(was, path);
   const RegistrationFile is = loadRegistration(path);
   ASSERT_TRUE(is.tip_m && is.base);
-  constexpr double kDigits = 1e-8;  // nine are written
+  constexpr double kDigits = 1e-8;  // nine digits are written
   EXPECT_LT((*is.tip_m - *was.tip_m).norm(), kDigits);
   EXPECT_LT((is.base->position_m - was.base->position_m).norm(), kDigits);
   EXPECT_LT(is.base->orientation.angularDistance(was.base->orientation), kDigits);

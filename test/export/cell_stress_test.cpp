@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kEdge_m = 0.01, kStretch = 1.2;
 
-/// Corners of a cell whose x is stretched, turned by a quarter about z.
+/// Returns the corners of a cell that is stretched along x, then turned by 90 degrees about z.
 std::array<Vector3d, 8> stretchedAndTurned() {
   std::array<Vector3d, 8> out;
   for (size_t c = 0; c < 8; ++c) {
@@ -27,7 +27,7 @@ std::array<Vector3d, 8> stretchedAndTurned() {
 
 }  // namespace
 
-/// By hand: mu = 20e3 / 2.6, K = 20e3 / 1.2 at nu 0.3; J = l, B = (l^2, 1, 1).
+/// Computed by hand: mu = 20e3 / 2.6, K = 20e3 / 1.2 at nu 0.3; J = l, B = (l^2, 1, 1).
 TEST(CellStress, OfTheNeoHookeanLawIsCauchysWhicheverWayTheCellIsTurned) {
   Body body = boxBody({2, 2, 2}, kEdge_m);
   body.material.young_modulus_pa = 20e3;
@@ -49,9 +49,9 @@ TEST(CellStress, OfTheNeoHookeanLawIsCauchysWhicheverWayTheCellIsTurned) {
   }
 }
 
-/// Two layers that are pulled across their border bear one stress, whichever of them a cell is labelled with.
+/// Two layers under tension across their interface carry the same stress, whichever of them is the cell's label.
 TEST(CellStress, OfACellOfTwoMaterialsIsThatOfItsLabelsLayer) {
-  constexpr double kNewton = 1e-6;  // of the stress: the jump is found to rounding, stress is its derivative
+  constexpr double kNewton = 1e-6;  // share of the stress: the jump is exact to rounding, stress is its derivative
   Body body = ofLaw(boxBody({1, 1, 1}, kEdge_m), 0.3);
   body.material.young_modulus_pa = 20e3;
   body = twoMaterials(body, {1, 0, 0}, 0.4, {"stiff", 200e3, 0.3, 1e3});

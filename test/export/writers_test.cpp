@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What is exported is read again by readers of the test's own: the same to the bit.
+// Exported files are read again by independent readers of this test: equal to the bit.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -44,7 +44,7 @@ std::string attribute(const std::string& element, const std::string& name) {
   const size_t first = begin + name.size() + 3;
   return element.substr(first, element.find('"', first) - first);
 }
-/// Elements of a name, with their attributes.
+/// Returns the elements with a given name, with their attributes.
 std::vector<std::string> elements(const std::string& xml, const std::string& name) {
   std::vector<std::string> out;
   for (size_t at = xml.find("<" + name + " "); at != std::string::npos; at = xml.find("<" + name + " ", at + 1))
@@ -52,17 +52,17 @@ std::vector<std::string> elements(const std::string& xml, const std::string& nam
   return out;
 }
 
-/// Two triangles, one of them a wound's.
-ShownMesh skin() {
-  ShownMesh out;
+/// Returns two triangles, one of which belongs to a wound.
+VisibleMesh skin() {
+  VisibleMesh out;
   out.positions_m = {0.1f, 0.2f, 0.3f, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   out.normals.assign(4, packNormal({1, 0, 0}));
-  ShownTopology topology;
+  VisibleTopology topology;
   topology.vertices = 4;
   topology.triangles = {0, 1, 2, 0, 2, 3};
   topology.bodies = {{"organ", Vector3d(1, 0.5, 0.25)}};
-  topology.patches = {{0, ShownKind::kSkin, 0, 1}, {0, ShownKind::kWound, 1, 1}};
-  out.topology = std::make_shared<const ShownTopology>(topology);
+  topology.patches = {{0, SurfaceKind::kSkin, 0, 1}, {0, SurfaceKind::kWound, 1, 1}};
+  out.topology = std::make_shared<const VisibleTopology>(topology);
   return out;
 }
 FieldMesh fields(uint32_t corners) {
@@ -83,7 +83,7 @@ void expectSame(const std::vector<float>& a, const std::vector<float>& b) {
   EXPECT_EQ(std::memcmp(a.data(), b.data(), 4 * a.size()), 0);
 }
 
-/// Arrays of a VTK file by name; checks that they lie one behind the other up to the end.
+/// Arrays of a VTK file by name. Checks that they follow each other up to the end.
 struct VtkArrays {
   explicit VtkArrays(const std::string& bytes) {
     const std::string mark = "<AppendedData encoding=\"raw\">\n_";
@@ -157,7 +157,7 @@ TEST(Xdmf, HasCellsOnceAndAllTimes) {
 
 TEST(Glb, HasColorsOfVerticesWhereTheSkinHasSome) {
   const TemporaryFolder folder;
-  ShownMesh burnt = skin();
+  VisibleMesh burnt = skin();
   burnt.colors = {0xff0000ffU, 0xff00ff00U, 0xffff0000U, 0xff808080U};
   writeGlb(burnt, folder.file("skin.glb"));
   const std::string bytes = textOf(folder.file("skin.glb"));
@@ -177,7 +177,7 @@ TEST(Glb, HasColorsOfVerticesWhereTheSkinHasSome) {
 
 TEST(Ply, HasColorsOfVerticesWhereTheSkinHasSome) {
   const TemporaryFolder folder;
-  ShownMesh burnt = skin();
+  VisibleMesh burnt = skin();
   writePly(burnt, folder.file("plain.ply"));
   burnt.colors = {0xff0000ffU, 0xff00ff00U, 0xffff0000U, 0xff302010U};
   writePly(burnt, folder.file("burnt.ply"));
@@ -249,7 +249,7 @@ TEST(Pc2, HasAllSamplesAndAsManyPointsInEach) {
   expectSame(valuesAt<float>(bytes, 32 + 96, 24), fields(3).points);
 }
 
-/// Left of the patient is +x there and +y here; the back is +y there and -x here.
+/// The patient's left is +x in LPS and +y in viscera's frame; the back is +y in LPS and -x in viscera's frame.
 TEST(ExportFrames, LeftStaysLeft) {
   std::vector<float> places = {0.001f, 0.002f, 0.003f};
   const Vector3d origin(0.1, 0.2, 0.3);

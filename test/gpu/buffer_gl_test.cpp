@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What kernels find in buffers that were made, cleared and written just before: a driver may do these on different
-// engines.
+// Content of buffers that kernels read directly after creation, clearing and writing: a driver may do these on
+// different engines.
 #include "gpu/buffer.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ void main() {
   if (i < uint(from.length())) to[i] = from[i];
 })";
 
-/// Sizes below, at and above those from which drivers treat buffers in another way.
+/// Sizes below, at and above those at which drivers treat buffers differently.
 class Buffers : public ::testing::TestWithParam<size_t> {
  protected:
   Buffers() {
@@ -52,7 +52,7 @@ class Buffers : public ::testing::TestWithParam<size_t> {
   std::vector<uint32_t> numbers_ = std::vector<uint32_t>(GetParam());
   std::vector<uint32_t> zeros_ = std::vector<uint32_t>(GetParam(), 0u);
 };
-constexpr int kTimes = 20;  // what depends on when an engine is free does not show each time
+constexpr int kTimes = 20;  // timing of the engines varies, so an error may not show each time
 
 TEST_P(Buffers, HoldWhatTheyAreMadeOf) {
   for (int i = 0; i < kTimes; ++i) {

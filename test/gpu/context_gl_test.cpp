@@ -117,7 +117,7 @@ TEST_F(Gpu, CompileErrorsAreToldWhereManyAreMade) {
     EXPECT_THROW(made.require(), GpuError);
   }
   EXPECT_NO_THROW(made.require()) << "what is gone is not asked for";
-  forgetDriverLimits();
+  clearDriverLimits();
 }
 
 TEST(GpuContext, UnknownDeviceIsRefusedWithTheListOfThoseThereAre) {
@@ -129,7 +129,7 @@ TEST(GpuContext, UnknownDeviceIsRefusedWithTheListOfThoseThereAre) {
   }
 }
 
-/// Two scenes, one of which takes the other's place.
+/// Two scenes, of which one replaces the other.
 TEST(GpuContext, OutlivesAnotherOneOfTheSameDevice) {
   auto first = std::make_unique<Context>();
   first->release();

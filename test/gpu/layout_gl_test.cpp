@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Where the driver has the members of structs that C++ and GLSL share (of C++: src/gpu/layout_check.cpp).
+// The driver's offsets of struct members that C++ and GLSL share (those of C++: src/gpu/layout_check.cpp).
 #include <gtest/gtest.h>
 
 #include <cstddef>
@@ -19,7 +19,7 @@
 namespace viscera::gpu {
 namespace {
 
-/// Byte within its block; -1 where the driver knows no such variable.
+/// Returns the offset within its block in bytes; -1 if the driver knows no such variable.
 int offsetOf(const Program& program, GLenum interface, const std::string& variable) {
   const GLuint index = glGetProgramResourceIndex(program.id(), interface, variable.c_str());
   if (index == GL_INVALID_INDEX) return -1;

@@ -67,11 +67,11 @@ TEST(GpuLimits, OfAKernelsBlocksAreNamedWithItAndWhatItNeeds) {
 
 class GpuErrors : public ::testing::Test {
  protected:
-  ~GpuErrors() override { forgetDriverLimits(); }
+  ~GpuErrors() override { clearDriverLimits(); }
   Context context_;
 };
 
-/// Kernels of contacts that pd solves for, with and without features that have blocks of their own.
+/// Kernels with contacts that pd solves, with and without features that have their own blocks.
 const std::vector<std::string> kAhead = {"GROUP_SIZE 64", "LATTICE", "AHEAD", "INCREMENT"};
 
 TEST_F(GpuErrors, ComeBeforeAKernelHasMoreBlocksThanTheDriverAllows) {
@@ -137,15 +137,16 @@ TEST_F(GpuErrors, OfBlocksThatAreTooLongNameTheBufferAndTheLimit) {
 
 TEST_F(GpuErrors, OfALostContextSayWhoseFaultItIs) {
   EXPECT_NO_THROW(requireNoReset(GL_NO_ERROR, "a tick"));
-  EXPECT_TRUE(says(messageOf<GpuError>([] { requireNoReset(GL_GUILTY_CONTEXT_RESET, "a tick"); }),
-                   {"reset the GPU", "this program", "context is lost", "a tick", "solver.backend: cpu"}));
+  EXPECT_TRUE(
+      says(messageOf<GpuError>([] { requireNoReset(GL_GUILTY_CONTEXT_RESET, "a tick"); }),
+           {"reset the GPU", "this program", "context and its memory are lost", "a tick", "solver.backend: cpu"}));
   EXPECT_TRUE(
       says(messageOf<GpuError>([] { requireNoReset(GL_INNOCENT_CONTEXT_RESET, "a tick"); }), {"another program"}));
   EXPECT_TRUE(
       says(messageOf<GpuError>([] { requireNoReset(GL_UNKNOWN_CONTEXT_RESET, "a tick"); }), {"for an unknown reason"}));
 }
 
-/// Only such a context tells of a reset at all; drivers that know of none make one without.
+/// Only a context with this strategy reports resets; drivers without support create one without.
 TEST_F(GpuErrors, ResetsAreToldOfWhereTheDriverCan) {
   GLint strategy = 0;
   glGetIntegerv(GL_RESET_NOTIFICATION_STRATEGY, &strategy);
@@ -159,7 +160,7 @@ TEST_F(GpuErrors, OfAKernelNameIt) {
   const Buffer<uint32_t> partials(64), stats(64);
   fold.use();
   EXPECT_EQ(lastKernel(), "sum_impulses.comp");
-  glEnable(0xffff);  // a mistake made elsewhere
+  glEnable(0xffff);  // an error made elsewhere
   const std::string said = messageOf<GpuError>([] { checkErrors("a test"); });
   EXPECT_TRUE(says(said, {"a test", "0x0500", "GL_INVALID_ENUM"}));
 }

@@ -19,7 +19,7 @@
 namespace viscera::gpu {
 namespace {
 
-/// Programs of a driver that compiles ahead, and of one that compiles a program when it is first used.
+/// Programs of a driver that compiles ahead, and of a driver that compiles a program at its first use.
 class Programs : public ::testing::TestWithParam<bool> {
  protected:
   Programs() {
@@ -29,9 +29,9 @@ class Programs : public ::testing::TestWithParam<bool> {
   }
   ~Programs() override {
     checkDispatches(false);
-    forgetDriverLimits();
+    clearDriverLimits();
   }
-  /// What `call` says when it throws.
+  /// Returns the message that `call` throws.
   template <class Call>
   static std::string complaint(Call call) {
     try {

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What a shader must not say although this machine's driver might get it right (physics.md 2, 4).
+// Constructs that shaders must avoid even if this machine's driver handles them (physics.md 2, 4).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace viscera {
 namespace {
 
-/// Names of the shaders whose code, comments aside, has a match.
+/// Returns the names of the shaders with a match in their code, without comments.
 std::vector<std::string> shadersThatSay(const std::string& pattern) {
   const std::regex comment("//[^\n]*"), wanted(pattern);
   std::vector<std::string> out;
@@ -38,7 +38,7 @@ TEST(ShaderSources, AreFound) {
   }
 }
 
-/// Drivers may flush or quieten bits that are no ordinary float: a packed normal stays a uint (EGVE 3.2, VR05 2.6).
+/// Drivers may flush or quieten bits that are no ordinary float, so a packed normal stays a uint (EGVE 3.2, VR05 2.6).
 TEST(ShaderSources, KeepPackedNormalsOutOfFloats) {
   const Names with_normals = shadersThatSay("ackNormal");  // packNormal() and unpackNormal()
   EXPECT_GE(with_normals.size(), 2u);
@@ -47,7 +47,7 @@ TEST(ShaderSources, KeepPackedNormalsOutOfFloats) {
   }
 }
 
-/// Compilers may take for granted that no number is NaN and drop the question.
+/// Compilers may assume that no number is NaN and remove the test.
 TEST(ShaderSources, NeverAskIsnanOrIsinf) {
   EXPECT_EQ(shadersThatSay("\\bis(nan|inf)\\b"), Names{});
 }

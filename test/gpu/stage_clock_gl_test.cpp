@@ -15,7 +15,7 @@ using namespace viscera::gpu;
 
 namespace {
 
-/// A GPU that takes 1, 2, 4, 8 ... ns between one time stamp and the next, so that a sum tells its parts.
+/// A GPU that takes 1, 2, 4, 8 ... ns between successive time stamps, so that a sum determines its terms.
 class ScriptedTime {
  public:
   ScriptedTime() {
@@ -35,7 +35,7 @@ class ScriptedTime {
     __glewGetQueryObjectui64v = result;
   }
   static inline bool all_there = true;
-  static inline int asked = 0;  ///< time stamps
+  static inline int asked = 0;  ///< number of time stamps
 
  private:
   static inline std::map<GLuint, GLuint64> stamps;
@@ -62,7 +62,7 @@ TEST_F(StageClockTest, TimeBelongsToTheInnermostStageAndOutsideOfStagesToNone) {
   StageClock clock(16);
   {
     const TimedStage step(Stage::kStep);    // 1 ns
-    const TimedStage cells(Stage::kCells);  // 2 ns, then the step again for 4 ns, 8 of none
+    const TimedStage cells(Stage::kCells);  // 2 ns, then 4 ns in `step` again, then 8 ns outside of stages
   }
   { const TimedStage step(Stage::kStep); }
   const auto& times = clock.collect();

@@ -15,9 +15,9 @@ namespace {
 using Kind = TickContact::Kind;
 
 constexpr double kTick_s = 0.02;
-constexpr double kStiff_n_per_m = 300;  ///< of a wall at z = 0 that the tip presses from above
+constexpr double kStiff_n_per_m = 300;  ///< stiffness of a wall at z = 0 that the tip presses from above
 
-/// What a tick finds of a tip that goes from one height to another above the wall.
+/// Returns the contact of a tick for a tip that moves between two heights above the wall.
 TickContact onWall(double from_m, double to_m, Kind kind = Kind::kPushes) {
   TickContact out;
   out.from_m = {0, 0, from_m};
@@ -65,7 +65,7 @@ TEST(ContactModel, HasNoJumpWhenATickComes) {
   const Vector3d before = model.at(tip, now_s).force_n;
   model.put(other, kTick_s, now_s);
   EXPECT_LT((model.at(tip, now_s).force_n - before).norm(), 1e-12);
-  // nor within the tick: no step of a millisecond is more than its share
+  // nor within the tick: no step of a millisecond exceeds its share
   const Vector3d after = model.at(tip, now_s + kTick_s).force_n;
   Vector3d last = before;
   for (int ms = 1; ms <= 20; ++ms) {
@@ -105,7 +105,7 @@ TEST(ContactModel, StaysPositiveAndBoundedWhateverTicksSay) {
   }
 }
 
-/// Of a reset, a recovery, another mode: the tissue is not where it was.
+/// After a reset, a recovery or a change of mode, the tissue is no longer where it was.
 TEST(ContactModel, RemembersNoSurfaceOfBefore) {
   double now_s = 0;
   ContactModel model = pressed(0, -0.004, 8, now_s);
@@ -128,17 +128,17 @@ TEST(ContactModel, RemembersTheSurfaceThatATipHasJustLeft) {
 TEST(ContactModel, GoesToNothingWhenItIsForgotten) {
   double now_s = 0;
   ContactModel model = pressed(0, -0.004, 8, now_s);
-  model.forget(kTick_s, now_s);
+  model.clear(kTick_s, now_s);
   EXPECT_GT(model.at({0, 0, -0.004}, now_s).force_n.z(), 1);
   EXPECT_EQ(model.at({0, 0, -0.004}, now_s + kTick_s).force_n, Vector3d(0, 0, 0));
 }
 
-/// A blade that is pressed into tissue, which parts at a force, and is drawn back.
+/// A blade is pressed into tissue, which yields at a force, and is drawn back.
 TEST(ContactModel, ABladesForceIsLevelWhereTheTissuePartsAndFallsWhenItGoesBack) {
   constexpr double kLimit_n = 1;
   ContactModel model{TissueConstants{}};
   double now_s = 0, reached_m = 0;
-  for (int i = 0; i < 20; ++i) {  // 0.5 mm a tick: stuck for seven ticks
+  for (int i = 0; i < 20; ++i) {  // 0.5 mm per tick: stuck for seven ticks
     const double from_m = -5e-4 * i, to_m = -5e-4 * (i + 1);
     TickContact contact = onWall(from_m, to_m);
     contact.limit_n = kLimit_n;
@@ -152,7 +152,7 @@ TEST(ContactModel, ABladesForceIsLevelWhereTheTissuePartsAndFallsWhenItGoesBack)
   const double behind_n = model.at({0, 0, reached_m + 1e-3}, now_s).force_n.z();
   EXPECT_NEAR(behind_n, kLimit_n - 1e-3 * kStiff_n_per_m, 0.1 * kLimit_n);
   EXPECT_EQ(model.at({0, 0, reached_m + 0.01}, now_s).force_n.z(), 0);
-  // In and out again between two ticks: nothing is gained.
+  // In and out again between two ticks: no energy is gained.
   double work_j = 0, before_m = reached_m;
   for (int i = 1; i <= 400; ++i) {
     const double z_m = reached_m - 2e-3 * std::sin(2 * 3.14159265358979 * i / 400);
@@ -162,7 +162,7 @@ TEST(ContactModel, ABladesForceIsLevelWhereTheTissuePartsAndFallsWhenItGoesBack)
   EXPECT_LT(work_j, 1e-6);
 }
 
-/// A needle that heads down and is held aside by the tissue around it.
+/// Returns the contact of a needle that points down and is held laterally by the tissue around it.
 TickContact onNeedle(const Vector3d& at_m, const Vector3d& force_n) {
   TickContact out;
   out.kind = Kind::kPierces;
@@ -178,8 +178,7 @@ TickContact onNeedle(const Vector3d& at_m, const Vector3d& force_n) {
 TEST(ContactModel, ANeedleIsHeldAcrossFromBothSides) {
   ContactModel model{TissueConstants{}};
   model.put(onNeedle({0, 0, 0}, {0.05, 0, 0.2}), kTick_s, 0);
-  for (const double aside_m :
-       {-1e-3, 1e-3})  // also where that turns the force across round, and is more than what pushes
+  for (const double aside_m : {-1e-3, 1e-3})  // also if that reverses the force across, and exceeds the pushing force
     EXPECT_NEAR(model.at({aside_m, 0, 0}, kTick_s).force_n.x(), 0.05 - 1000 * aside_m, 1e-9) << aside_m;
   EXPECT_NEAR(model.at({0, 1e-3, 0}, kTick_s).force_n.y(), -1, 1e-9);
 }
@@ -189,11 +188,11 @@ TEST(ContactModel, ANeedlesForceAlongEndsWhereItGoesOnAndWhereItComesBack) {
   model.put(onNeedle({0, 0, 0}, {0.05, 0, 0.2}), kTick_s, 0);
   EXPECT_NEAR(model.at({0, 0, -0.01}, kTick_s).force_n.z(), 0.3, 1e-9);
   EXPECT_NEAR(model.at({0, 0, 0.01}, kTick_s).force_n.z(), -0.1, 1e-9);
-  EXPECT_NEAR(model.at({0, 0, 0.01}, kTick_s).force_n.x(), 0.05, 1e-9);  // nothing of it across
+  EXPECT_NEAR(model.at({0, 0, 0.01}, kTick_s).force_n.x(), 0.05, 1e-9);  // the component across does not change
   EXPECT_LT(model.at({0, 0, 1e-4}, kTick_s).force_n.z(), 0.2);
 }
 
-/// Ticks in which it goes on by a level force tell nothing of how stiff the tissue is before it does.
+/// Ticks in which the needle moves on at a constant force carry no information about the stiffness before.
 TEST(ContactModel, ANeedleThatGoesOnLearnsNothingAlong) {
   ContactModel model{TissueConstants{}};
   double now_s = 0;
@@ -203,7 +202,7 @@ TEST(ContactModel, ANeedleThatGoesOnLearnsNothingAlong) {
   EXPECT_NEAR(model.stiffness_n_per_m()(0, 0), 1500, 150);
 }
 
-/// A thread of 300 N/m along x that is slack up to x = 0.
+/// Returns the contact of a suture of 300 N/m along x that is slack up to x = 0.
 TickContact onThread(double at_m, double tension_n) {
   TickContact out;
   out.kind = Kind::kPulls;
@@ -212,20 +211,20 @@ TickContact onThread(double at_m, double tension_n) {
   return out;
 }
 
-TEST(ContactModel, AThreadIsAsStiffAsTicksTell) {
+TEST(ContactModel, ASutureIsAsStiffAsTicksTell) {
   ContactModel model{TissueConstants{}};
   double now_s = 0;
   for (int i = 0; i < 8; ++i) model.put(onThread(5e-4 * i, 0.15 * i), kTick_s, now_s += kTick_s);
   now_s += kTick_s;
   EXPECT_NEAR(model.stiffness_n_per_m()(0, 0), 300, 10);
   EXPECT_NEAR(model.at({3e-3, 0, 0}, now_s).force_n.x(), -0.9, 0.02);
-  EXPECT_EQ(model.at({-1e-3, 0, 0}, now_s).force_n, Vector3d(0, 0, 0));  // one way
-  EXPECT_NEAR(model.at({3.5e-3, 1e-3, 0}, now_s).force_n.y(), 0, 1e-9);  // along one direction
-  EXPECT_NEAR(model.at({0.1, 0, 0}, now_s).force_n.x(), -2.1, 1e-9);     // and not without end
+  EXPECT_EQ(model.at({-1e-3, 0, 0}, now_s).force_n, Vector3d(0, 0, 0));  // pulls in one direction only
+  EXPECT_NEAR(model.at({3.5e-3, 1e-3, 0}, now_s).force_n.y(), 0, 1e-9);  // along a single axis
+  EXPECT_NEAR(model.at({0.1, 0, 0}, now_s).force_n.x(), -2.1, 1e-9);     // and limited
 }
 
-/// A slack thread that is moved has what moves it, and no stiffness of tissue.
-TEST(ContactModel, ASlackThreadGivesNoMoreThanTheTick) {
+/// A moving slack suture has the force of the tick, and no stiffness of tissue.
+TEST(ContactModel, ASlackSutureGivesNoMoreThanTheTick) {
   constexpr double kDrag_n = 2e-3;
   ContactModel model{TissueConstants{1e5, 1e5, 0.25, 0.008}};
   double now_s = 0;

@@ -16,7 +16,7 @@ constexpr double kForceLoopTick_s = 1.0 / 60, kStall_s = 3 * kForceLoopTick_s;
 constexpr ForceLimits kLimits{5, 100, 0.2, 4};
 constexpr double kForceLoopStiff_n_per_m = 500;
 
-/// A hand over a wall of springs at z = 0, a simulation that ticks, and a thread that sleeps until something is due.
+/// A device over a wall of springs at z = 0, a simulation with ticks, and a thread that sleeps until something is due.
 class Rig {
  public:
   explicit Rig(double rate_hz = 1000, const ForceLimits& limits = kLimits)
@@ -26,16 +26,16 @@ class Rig {
 
   double time_s() const { return std::chrono::duration<double>(now_ - kBegin).count(); }
   bool ticks = true;
-  double z_m = 0.01, speed_m_per_s = 0;  ///< of the tip
+  double z_m = 0.01, speed_m_per_s = 0;  ///< height and velocity of the tip
   ForceLoop::Hands& hands() { return hands_; }
   const ForceLoop& loop() const { return loop_; }
   struct Sent {
     double time_s, force_n;
   };
   std::vector<Sent> sent;
-  double given_j = 0;  ///< by the hand, truly
+  double given_j = 0;  ///< true energy given by the user [J]
 
-  /// Goes on for a while.
+  /// Advances the time.
   void run(double span_s) {
     const SteadyTime end = now_ + span(span_s);
     while (now_ < end) {
@@ -101,7 +101,7 @@ class Rig {
   double last_z_m_ = 0.01;
 };
 
-/// The longest time between two messages from a moment on.
+/// Returns the longest time between two messages after a moment.
 double longestGap_s(const Rig& rig, double from_s) {
   double gap_s = 0, last_s = from_s;
   for (const Rig::Sent& each : rig.sent) {
@@ -114,11 +114,11 @@ double longestGap_s(const Rig& rig, double from_s) {
 
 TEST(ForceLoop, AnswersAtItsRateAlsoAfterALimitHasActed) {
   for (const double rate_hz : {100.0, 200.0, 400.0, 499.0, 1000.0, 5000.0}) {
-    Rig rig(rate_hz, {5, 2, 0.2, 4});  // a slew that holds every force back for long
+    Rig rig(rate_hz, {5, 2, 0.2, 4});  // a slew rate that limits every force for long
     rig.speed_m_per_s = -0.05;
     rig.run(0.3);
     rig.speed_m_per_s = 0;
-    rig.run(3);  // some 2.5 N at 2 N/s
+    rig.run(3);  // about 2.5 N at 2 N/s
     const double from_s = rig.time_s();
     const uint64_t before = rig.loop().felt(0).answers;
     rig.run(1);
@@ -127,7 +127,7 @@ TEST(ForceLoop, AnswersAtItsRateAlsoAfterALimitHasActed) {
   }
 }
 
-/// 150 ms without ticks, in which the hand goes away by 3 cm: what is booked is what was felt.
+/// 150 ms without ticks, in which the device moves away by 3 cm: the energy is that of the forces that acted.
 TEST(ForceLoop, AStallLeavesNoEnergyBehind) {
   Rig rig;
   const auto poke = [&rig] {
@@ -160,7 +160,7 @@ TEST(ForceLoop, AStallLeavesNoEnergyBehind) {
   EXPECT_GT(rig.loop().felt(0).least_j, -1e-3);
 }
 
-/// A driver that comes late, or again, begins at zero and at the slew of its limits.
+/// A driver that subscribes late, or again, starts at zero with the slew rate of its limits.
 TEST(ForceLoop, WhoBeginsToListenFeelsNoLeap) {
   Rig rig(1000, {5, 10, 0.2, 4});
   rig.speed_m_per_s = -0.05;

@@ -16,15 +16,15 @@ namespace {
 
 constexpr double kHapticServoTick_s = 1.0 / 60, kHapticServoStiff_n_per_m = 800;
 
-/// How a device is held and heard.
+/// Properties of a held device and its driver.
 struct Held {
   double mass_kg = 0.1, delay_s = 0;
   bool servoed = true;
-  int periods_per_pose = 1;  ///< of 1 ms
+  int periods_per_pose = 1;  ///< one period is 1 ms
   double motion_scale = 1, force_scale = 1;
 };
 
-/// A device presses a wall of springs that answers once per tick, half a tick late. Places are the hand's.
+/// A device presses a wall of springs that answers once per tick, half a tick late. Positions are those of the device.
 struct Pressed {
   double swing_m = 0, force_n = 0, least_j = 0, observed_j = 0, energy_j = 0, device_j = 0, share = 1;
 };
@@ -44,8 +44,7 @@ Pressed press(const Held& held) {
   TickContact contact;
   Vector3d tip = held.motion_scale * device.measured_m(), last = tip, told = Vector3d::Zero();
   double next_s = 0, answer_s = 1e9, told_s = 0, low = 1e9, high = -1e9;
-  const double stiff =
-      kHapticServoStiff_n_per_m / (held.motion_scale * held.force_scale);  // the hand feels kStiff_n_per_m
+  const double stiff = kHapticServoStiff_n_per_m / (held.motion_scale * held.force_scale);  // at the tip
   for (int i = 0; i < 6000; ++i) {
     const double now_s = 1e-3 * i;
     if (i % held.periods_per_pose == 0) {
@@ -85,9 +84,9 @@ Pressed press(const Held& held) {
   return out;
 }
 
-/// Half of what an encoder's step makes of itself.
+/// Half of the oscillation due to an encoder step.
 constexpr double kQuiet_m = 2e-5;
-/// The observer's energy against the device's own [J]: a twentieth of what may be given.
+/// Tolerance of the observer's energy against the device's [J]: a twentieth of the permitted energy.
 constexpr double kBooked_j = 5e-5;
 const double kBalance_n = 0.004 / (1 / kHapticServoStiff_n_per_m + 1 / SimulatedDeviceConfig{}.hand_stiffness_n_per_m);
 
@@ -110,7 +109,7 @@ TEST(HapticServo, SoftensNothingForAHeavierOne) {
   EXPECT_GT(press({0.3, 0.005}).share, 0.95);
 }
 
-/// Drivers of 60 Hz, 100 Hz (ros_geomagic), 250 Hz: between two poses the hand goes on.
+/// Drivers of 60 Hz, 100 Hz (ros_geomagic), 250 Hz: the device moves between two poses.
 TEST(HapticServo, HoldsAStiffWallStillWithFewPoses) {
   for (const int periods : {4, 10, 16}) {
     for (const double mass_kg : {0.05, 0.1, 0.5}) {
@@ -126,7 +125,7 @@ TEST(HapticServo, HoldsAStiffWallStillWithFewPoses) {
   }
 }
 
-/// What the observer has is the device's own energy, whatever stands between hand and tool.
+/// The observer has the device's own energy, with any scales between device and tool.
 TEST(HapticServo, BooksWhatTheHandGivesWhateverTheScales) {
   for (const auto& [motion, force] : {std::pair{1.0, 1.0}, {0.2, 1.0}, {1.0, 2.0}, {3.0, 0.5}}) {
     SCOPED_TRACE(std::to_string(motion) + ", " + std::to_string(force));
@@ -140,7 +139,7 @@ TEST(HapticServo, BooksWhatTheHandGivesWhateverTheScales) {
   }
 }
 
-/// How the hand moved, and what pushed it meanwhile, is unknown.
+/// During a gap, neither the motion nor the force is known.
 TEST(HapticServo, AGapIsNoMotion) {
   HapticServo servo(HapticServoConfig{});
   TickContact contact;
@@ -157,7 +156,7 @@ TEST(HapticServo, AGapIsNoMotion) {
   EXPECT_EQ(servo.passivity().least_j(), 0);
 }
 
-/// A grip's pull that turns round is never felt the old way, however soft the loop has become.
+/// After a grip's force reverses, no force in the old direction remains, however soft the loop is.
 TEST(HapticServo, SoftenedForcesKeepTheirDirection) {
   HapticServoConfig config;
   config.round_trip_s = 0.01;
@@ -165,7 +164,7 @@ TEST(HapticServo, SoftenedForcesKeepTheirDirection) {
   HapticServo servo(config);
   TickContact contact;
   contact.kind = TickContact::Kind::kHolds;
-  // A device that swings ten times a second against what it is told, as one behind a delay does: the loop softens.
+  // A device that oscillates ten times a second against its force, as one with a delay does: the loop softens.
   double now_s = 0, z_m = 0;
   for (int i = 0; i < 3000; ++i, now_s += 1e-3) {
     const double next_m = 2e-3 * std::sin(6.283 * 10 * now_s);
@@ -182,7 +181,7 @@ TEST(HapticServo, SoftenedForcesKeepTheirDirection) {
   contact.from_m = contact.to_m = {0, 0, z_m};
   contact.reaction.force_n = {0, 0, 1};
   for (int i = 0; i < 1000; ++i, now_s += 1e-3) servo.step({0, 0, z_m}, now_s, now_s);
-  contact.reaction.force_n = {0, 0, -1};  // it pulls the other way now
+  contact.reaction.force_n = {0, 0, -1};  // now in the opposite direction
   servo.put(contact, now_s);
   for (int i = 0; i < 200; ++i, now_s += 1e-3) {
     const double wanted_n = servo.model().at({0, 0, z_m}, now_s).force_n.z();
@@ -198,7 +197,7 @@ TEST(HapticServo, ForgetsAtOnceWhatItKnew) {
   contact.reaction.force_n = {0, 0, 1};
   servo.put(contact, 0);
   EXPECT_GT(servo.step(Vector3d::Zero(), kHapticServoTick_s, kHapticServoTick_s).force_n.z(), 0.9);
-  servo.forget(kHapticServoTick_s);
+  servo.clear(kHapticServoTick_s);
   EXPECT_EQ(servo.step({0.1, 0.1, 0.1}, 3 * kHapticServoTick_s, 3 * kHapticServoTick_s).force_n, Vector3d(0, 0, 0));
 }
 

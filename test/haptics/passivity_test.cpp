@@ -10,10 +10,10 @@ namespace viscera {
 namespace {
 
 constexpr double kPeriod_s = 1e-3, kPassivityStiff_n_per_m = 500, kDepth_m = 3e-3;
-constexpr double kRounding = 1e-12;  // of sums of a few doubles of the order of 1
+constexpr double kRounding = 1e-12;  // of sums of several doubles of order 1
 
-/// A tip goes into a wall and out again; the wall pushes back with other shares of its force on the way in and out.
-/// @returns the energy that it has got at the end [J]
+/// Moves a tip into a wall and out again; the wall pushes back with different shares of its force on both paths.
+/// @returns the energy that the tip has received at the end [J]
 double inAndOut(double share_in, double share_out, PassivityControl& control) {
   const int periods = 200;
   double depth_m = 0;
@@ -37,7 +37,7 @@ TEST(PassivityControl, LeavesAPassiveWallAlone) {
 
 TEST(PassivityControl, KeepsAWallFromGivingMoreThanItGot) {
   PassivityControl control({kPeriod_s, 0, 1e-3});
-  inAndOut(0.3, 1, control);  // left alone, it would give 0.7 of 2.25 mJ
+  inAndOut(0.3, 1, control);  // without control, it would give 0.7 of 2.25 mJ
   EXPECT_GT(control.least_j(), -2e-4);
 }
 
@@ -49,7 +49,7 @@ TEST(PassivityControl, TurnsNoForceRound) {
 TEST(PassivityControl, CountsTheForceThatActedARoundTripAgo) {
   PassivityControl control({kPeriod_s, 2 * kPeriod_s, 1});
   for (int i = 1; i <= 4; ++i) control.sent({0, 0, static_cast<double>(i)}, i * kPeriod_s);
-  // From the pose of 4 ms to that of 5 ms there acted what was sent from 2 ms to 3 ms.
+  // Between the poses of 4 ms and 5 ms, the force sent from 2 ms to 3 ms acted.
   EXPECT_NEAR(control.moved({0, 0, -0.001}, 4 * kPeriod_s, 5 * kPeriod_s)->z(), 2, kRounding);
   EXPECT_NEAR(control.energy_j(), 0.002, kRounding);
 }

@@ -41,7 +41,7 @@ TEST(SimulatedDevice, AnswersADelayLater) {
   config.delay_s = 0.01;
   config.encoder_m = 0;
   SimulatedDevice device(config, Vector3d::Zero());
-  // A force that answers the pose of a period acts in the tenth one after it.
+  // A force that answers the pose of a period acts in the tenth period after it.
   int measured = -1, acted = -1;
   for (int i = 0; i < 40; ++i) {
     if (measured < 0 && device.measured_m().z() > 0) measured = i;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr ForceLimits kWrenchScheduleLimits{5, 100, 0.2, 4};
 constexpr double kWrenchScheduleTick_s = 0.01, kWrenchScheduleStall_s = 0.03;
-constexpr double kWrenchScheduleRounding = 1e-9;  // of sums of steps of doubles, relative
+constexpr double kWrenchScheduleRounding = 1e-9;  // of sums of steps in double, relative
 
 Wrenches wrench(double force_n, double torque_nm = 0) {
   Wrenches out;
@@ -34,7 +34,7 @@ class WrenchScheduleTest : public ::testing::Test {
   static SteadyTime::duration span(double span_s) {
     return std::chrono::duration_cast<SteadyTime::duration>(std::chrono::duration<double>(span_s));
   }
-  /// Goes on, sending whenever something is due. @returns what was sent last
+  /// Advances the time and sends whenever something is due. @returns what was sent last
   Wrenches wait(double span_s) {
     const SteadyTime end = now_ + span(span_s);
     Wrenches last = schedule_.next(now_);
@@ -49,7 +49,7 @@ class WrenchScheduleTest : public ::testing::Test {
     schedule_.tick(now_);
     schedule_.want(wanted, {true}, now_);
   }
-  /// Ticks that all want this.
+  /// Runs ticks with the same desired wrench.
   Wrenches ticks(int count, const Wrenches& wanted, double tick_s = kWrenchScheduleTick_s) {
     Wrenches last;
     for (int t = 0; t < count; ++t) {
@@ -145,7 +145,7 @@ TEST_F(WrenchScheduleTest, PureTwistIsLimitedToo) {
   EXPECT_NEAR(before_nm, kWrenchScheduleLimits.torque_nm, kWrenchScheduleRounding);
 }
 
-/// What keeps a wrench up, and what is to end it: both for every slew and limit that there could be.
+/// What sustains a wrench, and what must end it, for all slew rates and limits.
 struct Ending {
   const char* name;
   std::function<void(WrenchSchedule&, SteadyTime)> begin;
@@ -191,7 +191,7 @@ TEST(WrenchScheduleEndings, NothingKeepsAWrenchUpWhateverSlewAndLimitsAre) {
       for (const bool hand_lost = schedule.live() && ending.within_s == WrenchSchedule::kLetGo_s; now < end;) {
         const double before_n = out.force_n.norm();
         now = std::max(now + std::chrono::microseconds(1), std::min(schedule.due(), end));
-        if (hand_lost) schedule.tick(now);  // ticks go on
+        if (hand_lost) schedule.tick(now);  // ticks continue
         out = schedule.next(now)[0];
         EXPECT_LE(out.force_n.norm(), before_n * (1 + kWrenchScheduleRounding));
       }
@@ -215,8 +215,8 @@ TEST(WrenchScheduleEndings, ALimitOfNoTorqueLeavesTheForceAsItIs) {
   EXPECT_EQ(out.torque_nm, Vector3d::Zero());
 }
 
-/// A million ticks of a wild simulation: any wrench, pauses, late ticks and stalls. What goes out keeps the limits, in
-/// wall-clock time; a stall may let go faster, and only let go.
+/// A million ticks of a random simulation: any wrench, pauses, late ticks and stalls. The output keeps the limits in
+/// wall-clock time; in a stall it may fade out faster.
 TEST_F(WrenchScheduleTest, NoLimitIsExceededInAMillionRandomTicks) {
   std::mt19937_64 random(12);
   const auto uniform = [&](double low, double high) {
@@ -256,7 +256,7 @@ TEST_F(WrenchScheduleTest, NoLimitIsExceededInAMillionRandomTicks) {
       put(wanted);
     }
     if (what < 0.001) {
-      before = {};  // tissue that is not finite: zero at once, which is told here and not asked of the limits
+      before = {};  // non-finite tissue: zero at once, checked here and not against the limits
       ASSERT_EQ(schedule_.next(now_)[0].force_n, Vector3d::Zero());
       sent = now_;
     }
@@ -270,7 +270,7 @@ TEST_F(WrenchScheduleTest, NoLimitIsExceededInAMillionRandomTicks) {
     live += before.force_n.norm() > 0;
   }
   EXPECT_GT(schedule_.stalls(), 100u);
-  EXPECT_GT(live, 100000u);  // forces did go out
+  EXPECT_GT(live, 100000u);  // forces were sent
 }
 
 }  // namespace

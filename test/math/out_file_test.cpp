@@ -123,8 +123,8 @@ TEST(OutFile, NeverReplacesAFileOfAnotherKind) {
         continue;
       }
       EXPECT_EQ(readFile(path), bytes);
-      EXPECT_EQ(fault, path + ": cannot be written: there is already " + nameOf(there) + " of that name, and " +
-                           nameOf(kind) + " does not replace it; name another file, or remove it");
+      EXPECT_EQ(fault, path + ": cannot be written: it already exists as " + nameOf(there) + ", and " + nameOf(kind) +
+                           " does not replace it; choose another file, or remove it");
     }
   }
   put(path, "");
@@ -142,7 +142,7 @@ TEST(OutFile, NeverReplacesAFileThatIsReadWhateverItsName) {
   for (const std::string& each : {path, link}) {
     EXPECT_TRUE(isRead(each));
     EXPECT_EQ(faultOf([&] { writeFile(each, FileKind::kPly, "ply\nnew"); }),
-              each + ": cannot be written: this command reads it, and would destroy it; name another file");
+              each + ": cannot be written: this command reads it and would destroy it; choose another file");
   }
   EXPECT_EQ(readFile(path), "ply\n");
   fs::remove(path);

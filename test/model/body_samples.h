@@ -32,7 +32,7 @@ inline BodyConfig phantomConfig(double spacing_m) {
   return config;
 }
 
-/// A body from a mesh that is written to a file of the running test.
+/// Returns a body from a mesh that is written to a file of the running test.
 inline BodyConfig meshConfig(const TriangleMesh& mesh, double spacing_m) {
   BodyConfig config;
   config.name = "organ";

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Normals and colours of a fine mesh on a coarse skin (docs/detail.md).
+// Baking of normals and colours of a fine mesh onto a coarse surface (docs/surface.md).
 #include "model/shape/detail/detail_bake.h"
 
 #include <gtest/gtest.h>
@@ -25,10 +25,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kRadius_m = 0.05;
-constexpr double kBumps = 80;         // per unit of direction: a wave of 4 mm, 1.5 edges of the coarse skin
+constexpr double kBumps = 80;         // per unit of direction: a wave of 4 mm, 1.5 edges of the coarse surface
 constexpr double kHeight_m = 1.5e-4;  // slopes of up to 14 degrees
 constexpr double kDegrees = 180 / M_PI;
-constexpr double kMostMedian_deg = 3;  // what issue 14 asks of a skin of 10,000 faces
+constexpr double kMostMedian_deg = 3;  // limit of issue 14 for a surface of 10,000 faces
 
 double bump(const Vector3d& d) {
   return std::sin(kBumps * d.x()) * std::sin(kBumps * d.y()) * std::sin(kBumps * d.z() + 1);
@@ -38,7 +38,7 @@ Vector3d surfaceOf(const Vector3d& d) {
   return (kRadius_m + kHeight_m * bump(d)) * d;
 }
 
-/// Of the surface itself, by differences.
+/// Returns the normal of the surface itself, by differences.
 Vector3d trueNormal(const Vector3d& place) {
   const Vector3d d = place.normalized(), s = d.unitOrthogonal(), t = d.cross(s);
   constexpr double kStep = 1e-5;
@@ -52,7 +52,7 @@ TriangleMesh bumpyBall(double edge_m) {
   return mesh;
 }
 
-/// Bakes go to a folder of the test's own.
+/// Fixture with a cache folder of its own.
 class DetailBake : public ::testing::Test {
  protected:
   DetailBake() { setenv("XDG_CACHE_HOME", cache_.path().c_str(), 1); }
@@ -70,7 +70,7 @@ struct Shown {
   }
 };
 
-/// Shading normals by what is in the mesh alone: charts, texels and vertex normals, as the shader has them.
+/// Returns shading normals computed from the mesh as the shader does: charts, texels and vertex normals.
 Shown shownBy(const TriangleMesh& mesh) {
   const std::vector<Vector3f> normals = vertexNormals(mesh);
   std::mt19937 random(7);
@@ -94,7 +94,8 @@ Shown shownBy(const TriangleMesh& mesh) {
     const int y = static_cast<int>((chart.v.head<3>().dot(place) + chart.v[3]) * image.height_px);
     const uint8_t* texel = &image.rgba[4 * (static_cast<size_t>(y) * image.width_px + x)];
     const Vector3f bent = Vector3f(texel[0] - 128.F, texel[1] - 128.F, texel[2] - 128.F) / 127.5F;
-    const Vector3f along_u = chart.v.head<3>().cross(chart.u.head<3>().cross(chart.v.head<3>()));  // v does not grow
+    // V is constant along it.
+    const Vector3f along_u = chart.v.head<3>().cross(chart.u.head<3>().cross(chart.v.head<3>()));
     const Vector3f tangent = (along_u - n * n.dot(along_u)).normalized();
     const Vector3f shown = (bent.x() * tangent + bent.y() * n.cross(tangent) + bent.z() * n).normalized();
     const Vector3d truth = trueNormal(place.cast<double>());
@@ -128,18 +129,18 @@ TEST_F(DetailBake, FewerFacesLeaveAClosedMesh) {
   for (const auto& t : skin.triangles) {
     for (size_t i = 0; i < 3; ++i) ++balance[{t[i], t[(i + 1) % 3]}];
   }
-  size_t open = 0;  // where two folds of the surface meet, an edge may have two triangles on either hand
+  size_t open = 0;  // where two folds of the surface meet, an edge may have two triangles on either side
   for (const auto& [edge, count] : balance) {
     const auto other = balance.find({edge.second, edge.first});
     open += other == balance.end() || other->second != count ? 1 : 0;
   }
   EXPECT_EQ(open, 0u);
-  constexpr double kVolume = 0.01;  // share: chords of 3000 faces cut off a half of it
+  constexpr double kVolume = 0.01;  // chords of 3000 faces cut off half of it
   EXPECT_NEAR(signedVolume(skin) / (4.0 / 3 * M_PI * std::pow(kRadius_m, 3)), 1, kVolume);
 }
 
 TEST_F(DetailBake, SmallPartsKeepTheirFacesBesideLargeOnes) {
-  TriangleMesh mesh = bumpyBall(1e-3);  // a part of fewer faces than any is simplified to, as an atlas has
+  TriangleMesh mesh = bumpyBall(1e-3);  // the box has fewer faces than parts are simplified to
   const TriangleMesh box = test::boxMesh({0.1F, 0, 0}, {0.11F, 0.01F, 0.01F});
   const auto first = static_cast<uint32_t>(mesh.positions_m.size());
   mesh.positions_m.insert(mesh.positions_m.end(), box.positions_m.begin(), box.positions_m.end());
@@ -182,9 +183,9 @@ TEST_F(DetailBake, WhatTheDetailedMeshDoesNotCoverIsSaid) {
   half.parts.assign(half.triangles.size(), 0);
   BakeReport report;
   bakeDetail({skin, half, false, 1024}, &report);
-  constexpr double kShare = 0.01, kBeside = 0.05;  // within 3 % of the box's diagonal of the border it is near enough
+  constexpr double kShare = 0.01, kBeside = 0.05;  // within 3 % of the box's diagonal from the border it is near enough
   EXPECT_NEAR(report.uncovered_share, 0.5 - kBeside, kShare);
-  EXPECT_NE(report.text().find("the detailed mesh is not near"), std::string::npos) << report.text();
+  EXPECT_NE(report.text().find("is not near the detailed mesh"), std::string::npos) << report.text();
 }
 
 TEST_F(DetailBake, ColorsOfTheDetailedMeshComeAlong) {

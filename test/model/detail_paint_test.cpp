@@ -17,7 +17,7 @@ TriangleMesh skinOf(const Phantom& heart) {
   return extractSkin(heart.field, heart.part_names, heart.min_m, heart.max_m, kSkin_m);
 }
 
-/// Corners of a skin, with the normals that are bound there, as many as a row has.
+/// Returns vertices of a surface with their normals, as many as a row has.
 PaintRow rowOf(const TriangleMesh& skin, const PlacedPaint& on, size_t first) {
   const std::vector<Vector3f> normals = vertexNormals(skin);
   PaintRow row;
@@ -39,7 +39,7 @@ Vector3f placeOf(const PaintRow& row, size_t l) {
 TEST(DetailPaint, WhatIsLeftOutElsewhereWouldHaveChangedNothing) {
   const PlacedPaint on = heartPaint(kLength_m, 1);
   const TriangleMesh skin = skinOf(heartPhantom(kLength_m, 1));
-  constexpr float kAll = 3;  // lengths of the heart
+  constexpr float kAll = 3;  // in lengths of the heart
   std::vector<uint32_t> all, near;
   on.paint->findNear(Vector3f::Zero(), kAll, all);
   size_t covered = 0, fewer = 0;
@@ -86,12 +86,12 @@ TEST(DetailPaint, IsTheSameEveryTimeAndTurnsWithTheBody) {
   const Pose back = moved.inverse();
   there.shift += there.turn * (back.position_m / there.unit_m);
   there.turn = there.turn * back.orientation;
-  // Another order of triangles in the atlas, and float32 at 0.4 m: the share is what stays.
+  // The order of triangles in the atlas differs, and float32 rounds at 0.4 m: only the share is preserved.
   constexpr double kOrder = 0.02;
   EXPECT_NEAR(shareCovered(paintDetail(away, there, kLargest_px)), covered, kOrder * covered);
 }
 
-/// The skin is no longer wanted, as at the end of a program: the threads that paint end too.
+/// The progress callback throws, as at the end of a program: the painting threads end too.
 TEST(DetailPaint, IsEndedByItsProgress) {
   const TriangleMesh skin = skinOf(heartPhantom(kLength_m, 1));
   const auto ends = [](const std::string&, double) { throw 1; };

@@ -12,10 +12,10 @@
 namespace viscera::test {
 namespace {
 
-/// Refusing takes what reading the triangles takes, milliseconds. Walking the space between takes minutes.
-constexpr double kAtOnceS = 2;  // s of a processor
+/// Rejection takes the time of reading the triangles, milliseconds. Traversing the space between parts takes minutes.
+constexpr double kAtOnceS = 2;  // s of CPU time
 
-/// A cube with 0.1 m edges at the origin and one of 0.02 m that begins where it is told.
+/// Returns a cube with 0.1 m edges at the origin and one of 0.02 m with its lower corner at `where_m`.
 TriangleMesh organAndBall(const Vector3f& where_m) {
   TriangleMesh mesh = boxMesh(Vector3f::Zero(), Vector3f::Constant(0.1f));
   const TriangleMesh ball = boxMesh(where_m, where_m + Vector3f::Constant(0.02f));
@@ -49,7 +49,7 @@ TEST(FarParts, PieceOfAPartIsSaidToBeOne) {
 }
 
 TEST(FarParts, WhatIsAcceptedIsFilled) {
-  // The refusal at 1 mm names the range: just within it the grid is made.
+  // The error at 1 mm names the limit: just within it the grid is made.
   const std::string message = messageOf<LatticeError>([] { voxelise(organAndBall({100, 0, 0}), 0.001); });
   const size_t at = message.find("at most ");
   ASSERT_NE(at, std::string::npos) << message;

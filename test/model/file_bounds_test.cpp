@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A process that is bound to folders reads no scene, no mesh and nothing that these name from elsewhere.
+// A process with bound folders reads no scene, no mesh and no file that these refer to from elsewhere.
 #include "model/scene/file_bounds.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::TemporaryFolder;
 
-/// A word of the files outside that no error may tell.
+/// Word in the files outside that no error may contain.
 constexpr const char* kSecret = "s3cret";
 constexpr const char* kTetrahedron =
     "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nvt 0 0\n"
@@ -31,7 +31,7 @@ class FileBounds : public ::testing::Test {
  protected:
   FileBounds() {
     fs::create_directory(inside_);
-    fs::create_directory(inside_ + "_too");  // begins as the folder does
+    fs::create_directory(inside_ + "_too");  // begins with the folder's name
     bindFilesTo({inside_}, "parameter ~scene_folders");
   }
   ~FileBounds() override { bindFilesTo({}, ""); }
@@ -40,7 +40,7 @@ class FileBounds : public ::testing::Test {
     return write(name, "bodies: [{name: a, spacing_m: 0.02, " + keys + "}]\n");
   }
   static void load(const std::string& path) { (void)buildModel(loadScene(path)); }
-  /// The call is refused for `path`, and says nothing of what is there.
+  /// Expects that the call is refused for `path`, without a hint of its content.
   static void expectRefused(const std::function<void()>& call, const std::string& path) {
     try {
       call();
@@ -120,7 +120,7 @@ TEST_F(FileBounds, FoldersAreAbsoluteAndThere) {
       ADD_FAILURE() << folder;
     } catch (const FileBoundError& error) {
       EXPECT_EQ(std::string(error.what()),
-                "parameter ~scene_folders: '" + folder + "' is not the absolute path of a folder");
+                "parameter ~scene_folders: '" + folder + "' must be the absolute path of an existing folder");
     }
   }
 }

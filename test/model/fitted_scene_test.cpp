@@ -17,7 +17,7 @@ using test::TemporaryFolder;
 
 constexpr double kRounding = 2e-6;  // of a value: keys are written with six digits
 
-/// A block of 0.1 m, held at the top fifth, lying on a floor.
+/// Block of 0.1 m, fixed in its top fifth, on a floor.
 constexpr const char* kScene =
     "bodies: [{name: block, source: box, box_size_m: [0.1, 0.1, 0.1], spacing_m: 0.01,\n"
     "  fixed: [{shape: plane, point_m: [0, 0, 0.03], normal: [0, 0, -1]},\n"
@@ -27,7 +27,7 @@ constexpr const char* kScene =
     "obstacles:\n"
     "  - {name: floor, shape: plane, position_m: [0, 0, -0.06]}\n";
 
-/// A mesh file of a box around the origin.
+/// Returns a mesh file of a box around the origin.
 std::string boxMesh(const Vector3d& size_m) {
   std::string out;
   for (int c = 0; c < 8; ++c) {
@@ -127,7 +127,7 @@ TEST_F(Fit, AThinPlateIsHeldByItsTop) {
 }
 
 TEST_F(Fit, WhatIsNotFilledDoesNotCount) {
-  // A sheet, which encloses nothing, stands 0.1 m high on a box of 0.05 m.
+  // A sheet that encloses nothing, 0.1 m high, on a box of 0.05 m.
   const std::string box = boxMesh(Vector3d::Constant(0.05));
   const std::string sheet = "o fin\nv -0.02 0 0.02\nv 0.02 0 0.02\nv 0.02 0 0.12\nv -0.02 0 0.12\nf 9 10 11 12\n";
   const Scene scene = loadFittedScene(scene_, meshOverrides(folder_.write("fin.obj", "o box\n" + box + sheet)),
@@ -155,7 +155,7 @@ TEST_F(Fit, WhatIsSetGoesBefore) {
 }
 
 TEST_F(Fit, UnitsAndTurnsCountBeforeTheBoxIsTaken) {
-  // Turned by 90 degrees about x: what was upright lies along y. The top is held all the same.
+  // Rotated by 90 degrees about x: the upright axis is along y. The top is fixed all the same.
   const Scene scene =
       fitted({100, 200, 50}, {"bodies[0].unit_scale_m=0.001", "bodies[0].rotation_deg=[90, 0, 0]"}).scene;
   ASSERT_TRUE(scene.fit);

@@ -93,7 +93,7 @@ TEST(FixedNodes, NodesOfAMeshLieOnThePlaneThatHoldsIt) {
     }
     EXPECT_NEAR(lowest_fixed, z, kRounding);
     EXPECT_LT(highest_free, z - kRounding);    // nodes that no tissue reaches are free
-    config.fixed[0].shape = FixedShape::kBox;  // the same by a box
+    config.fixed[0].shape = FixedShape::kBox;  // the same with a box
     config.fixed[0].min_m = {-1, -1, z};
     config.fixed[0].max_m = {1, 1, 1};
     EXPECT_EQ(fixedPositions(build(config).lattice), fixedPositions(lattice));
@@ -114,8 +114,8 @@ TEST(FixedNodes, NodesNearerThanHalfACellToASlopingPlaneAreHeld) {
   }
 }
 
-/// Near its pole a plane cuts a disc out of a ball: nodes are held that it reaches, at most a cell's diagonal farther
-/// out.
+/// Near its pole a plane cuts a disc out of a ball: only nodes that it reaches are fixed, at most a cell's diagonal
+/// farther out.
 TEST(FixedNodes, OnlyNodesOfFacesThatTissueReachesAreHeld) {
   constexpr double kPlane_m = 0.036, kCell_m = 0.01;
   const double disc_m = std::sqrt(0.04 * 0.04 - kPlane_m * kPlane_m);

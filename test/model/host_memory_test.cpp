@@ -65,7 +65,7 @@ TEST(TissueMemory, ThatIsNotThereIsRefusedWithTheSpacingThatFits) {
   constexpr double kTaken = kCells * kBytesPerFilledCell;
   EXPECT_NO_THROW(requireTissueMemory(kCells, 0.001, kBytesPerFilledCell, kTaken));
   const std::string said = test::messageOf<LatticeError>(
-      [] { requireTissueMemory(kCells, 0.001, kBytesPerFilledCell, kTaken / 8); });  // half as many each way
+      [] { requireTissueMemory(kCells, 0.001, kBytesPerFilledCell, kTaken / 8); });  // half as many in each direction
   EXPECT_TRUE(test::says(said, {"8000000 cells", "spacing_m >= 0.0021"}));
 }
 
@@ -76,7 +76,7 @@ TEST(TissueMemory, CountsWhatContactsTakeWhereTheyAreSolvedForToo) {
   scene.solver.integrator = Integrator::kPd;
   EXPECT_EQ(bytesPerFilledCell(scene), alone);
   scene.collision.enabled = true;
-  // 16 ends of pairs a node, each with two rows of 16 bytes and a word; three rows and two words a node.
+  // 16 ends of pairs per node, each with two rows of 16 bytes and a word; three rows and two words per node.
   constexpr double kPairs = 16 * (2 * 16 + 4) + 3 * 16 + 2 * 4;
   EXPECT_GT(bytesPerFilledCell(scene), alone + kPairs);
   constexpr size_t kCells = 1000000;

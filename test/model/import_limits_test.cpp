@@ -15,7 +15,7 @@
 namespace viscera::test {
 namespace {
 
-/// What is refused by its numbers is refused at once; a library that unrolls it takes longer, or all memory.
+/// Files that exceed a number are refused at once; a library that expands them takes longer, or all memory.
 constexpr double kImportLimitsAtOnceS = 5;  // s of a processor: reading some MB of JSON takes 0.1 s
 
 constexpr const char* kShape =
@@ -27,7 +27,7 @@ std::string gltf(const std::string& nodes, const std::string& rest = kShape) {
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[)" + nodes + "]," + rest;
 }
 
-/// Nodes 0 .. count - 1, each with the next as children, that often; the last one has the mesh.
+/// Returns nodes 0 .. count - 1, each with the next one as a child `times` times; the last one has the mesh.
 std::string chain(int count, int times = 1) {
   std::string nodes;
   for (int i = 1; i < count; ++i) {
@@ -73,7 +73,7 @@ TEST_F(ImportLimitsTest, KeysRaiseThem) {
   const std::string deep = gltf(chain(1000)), shared = gltf(chain(18, 2));
   expectRefused("deep.gltf", deep, {"1000", "max_depth"});
   expectRefused("shared.gltf", shared, {"262143", "max_instances"});
-  limits_.max_depth = 4000;  // the end of the key's range must be within what the library survives
+  limits_.max_depth = 4000;  // the library must survive the whole range of the key
   limits_.max_instances = 300000;
   EXPECT_EQ(triangles("deepest.gltf", gltf(chain(4000))), 1u);
   expectRefused("shared.gltf", shared, {"parts"});  // by another limit
@@ -82,7 +82,7 @@ TEST_F(ImportLimitsTest, KeysRaiseThem) {
 TEST_F(ImportLimitsTest, CirclesAndStrangersAreCorrupt) {
   expectRefused("circle.gltf", gltf(R"({"children":[1]},{"children":[2]},{"children":[1],"mesh":0})"),
                 {"circle", "node 1"});
-  expectRefused("self.gltf", gltf(R"({"children":[0],"mesh":0})"), {"circle", "node 0"});
+  expectRefused("self.gltf", gltf(R"({"children":[0],"mesh":0})"), {"cycle", "node 0"});
   expectRefused("stranger.gltf", gltf(R"({"children":[7],"mesh":0})"), {"node 0", "child 7"});
 }
 
@@ -114,8 +114,8 @@ TEST_F(ImportLimitsTest, BytesOfTheFileAndOfItsBuffers) {
 
 TEST_F(ImportLimitsTest, JsonNestedDeepOrBroken) {
   const std::string arrays = "\"extras\":" + std::string(1000000, '[') + std::string(1000000, ']') + ",";
-  expectRefused("nested.gltf", gltf(chain(1), arrays + kShape), {"nested deeper than 1000"});
-  expectRefused("broken.gltf", R"({"asset":{"version":"2.0"},)", {"broken at byte"});
+  expectRefused("nested.gltf", gltf(chain(1), arrays + kShape), {"nested more than 1000 levels deep"});
+  expectRefused("broken.gltf", R"({"asset":{"version":"2.0"},)", {"invalid at byte"});
   expectRefused("one.gltf", R"({"asset":{"version":"1.0"}})", {"version '1.0'"});
 }
 
@@ -125,8 +125,8 @@ TEST_F(ImportLimitsTest, ChunksOfGlbMustBeThere) {
   EXPECT_EQ(triangles("good.glb", good), 12u);
   std::string huge = good;
   huge.replace(12, 4, bytesOf(uint32_t{0xffffff00}));
-  expectRefused("json.glb", huge, {"cut short", "4294967"});
-  expectRefused("binary.glb", good.substr(0, good.size() - 8), {"cut short"});
+  expectRefused("json.glb", huge, {"truncated", "4294967"});
+  expectRefused("binary.glb", good.substr(0, good.size() - 8), {"truncated"});
 }
 
 TEST_F(ImportLimitsTest, PipesAreNotWaitedFor) {
@@ -142,7 +142,7 @@ TEST_F(ImportLimitsTest, OtherFormatsAreReadWhereTheSceneSaysSo) {
   expectRefused("mesh.off", off, {"'.off'", "import_limits.other_formats"});
   limits_.other_formats = true;
   EXPECT_EQ(triangles("mesh.off", off), 1u);
-  const std::string lost = "OFF\n3 1 3\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n";  // whose last vertex assimp takes for 2
+  const std::string lost = "OFF\n3 1 3\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n";  // assimp reads its last vertex as 2
   expectRefused("lost.off", lost, {"a face refers to a vertex that does not exist"});
 }
 

@@ -33,19 +33,20 @@ Solid block(const Vector3i& cells) {
   return solidOf(cells, [](const Vector3i&) { return true; });
 }
 
-/// Half of the cells at random: hollows, bridges of one node, loose pieces; more than one brick along every axis.
+/// Returns a random half of the cells: hollows, bridges of one node, loose pieces; more than one brick along every
+/// axis.
 Solid sponge() {
   std::mt19937 random(1);
   return solidOf({9, 10, 11}, [&](const Vector3i&) { return random() % 2 == 0; });
 }
 
-/// A box whose walls are one cell thick.
+/// Returns a box with walls one cell thick.
 Solid hollow(int edge) {
   return solidOf(Vector3i::Constant(edge),
                  [edge](const Vector3i& c) { return (c.array() == 0).any() || (c.array() == edge - 1).any(); });
 }
 
-/// Total counts of all ends of springs.
+/// Sums of counts over all ends of springs.
 struct Totals {
   uint32_t axial_quarters = 0, diagonal_halves = 0, mass_eighths = 0;
 };
@@ -139,7 +140,7 @@ TEST(Lattice, SlotAndCoordinatesAreInverse) {
 }
 
 TEST(Lattice, HasNoSlotWhereThereIsNoNode) {
-  const Lattice lattice = buildLattice(hollow(5), Weights::kCell);  // its cavity has 2 x 2 x 2 places for nodes
+  const Lattice lattice = buildLattice(hollow(5), Weights::kCell);  // its cavity has room for 2 x 2 x 2 nodes
   for (const Vector3i& node : {Vector3i(-1, 0, 0), Vector3i(6, 0, 0), Vector3i(0, 0, 6), Vector3i(2, 2, 2)}) {
     EXPECT_EQ(lattice.slotAt(node), -1) << node.transpose();
   }
@@ -171,7 +172,7 @@ TEST(Lattice, NeighboursAreFoundAcrossBricks) {
   }
 }
 
-/// The way the kernels go: from a slot through the table of its brick.
+/// Follows the path of the kernels: from a slot through the table of its brick.
 uint32_t slotThroughTable(const Lattice& lattice, uint32_t slot, uint32_t spring) {
   const int edge = static_cast<int>(layout::kBrickEdge), local = static_cast<int>(slot % layout::kBrickSlots);
   const Vector3i at = Vector3i(local % edge, local / edge % edge, local / (edge * edge)) + offset(spring);

@@ -13,7 +13,7 @@
 
 namespace viscera::test {
 
-// Writers of small mesh files, so that what is read was not written by the library that reads it.
+// Writers of small mesh files, independent of the library that reads them.
 
 inline void writeFile(const std::string& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
@@ -89,13 +89,13 @@ inline std::string binaryPly(const TriangleMesh& mesh) {
   return out;
 }
 
-/// A node of a GLB scene: a name and the rest of its JSON, such as "mesh":0 or a matrix.
+/// Node of a GLB scene: a name and the rest of its JSON, such as "mesh":0 or a matrix.
 struct GlbNode {
   std::string name, json;
 };
 
-/// GLB with one mesh of triangles, a mesh of two stray points, a mesh of one stray line, and the given nodes;
-/// they can refer to meshes 0, 1 and 2.
+/// Returns a GLB file with one mesh of triangles, a mesh of two stray points, a mesh of one stray line, and the given
+/// nodes; they can refer to meshes 0, 1 and 2.
 inline std::string glb(const TriangleMesh& mesh, const std::vector<GlbNode>& nodes) {
   std::string binary;
   for (const Vector3f& p : mesh.positions_m) binary += bytesOf(p);

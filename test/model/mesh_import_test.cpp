@@ -21,7 +21,7 @@ TriangleMesh importBytes(const std::string& name, const std::string& bytes, Impo
   return importMesh(path, 1, report);
 }
 
-/// Message of the MeshError that importing gives; fails the test if there is none.
+/// Returns the message of the MeshError of an import; fails the test if there is none.
 std::string importErrorOf(const std::string& path) {
   try {
     importMesh(path, 1);
@@ -135,9 +135,9 @@ TEST(MeshImport, PlyMayHoldOtherTypesOrderAndPolygons) {
   EXPECT_EQ(read.triangles.size(), 12u);
   EXPECT_NEAR(signedVolume(read), 1, kMeshImportRounding);
   expectRefused("word.ply", text.substr(0, text.size() - 1) + "one", "in edge 0: 'one' is not a number");
-  expectRefused("header.ply", "ply\nformat ascii 1.0\nelement vertex\nend_header\n", "bad element");
+  expectRefused("header.ply", "ply\nformat ascii 1.0\nelement vertex\nend_header\n", "invalid element");
   expectRefused("type.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty real x\nend_header\n1\n",
-                "bad property");
+                "invalid property");
 }
 
 TEST(MeshImport, BigEndianPlyIsRead) {

@@ -30,7 +30,7 @@ inline TriangleMesh boxMesh(const Vector3f& low, const Vector3f& high) {
   return mesh;
 }
 
-/// Sphere of `rings` x 2 `rings` patches with triangles around two poles, without its top `open_rings` rings.
+/// Returns a sphere of `rings` x 2 `rings` patches with triangles around two poles, without its top `open_rings` rings.
 inline TriangleMesh sphereMesh(const Vector3f& center, float radius, int rings, int open_rings = 0) {
   TriangleMesh mesh;
   const int sectors = 2 * rings;
@@ -68,7 +68,7 @@ inline TriangleMesh turnedInsideOut(TriangleMesh mesh) {
   return mesh;
 }
 
-/// Both meshes in one; the second keeps its parts, or joins the first part.
+/// Returns both meshes in one; the second keeps its parts, or joins the first part.
 inline TriangleMesh joined(TriangleMesh a, const TriangleMesh& b, bool same_part) {
   const auto vertices = static_cast<uint32_t>(a.positions_m.size());
   const auto parts = static_cast<uint16_t>(a.part_names.size());
@@ -79,7 +79,7 @@ inline TriangleMesh joined(TriangleMesh a, const TriangleMesh& b, bool same_part
   return a;
 }
 
-/// Edges whose triangles do not run against each other in pairs: 0 for a closed, consistently oriented mesh.
+/// Returns the number of edges without opposite triangles in pairs: 0 for a closed, consistently oriented mesh.
 inline size_t openEdges(const TriangleMesh& mesh) {
   std::map<std::pair<uint32_t, uint32_t>, int> net;
   for (const auto& t : mesh.triangles) {
@@ -104,7 +104,7 @@ inline double longestEdge(const TriangleMesh& mesh) {
   return longest;
 }
 
-/// A fresh path for a file of the running test.
+/// Returns a new path for a file of the running test.
 inline std::string temporaryPath(const std::string& name) {
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
   const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "viscera_model" /
@@ -113,7 +113,7 @@ inline std::string temporaryPath(const std::string& name) {
   return (folder / name).string();
 }
 
-/// Real data lies beside the repository, or where VISCERA_TEST_DATA says; empty where it is missing.
+/// Returns the path of real data, next to the repository or in VISCERA_TEST_DATA; empty where it is missing.
 inline std::string realData(const std::string& name) {
   const char* given = std::getenv("VISCERA_TEST_DATA");
   const std::filesystem::path folder = given ? given : sourceFolder() + "/../shared/data";

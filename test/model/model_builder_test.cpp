@@ -47,7 +47,7 @@ TEST(BuildModel, TheSkinOfEitherLatticeIsBoundByTheMappingAskedFor) {
                                                               {Mapping::kConstant, 0},
                                                               {Mapping::kInterpolated, layout::kInterpolatedBit},
                                                               {Mapping::kAlongNormal, layout::kAlongNormalBit}};
-  BodyConfig config = boxConfig({0.05, 0.04, 0.032}, 0.01);  // the last cells of a lattice are tissue in part
+  BodyConfig config = boxConfig({0.05, 0.04, 0.032}, 0.01);  // the last cells of a lattice are partly filled
   for (config.structure = Structure::kLattice;; config.structure = Structure::kExplicit) {
     for (const auto& [mapping, bits] : expected) {
       config.mapping = mapping;
@@ -74,7 +74,7 @@ TEST(BuildModel, ThePoseTurnsTheGeometryAndNotTheLattice) {
   const double volume = 0.06 * 0.04 * 0.02;
   EXPECT_NEAR(signedVolume(turned.skin.mesh), volume, 1e-3 * volume);
   EXPECT_EQ(openEdges(turned.skin.mesh), 0u);
-  size_t cells = 0;  // every cell gives an eighth of its mass to each corner
+  size_t cells = 0;  // every cell adds an eighth of its mass to each corner
   for (const uint32_t slot : turned.lattice.active_slots) cells += massEighths(turned.lattice.nodes[slot]);
   EXPECT_NEAR(static_cast<double>(cells) / 8 * std::pow(0.005, 3), volume, 0.1 * volume);
 }
@@ -129,7 +129,8 @@ TEST(BuildModel, TargetNodesDecideTheSpacing) {
   box.target_nodes = 1000;
   EXPECT_EQ(build(box).lattice.active_slots.size(), 1000u);
   box.target_nodes = 3;
-  EXPECT_TRUE(contains(errorOf<LatticeError>(box), "target_nodes 3 is out of reach: the nearest is 8 nodes"));
+  EXPECT_TRUE(
+      contains(errorOf<LatticeError>(box), "target_nodes 3 cannot be reached: the nearest possible number is 8 nodes"));
 }
 
 TEST(BuildModel, SpacingOutOfRangeNamesTheBodyAndWhatWouldDo) {
@@ -147,7 +148,7 @@ TEST(BuildModel, SpacingOutOfRangeNamesTheBodyAndWhatWouldDo) {
 TEST(BuildModel, AMeshInMillimetresThatDoesNotFitIsAskedForItsUnit) {
   const BodyConfig config = meshConfig(boxMesh({0, 0, 0}, {100, 60, 50}), 0.001);
   const std::string message = errorOf<LatticeError>(config);
-  EXPECT_TRUE(contains(message, "organ.obj' is 100 m wide: unit_scale_m=0.001 (millimetres)?")) << message;
+  EXPECT_TRUE(contains(message, "organ.obj' is 100 m wide; should it be unit_scale_m=0.001 (millimetres)?")) << message;
 }
 
 TEST(BuildModel, AMeshWithoutVolumeIsRefusedByItsFile) {
@@ -167,7 +168,7 @@ TEST(BuildModel, NotesTellWhatWasDecided) {
   std::string notes;
   for (const std::string& note : body.notes) notes += note + '\n';
   for (const char* piece : {"2 parts imported", "1 holes closed", "nodes (0 fixed)", "springs, spacing 4 mm",
-                            "the lattice falls into 2 pieces", "skin: "}) {
+                            "the lattice consists of 2 separate pieces", "skin: "}) {
     EXPECT_TRUE(contains(notes, piece)) << piece << " is missing in\n" << notes;
   }
 }
@@ -184,7 +185,7 @@ TEST(BuildModel, WallsThatAreThinnerThanACellAreNamed) {
   };
   EXPECT_EQ(wallNotes(0.0042), "");  // as thick as the thinnest
   const std::string notes = wallNotes(0.006);
-  for (const char* piece : {"aorta 4.2 mm", "left_atrium 4.5 mm", "a cell of 6 mm", "a spacing_m of 0.0042"}) {
+  for (const char* piece : {"aorta 4.2 mm", "left_atrium 4.5 mm", "a cell of 6 mm", "a spacing_m of at most 0.0042"}) {
     EXPECT_TRUE(contains(notes, piece)) << notes;
   }
   EXPECT_FALSE(contains(notes, "left_ventricle")) << notes;

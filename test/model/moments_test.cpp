@@ -15,8 +15,8 @@ namespace viscera::test {
 namespace {
 
 const Vector3d kSomewhere(0.0123, -0.0307, 0.0211);  // m, no multiple of any spacing used here
-/// Of integrals that are exact but for the rounding of single-precision meshes, and for cells below the least share and
-/// within a thousandth of full.
+/// For integrals that are exact except for the rounding of single-precision meshes, and for cells below the least share
+/// and within a thousandth of full.
 constexpr double kExact = 1e-4;
 
 /// Volume, centre of mass and second moments about it.
@@ -49,7 +49,7 @@ Inertia inertiaOf(const Solid& solid) {
 
 void expectPossible(const Solid& solid) {
   for (const PartialCell& p : solid.partial) {
-    Eigen::Matrix4d all;  // of (1, p): what an energy that is a square of both is built from
+    Eigen::Matrix4d all;  // of (1, p): an energy that is quadratic in both is built from it
     all << p.fill.share, p.fill.first.transpose(), p.fill.first, p.fill.second;
     EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(all).eigenvalues().minCoeff(), -1e-9);
     EXPECT_GE(p.fill.share, 1e-2);
@@ -94,7 +94,7 @@ TEST(Moments, ATurnedBoxIsExact) {
 }
 
 TEST(Moments, AWallThinnerThanACellIsWhatItIs) {
-  // 0.3 cells thick, 10 x 10 cells, amid a layer of cells: no lines along the wall would tell.
+  // 0.3 cells thick, 10 x 10 cells, inside a layer of cells: no lines along the wall would find it.
   const double h = 0.01;
   NodePlanes planes = {0.0, 0.0, 0.0};
   for (int axis = 0; axis < 3; ++axis) {
@@ -181,7 +181,7 @@ TEST(Moments, PartsInsideOutAndCavitiesAreAsWithoutMoments) {
 }
 
 TEST(Moments, CrumbsAreJudgedByTheirVolume) {
-  // Eight cells touched, but half a cell in all.
+  // Eight cells touched, but half a cell in total.
   TriangleMesh mesh = joined(boxMesh({0, 0, 0}, {0.08f, 0.08f, 0.08f}),
                              boxMesh({0.136f, 0.036f, 0.036f}, {0.144f, 0.044f, 0.044f}), true);
   VoxelReport report;
@@ -223,7 +223,7 @@ TEST(Moments, AFlatFaceOfAFieldIsExact) {
     return LabelledDistance{normal.dot(p - Vector3d::Constant(0.041)), 0};
   };
   const Solid solid = voxeliseByMoments(half_space, {"half"}, Vector3d::Zero(), Vector3d::Constant(0.08), h);
-  // The same by a mesh: the box less what is beyond the plane, as the plane through a box that is larger and turned.
+  // The same with a mesh: the box below the plane, which is a face of a larger, rotated box.
   const Quaterniond turn = rotationBetween(Vector3d::UnitZ(), normal);
   TriangleMesh below = boxMesh({-0.2f, -0.2f, -0.2f}, {0.2f, 0.2f, 0});
   below = placed(below, {Vector3d::Constant(0.041), turn});
@@ -263,7 +263,7 @@ TEST(Moments, ABoxAsABodyKeepsItsSize) {
   EXPECT_NEAR(solid.volumeM3(), config.box_size_m.prod(), kExact * config.box_size_m.prod());
   EXPECT_LT((solid.origin_m - (config.position_m - 0.5 * config.box_size_m)).norm(), 1e-9);
   config.rotation_deg = {30, 24, 17};
-  config.position_m = {1000, -1000, 500};  // double precision all the way
+  config.position_m = {1000, -1000, 500};  // double precision throughout
   solid = filled(config);
   EXPECT_NEAR(solid.volumeM3(), config.box_size_m.prod(), 1e-3 * config.box_size_m.prod());
   EXPECT_LT((inertiaOf(solid).middle_m - config.position_m).norm(), 1e-3 * config.spacing_m);
@@ -305,7 +305,7 @@ TEST(Moments, NodesKnowHowDeepBelowTheSurfaceTheyLie) {
       const Vector3d beyond = p.cwiseAbs() - 0.5 * config.box_size_m;
       const double box_depth = -beyond.cwiseMax(0).norm() - std::min(beyond.maxCoeff(), 0.0);
       const double depth = config.source == TissueSource::kBox ? box_depth : 0.02 - p.norm();
-      constexpr double kFacets = 3e-5;  // m, how deep the mesh's facets lie below the sphere
+      constexpr double kFacets = 3e-5;  // depth of the mesh's facets below the sphere [m]
       EXPECT_NEAR(lattice.depth_m[slot], std::min(depth, 0.005), kFacets);
       outside += depth < 0 ? 1 : 0;
     }
@@ -325,7 +325,7 @@ TEST(Moments, TheRealHeartHasTheVolumeOfItsMeshAtAnySpacing) {
   const std::string path = realData("VH_M_Heart.glb");
   if (path.empty()) GTEST_SKIP() << "VH_M_Heart.glb not found; set VISCERA_TEST_DATA";
   const TriangleMesh heart = importMesh(path, 1);
-  constexpr double kVolume = 266.5e-6;  // m3, of the union of its parts: the limit of fine grids
+  constexpr double kVolume = 266.5e-6;  // m3, volume of the union of its parts: the limit of fine grids
   for (const double h : {0.006, 0.004, 0.002}) {
     VoxelReport report;
     const auto start = std::chrono::steady_clock::now();

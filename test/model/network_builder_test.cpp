@@ -48,7 +48,7 @@ const NetworkSpring& springOf(const SpringNetwork& network, uint32_t a, uint32_t
   throw std::out_of_range("no such spring");
 }
 
-/// Energy of the springs with every node moved to `at` of its place at rest [J].
+/// Returns the energy of the springs with every node moved from its rest position to `at` [J].
 template <class At>
 double energyOf(const SpringNetwork& network, At at) {
   double energy_j = 0;
@@ -72,7 +72,7 @@ SpringNetwork sheet(int rows, int columns, double bending_ratio = 0) {
   return membraneNetwork(sheetMesh(rows, columns, kSpacing_m), rubber(), kThickness_m, bending_ratio);
 }
 
-/// Two triangles that share the edge 1 2.
+/// Returns two triangles that share the edge 1 2.
 TriangleMesh twoTriangles() {
   TriangleMesh mesh;
   mesh.positions_m = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
@@ -105,7 +105,7 @@ TEST(PlainMeshes, ASheetFacesUpAroundTheOrigin) {
   for (const Vector3f& normal : vertexNormals(mesh)) EXPECT_GT(normal.z(), 0.999f);
 }
 
-/// Largest sum of k over mass of a node [1/s2], which the stable substep goes with.
+/// Returns the largest sum of k over mass of a node [1/s2], which determines the stable substep.
 double stiffestNode(const SpringNetwork& network) {
   std::vector<double> sums(network.positions_m.size());
   for (const NetworkSpring& spring : network.springs) {
@@ -162,12 +162,12 @@ TEST(MembraneNetwork, WeighsWhatItsAreaWeighs) {
 /// Plane stress of a sheet with nu = 1/3: the energy per area of a strain is t E / (2 (1 - nu^2)) (exx^2 + eyy^2 +
 /// 2 nu exx eyy) + t E / (4 (1 + nu)) gxy^2.
 TEST(MembraneNetwork, AnEquilateralSheetHasYoungsModulusInEveryDirection) {
-  // Without the border, whose edges have one triangle and so half the stiffness: all of it is in the energy.
+  // Without the border, where edges have one triangle and thus half the stiffness: all of it is in the energy.
   const SpringNetwork network = sheet(12, 14);
   const double area_m2 = areaOf(network), et = rubber().young_modulus_pa * kThickness_m, nu = 1.0 / 3;
-  constexpr double kStrain = 1e-6;  // energies are of second order: the error is of the order of the strain
+  constexpr double kStrain = 1e-6;  // energies are of second order: the relative error is of the order of the strain
   constexpr double kSecondOrder =
-      1e-4;  // of single-precision positions: lengths are rounded to 1e-8 of the strain's 1e-2
+      1e-4;  // for single-precision positions: lengths are rounded to 1e-8 of the strain's 1e-2
   for (const Vector3d& strain :
        {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(1, 1, 0), Vector3d(0, 0, 1), Vector3d(1, -nu, 0)}) {
     const Vector3d e = kStrain * 100 * strain;  // xx, yy, gamma xy
@@ -207,7 +207,7 @@ TEST(MembraneNetwork, BendingSpringsJoinTheCornersOppositeToAnInnerEdge) {
 
 TEST(MembraneNetwork, OnlyBendingSpringsResistAFold) {
   const auto folded = [](const Vector3d& p) { return p.y() > 0 ? Vector3d(p.x(), 0, p.y()) : p; };
-  // A sheet with a row on the crease: no edge crosses it.
+  // A sheet with a row of nodes on the crease: no edge crosses it.
   const SpringNetwork plain = sheet(7, 6), stiff = sheet(7, 6, 0.1);
   const double stretch_j = energyOf(plain, [](const Vector3d& p) { return Vector3d(1.01 * p); });
   EXPECT_LT(energyOf(plain, folded), 1e-9 * stretch_j);
@@ -395,7 +395,7 @@ TEST(Renumbering, LeavesOutWhatIsNoNode) {
   EXPECT_EQ(body.network->positions_m.size(), size_t{layout::kBrickSlots});
 }
 
-/// Slots of the nodes of a spring lie near each other: within some bricks, whatever the size of the cloth.
+/// Slots of the ends of a spring are close: within a few bricks, whatever the size of the cloth.
 TEST(Renumbering, BringsNeighborsTogether) {
   const SpringNetwork moved = renumbered(sheet(64, 64));
   size_t beside = 0;

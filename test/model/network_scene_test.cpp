@@ -110,7 +110,7 @@ TEST(NetworkScene, PartsOfASurfaceCanBeHeld) {
 }
 
 TEST(NetworkScene, TargetNodesAreMetByFlatAndRoundSurfaces) {
-  // Of the ball and the box numbers that they can have: 10 n^2 + 2 and 6 n^2 + 2.
+  // For the ball and the box, numbers that they can have: 10 n^2 + 2 and 6 n^2 + 2.
   for (const auto& [source, nodes] : {std::make_pair("source: sheet, box_size_m: [0.3, 0.2, 1]", 3000),
                                       std::make_pair("source: ball, ball_radius_m: 0.05", 2562),
                                       std::make_pair("source: box, box_size_m: [0.1, 0.1, 0.1]", 2906)}) {
@@ -129,8 +129,9 @@ TEST(NetworkScene, SurfacesOfSolidsHaveEdgesOfAboutOneSpacing) {
 
 TEST(NetworkScene, PiecesOfASurfaceAreCounted) {
   const Body body = bodyOf("source: phantom, structure: surface, spacing_m: 0.005");
-  EXPECT_TRUE(hasNote(body, "the network falls into 2 pieces")) << "chambers without a way out: " << allNotes(body);
-  EXPECT_FALSE(hasNote(bodyOf("source: ball, structure: surface"), "falls into"));
+  EXPECT_TRUE(hasNote(body, "the network consists of 2 separate pieces"))
+      << "chambers without a way out: " << allNotes(body);
+  EXPECT_FALSE(hasNote(bodyOf("source: ball, structure: surface"), "separate pieces"));
 }
 
 TEST(NetworkScene, MeshesAreRefinedToOneSpacing) {
@@ -173,8 +174,9 @@ TEST(NetworkScene, AnExplicitLatticeMayResistBending) {
 
 TEST(NetworkScene, WhatDoesNotGoTogetherIsRefused) {
   const std::string ball = "source: ball, structure: surface";
-  expectRefused<SceneError>("source: sheet", {"s.yaml: body 'tissue'",
-                                              "source: sheet needs structure surface, not lattice: it has no volume"});
+  expectRefused<SceneError>(
+      "source: sheet",
+      {"s.yaml: body 'tissue'", "source: sheet needs structure surface, not lattice: a sheet has no volume"});
   expectRefused<SceneError>("source: sheet, structure: explicit", {"needs structure surface, not explicit"});
   expectRefused<SceneError>("source: ball, structure: tetrahedra",
                             {"s.yaml:1", "'bodies[0].structure: tetrahedra' was removed: use lattice", ".msh file"});

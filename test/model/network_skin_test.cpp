@@ -15,7 +15,7 @@ using test::clothBody;
 
 constexpr double kSpacing_m = 0.01;
 
-/// Two triangles 0 1 2 and 1 3 2 with all five edges; node 4 is beside them.
+/// Returns two triangles 0 1 2 and 1 3 2 with all five edges; node 4 is apart.
 SpringNetwork twoTriangles() {
   SpringNetwork network;
   network.positions_m = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {9, 9, 9}};
@@ -82,7 +82,7 @@ TEST(NetworkSkin, EveryEdgeOfAClothIsASpringThatSplitsOnce) {
     EXPECT_TRUE(springs.insert(edge.spring).second);
   }
   const size_t faces = network.triangles.size(), vertices = 9 * 12;
-  EXPECT_EQ(skin.split_edges.size(), vertices + faces - 1);  // Euler
+  EXPECT_EQ(skin.split_edges.size(), vertices + faces - 1);  // Euler's formula
   ASSERT_EQ(skin.triangle_edges.size(), faces);
   for (size_t t = 0; t < faces; ++t) {
     for (size_t i = 0; i < 3; ++i) {
@@ -96,7 +96,7 @@ TEST(NetworkSkin, EveryEdgeOfAClothIsASpringThatSplitsOnce) {
 
 TEST(NetworkSkin, EdgeWithoutASpringNeverSplits) {
   SpringNetwork network = twoTriangles();
-  network.springs.erase(network.springs.begin() + 2);  // 1-2, of both triangles
+  network.springs.erase(network.springs.begin() + 2);  // 1-2, an edge of both triangles
   const Skin skin = bindNetworkSkin(network, true);
   EXPECT_EQ(skin.split_edges.size(), 4u);
   EXPECT_EQ(skin.triangle_edges[0][1], kNoSplitEdge);

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// An organ of our own, whose volume is known on paper: what docs/fill_rule.md promises is tested on every machine,
-// whether or not the meshes that cannot be shipped are there.
+// An organ of our own with an analytical volume: it tests the promises of docs/volumes.md on every machine, with or
+// without the meshes that cannot be shipped.
 #include <fstream>
 #include <numeric>
 
@@ -20,14 +20,14 @@ constexpr double kWall_m = 0.04, kLeft_m = 0.018, kRight_m = 0.013, kVessel_m = 
 const Vector3f kMiddle(0.0113f, -0.2071f, 0.3017f);  // no multiple of any spacing used here
 const Vector3f kLeftAt = kMiddle + Vector3f(-0.016f, 0, 0.001f), kRightAt = kMiddle + Vector3f(0.02f, 0.002f, 0);
 constexpr double kVesselAway_m = 0.042;
-constexpr double kVolume = 0.01;  ///< relative: docs/fill_rule.md
+constexpr double kVolume = 0.01;  ///< relative: docs/volumes.md
 
-/// Volume of the lens that two balls share, `d` apart [m3].
+/// Returns the volume of the lens that two balls share, with centres `d` apart [m3].
 double lens(double r, double s, double d) {
   return kPi * std::pow(r + s - d, 2) * (d * d + 2 * d * (r + s) - 3 * (r - s) * (r - s)) / (12 * d);
 }
 
-/// A wall around two chambers, without its cap, and a vessel that overlaps it.
+/// Returns a wall around two chambers, without its cap, and a vessel that overlaps it.
 TriangleMesh organ() {
   TriangleMesh mesh = sphereMesh(kMiddle, static_cast<float>(kWall_m), kRings, 3);
   mesh = joined(mesh, turnedInsideOut(sphereMesh(kLeftAt, static_cast<float>(kLeft_m), kRings)), true);
@@ -43,7 +43,7 @@ double organVolume() {
          lens(kWall_m, kVessel_m, kVesselAway_m);
 }
 
-/// The mesh as a file of named objects. @return its path
+/// Writes the mesh to a file of named objects. @return its path
 std::string organFile() {
   const std::string path = temporaryPath("organ.obj");
   const TriangleMesh mesh = organ();

@@ -15,7 +15,7 @@ namespace viscera::test {
 namespace {
 
 constexpr double kLength = 0.1;            // m
-constexpr double kLoose = 0.15 * kLength;  // m, slack of the box: its shapes are taken before corners are rounded
+constexpr double kLoose = 0.15 * kLength;  // m, margin of the box: it is computed before corners are rounded
 constexpr double kSpacings[] = {0.002, 0.003, 0.004, 0.042 * kLength};  // up to the thinnest wall
 enum Chamber { kLeftVentricle, kRightVentricle, kLeftAtrium, kRightAtrium };
 
@@ -23,12 +23,12 @@ Solid solidOf(const Phantom& phantom, double spacing_m) {
   return voxelise(phantom.field, phantom.part_names, phantom.min_m, phantom.max_m, spacing_m);
 }
 
-/// Number of the empty region around a chamber's centre; 1 is outside.
+/// Returns the number of the empty region around a chamber's centre; 1 is outside.
 int regionOf(const Phantom& phantom, const Solid& solid, const Pieces& regions, Chamber chamber) {
   return regions.at(cellAt(solid, phantom.chamber_centers_m.at(chamber)));
 }
 
-/// Puts tissue back into the septal defect.
+/// Fills the septal defect with tissue.
 void closeDefect(const Phantom& phantom, Solid& solid) {
   const Vector3d axis = (phantom.defect_to_m - phantom.defect_from_m).normalized();
   const double length = (phantom.defect_to_m - phantom.defect_from_m).norm();
@@ -44,7 +44,7 @@ void closeDefect(const Phantom& phantom, Solid& solid) {
   }
 }
 
-/// Tissue met on the way outward from a chamber [m].
+/// Returns the length of tissue outward from a chamber [m].
 double wallThickness(const Phantom& phantom, Chamber chamber, const Vector3d& direction) {
   constexpr double kStep = 1e-4;
   double tissue = 0;
@@ -57,12 +57,13 @@ double wallThickness(const Phantom& phantom, Chamber chamber, const Vector3d& di
 
 TEST(HeartPhantom, TellsItsWallsTheThinnestFirst) {
   const std::vector<Wall> walls = heartPhantom(kLength, 0.5).walls;
-  ASSERT_EQ(walls.size(), 7u);  // all parts but the septum
+  ASSERT_EQ(walls.size(), 7u);  // all parts except the septum
   EXPECT_NEAR(walls.front().thickness_m, 0.5 * 0.042 * kLength, 1e-12);
   EXPECT_EQ(walls.front().part, "aorta");
   EXPECT_EQ(walls.back().part, "left_ventricle");
   const double measured_m = wallThickness(heartPhantom(kLength, 1), kLeftVentricle, {1, 0, 0});
-  EXPECT_NEAR(measured_m, 2 * walls.back().thickness_m, 0.2 * measured_m);  // met at a slant, and walls are blended
+  // The path is oblique, and walls are blended.
+  EXPECT_NEAR(measured_m, 2 * walls.back().thickness_m, 0.2 * measured_m);
 }
 
 TEST(HeartPhantom, IsOnePiece) {

@@ -14,7 +14,7 @@
 namespace viscera {
 namespace {
 
-/// Every key there is, each with a value that no other number has, and that is not the default.
+/// Every key, each with a unique value that is not the default.
 constexpr const char* kEveryKey = R"(
 name: full
 bodies:
@@ -39,9 +39,9 @@ bodies:
     detail_px: 777
     skin_spacing_m: 0.0007
     roughness: 0.41
-    mottling: 0.42
-    wetness: 0.197
-    wall_grain: 0.198
+    color_variation: 0.42
+    specular_wetness: 0.197
+    cut_wall_texture: 0.198
     blanching: 0.199
     layers:
       - {depth_m: 0.0043, color: [0.44, 0.45, 0.46], toughness_j_per_m2: 471}
@@ -55,7 +55,7 @@ bodies:
     position_m: [0.051, 0.052, 0.053]
     rotation_deg: [61, 62, 63]
     color: [0.071, 0.072, 0.073]
-    material: {tissue: liver, young_modulus_pa: 8100, poisson_ratio: 0.25, density_kg_per_m3: 820, drag_per_s: 8.3, dashpot_ratio: 0.084, weights: cell, law: springs, walls: cells, stiffening: 0, cut: {toughness_j_per_m2: 187},
+    material: {tissue: liver, young_modulus_pa: 8100, poisson_ratio: 0.25, density_kg_per_m3: 820, mass_damping_per_s: 8.3, stiffness_damping_ratio: 0.084, weights: cell, law: springs, walls: cells, stiffening: 0, cut: {toughness_j_per_m2: 187},
                bleeding: {flow_ml_per_min: 191, calibre_m: 0.0192}}
     parts: [{part: valve, tissue: spleen, young_modulus_pa: 8101, poisson_ratio: 0.25, density_kg_per_m3: 821, cut: {toughness_j_per_m2: 188},
              bleeding: {flow_ml_per_min: 193, calibre_m: 0.0194}}]
@@ -132,10 +132,10 @@ obstacles:
     friction: 0.409
     restitution: 0.411
 solver: {tick_hz: 90, integrator: leapfrog, dt_fraction: 0.91, dt_fraction_strained: 0.41, measured_limit: false, start: equilibrium, substeps: 93, iterations: 94,
-         compensated: true, governor: false, recovery_s: 0.95, sleep_distance_m: 0.96, sleep_speed_m_per_s: 0.0097, max_substeps: 92,
+         compensated: true, stability_monitor: false, recovery_s: 0.95, sleep_distance_m: 0.96, sleep_speed_m_per_s: 0.0097, max_substeps: 92,
          device: 3, backend: cpu, threads: 2, real_time_factor: 1.97}
-threads:
-  - {name: suture, material: silk, usp: 5-0, radius_m: 0.00012, young_modulus_pa: 1.3e9, density_kg_per_m3: 1400, bending_share: 0.15, drag_per_s: 1.6,
+sutures:
+  - {name: suture, material: silk, usp: 5-0, radius_m: 0.00012, young_modulus_pa: 1.3e9, density_kg_per_m3: 1400, bending_share: 0.15, mass_damping_per_s: 1.6,
      length_m: 0.17, spacing_m: 0.0018, position_m: [0.19, 0.21, 0.22], path: [{position_m: [0.23, 0.24, 0.25]}], start: free, end: fixed,
      channels: [{body: liver, position_m: [0.26, 0.27, 0.28]}], friction: 0.29, through_n_per_m: 0.31, pull_out_n: 0.32, tissue: fascia, bite_m: 0.033,
      depth_m: 0.034, ties: [{at_s: 1.41, knot: granny, tension_n: 0.241, holds_n: 2.41, to: strand, strand_m: [0.0241, 0.0242, 0.0243]}],
@@ -143,7 +143,7 @@ threads:
               rotation_deg: [13, 14, 15]}}
 )";
 
-/// What does not go with the structure above.
+/// Keys that the structure above does not accept.
 constexpr const char* kOfLatticesAlone = R"(
 bodies:
   - material: {poisson_ratio: 0.31, law: neo_hookean, stiffening: 4.3, tear: {toughness_j_per_m2: 189},
@@ -152,7 +152,7 @@ bodies:
              prestress: {strain: 0.0831, strains: [0.0832, 0.0833, 0.0834], axes_deg: [83.5, 83.6, 83.7]}}]
 )";
 
-/// Paths of all keys below a node, list items as name[].
+/// Collects the paths of all keys below a node, list items as name[].
 void collectPaths(const YAML::Node& node, const std::string& path, std::multiset<std::string>& paths) {
   for (const auto& entry : node) {
     const std::string key = path + entry.first.as<std::string>();
@@ -163,7 +163,7 @@ void collectPaths(const YAML::Node& node, const std::string& path, std::multiset
   }
 }
 
-/// Cells of the rows of a Markdown table, without its head.
+/// Returns the cells of the rows of a Markdown table, without its head.
 std::vector<std::vector<std::string>> tableRows(const std::string& table) {
   std::vector<std::vector<std::string>> rows;
   std::istringstream lines(table);
@@ -210,7 +210,7 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(body.detail_px, 777);
   EXPECT_EQ(body.skin_spacing_m, 0.0007);
   EXPECT_EQ(body.roughness, 0.41);
-  EXPECT_EQ(body.mottling, 0.42);
+  EXPECT_EQ(body.color_variation, 0.42);
   ASSERT_EQ(body.layers.size(), 1u);
   EXPECT_EQ(body.layers[0].depth_m, 0.0043);
   EXPECT_EQ(body.layers[0].color, Vector3d(0.44, 0.45, 0.46));
@@ -226,8 +226,8 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(body.material.tissue, "liver");
   EXPECT_EQ(body.material.young_modulus_pa, 8100);
   EXPECT_EQ(body.material.density_kg_per_m3, 820);
-  EXPECT_EQ(body.material.drag_per_s, 8.3);
-  EXPECT_EQ(body.material.dashpot_ratio, 0.084);
+  EXPECT_EQ(body.material.mass_damping_per_s, 8.3);
+  EXPECT_EQ(body.material.stiffness_damping_ratio, 0.084);
   EXPECT_EQ(body.material.cut.toughness_j_per_m2, 187);
   EXPECT_EQ(body.material.bleeding.flow_ml_per_min, 191);
   EXPECT_EQ(body.material.bleeding.calibre_m, 0.0192);
@@ -349,7 +349,7 @@ TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   EXPECT_EQ(scene.solver.substeps, 93);
   EXPECT_EQ(scene.solver.iterations, 94);
   EXPECT_TRUE(scene.solver.compensated);
-  EXPECT_FALSE(scene.solver.governor);
+  EXPECT_FALSE(scene.solver.stability_monitor);
   EXPECT_EQ(scene.solver.recovery_s, 0.95);
   EXPECT_EQ(scene.solver.sleep_distance_m, 0.96);
   EXPECT_EQ(scene.solver.max_substeps, 92);
@@ -357,7 +357,7 @@ TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   EXPECT_EQ(scene.solver.real_time_factor, 1.97);
 }
 
-TEST(SceneKeys, EveryKeyOfTheSurroundingsReachesItsField) {
+TEST(SceneKeys, EveryKeyOfTheEnvironmentReachesItsField) {
   const Scene scene = parseScene(kEveryKey, "full");
   const WindConfig& wind = scene.environment.wind;
   EXPECT_EQ(wind.velocity_m_per_s, Vector3d(2.1, 2.2, 2.3));
@@ -383,36 +383,36 @@ TEST(SceneKeys, EveryKeyOfTheSurroundingsReachesItsField) {
   EXPECT_EQ(obstacle.frame, "arm");
   EXPECT_EQ(obstacle.friction, 0.409);
   EXPECT_EQ(obstacle.restitution, 0.411);
-  const ThreadConfig& thread = scene.threads.at(0);
-  EXPECT_EQ(thread.name, "suture");
-  EXPECT_EQ(thread.material, ThreadMaterial::kSilk);
-  EXPECT_EQ(thread.usp, ThreadSize::kUsp5);
-  EXPECT_EQ(thread.radius_m, 0.00012);
-  EXPECT_EQ(thread.young_modulus_pa, 1.3e9);
-  EXPECT_EQ(thread.density_kg_per_m3, 1400);
-  EXPECT_EQ(thread.bending_share, 0.15);
-  EXPECT_EQ(thread.drag_per_s, 1.6);
-  EXPECT_EQ(thread.length_m, 0.17);
-  EXPECT_EQ(thread.spacing_m, 0.0018);
-  EXPECT_EQ(thread.position_m, Vector3d(0.19, 0.21, 0.22));
-  EXPECT_EQ(thread.path.at(0).position_m, Vector3d(0.23, 0.24, 0.25));
-  EXPECT_EQ(thread.start, ThreadEnd::kFree);
-  EXPECT_EQ(thread.end, ThreadEnd::kFixed);
-  EXPECT_EQ(thread.channels.at(0).body, "liver");
-  EXPECT_EQ(thread.ties.at(0).at_s, 1.41);
-  EXPECT_EQ(thread.ties.at(0).knot, KnotKind::kGranny);
-  EXPECT_EQ(thread.ties.at(0).tension_n, 0.241);
-  EXPECT_EQ(thread.ties.at(0).holds_n, 2.41);
-  EXPECT_EQ(thread.ties.at(0).to, TieTo::kStrand);
-  EXPECT_EQ(thread.ties.at(0).strand_m, Vector3d(0.0241, 0.0242, 0.0243));
-  EXPECT_EQ(thread.channels.at(0).position_m, Vector3d(0.26, 0.27, 0.28));
-  EXPECT_EQ(thread.friction, 0.29);
-  EXPECT_EQ(thread.through_n_per_m, 0.31);
-  EXPECT_EQ(thread.pull_out_n, 0.32);
-  EXPECT_EQ(thread.tissue, StitchedTissue::kFascia);
-  EXPECT_EQ(thread.bite_m, 0.033);
-  EXPECT_EQ(thread.depth_m, 0.034);
-  const NeedleConfig& needle = thread.needle;
+  const SutureConfig& suture = scene.sutures.at(0);
+  EXPECT_EQ(suture.name, "suture");
+  EXPECT_EQ(suture.material, SutureMaterial::kSilk);
+  EXPECT_EQ(suture.usp, SutureSize::kUsp5);
+  EXPECT_EQ(suture.radius_m, 0.00012);
+  EXPECT_EQ(suture.young_modulus_pa, 1.3e9);
+  EXPECT_EQ(suture.density_kg_per_m3, 1400);
+  EXPECT_EQ(suture.bending_share, 0.15);
+  EXPECT_EQ(suture.mass_damping_per_s, 1.6);
+  EXPECT_EQ(suture.length_m, 0.17);
+  EXPECT_EQ(suture.spacing_m, 0.0018);
+  EXPECT_EQ(suture.position_m, Vector3d(0.19, 0.21, 0.22));
+  EXPECT_EQ(suture.path.at(0).position_m, Vector3d(0.23, 0.24, 0.25));
+  EXPECT_EQ(suture.start, SutureEnd::kFree);
+  EXPECT_EQ(suture.end, SutureEnd::kFixed);
+  EXPECT_EQ(suture.channels.at(0).body, "liver");
+  EXPECT_EQ(suture.ties.at(0).at_s, 1.41);
+  EXPECT_EQ(suture.ties.at(0).knot, KnotKind::kGranny);
+  EXPECT_EQ(suture.ties.at(0).tension_n, 0.241);
+  EXPECT_EQ(suture.ties.at(0).holds_n, 2.41);
+  EXPECT_EQ(suture.ties.at(0).to, TieTo::kStrand);
+  EXPECT_EQ(suture.ties.at(0).strand_m, Vector3d(0.0241, 0.0242, 0.0243));
+  EXPECT_EQ(suture.channels.at(0).position_m, Vector3d(0.26, 0.27, 0.28));
+  EXPECT_EQ(suture.friction, 0.29);
+  EXPECT_EQ(suture.through_n_per_m, 0.31);
+  EXPECT_EQ(suture.pull_out_n, 0.32);
+  EXPECT_EQ(suture.tissue, StitchedTissue::kFascia);
+  EXPECT_EQ(suture.bite_m, 0.033);
+  EXPECT_EQ(suture.depth_m, 0.034);
+  const NeedleConfig& needle = suture.needle;
   EXPECT_EQ(needle.arc, NeedleArc::kThreeEighths);
   EXPECT_EQ(needle.radius_m, 0.0091);
   EXPECT_EQ(needle.wire_radius_m, 0.00036);
@@ -435,7 +435,7 @@ TEST(SceneKeys, TableHoldsEveryKeyOnceAndNoOther) {
 
 TEST(SceneKeys, EveryRowTellsAllAboutItsKey) {
   for (const auto& row : tableRows(sceneKeysTable())) {
-    ASSERT_EQ(row.size(), 6u) << row.at(1);  // before the first bar stands nothing
+    ASSERT_EQ(row.size(), 6u) << row.at(1);  // nothing precedes the first bar
     EXPECT_GT(row[2].size(), 2u) << row[1] << " has no type";
     EXPECT_GT(row[5].size(), 2u) << row[1] << " has no meaning";
     const bool ranged = row[2] != " text " && row[2] != " map " && row[2] != " true or false ";

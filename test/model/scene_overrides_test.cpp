@@ -72,8 +72,8 @@ TEST(SceneOverride, PlaceThatTheSceneDoesNotHaveIsRefused) {
   EXPECT_TRUE(says(refusal("bodies[2].spacing_m=1"), {"override", "no bodies[2]"}));
   EXPECT_TRUE(says(refusal("cameras[0].rate_hz=1"), {"override", "no cameras[0]"}));
   EXPECT_TRUE(says(refusal("name[0]=1"), {"override", "no name[0]"}));
-  EXPECT_TRUE(says(refusal("name.x=1"), {"override", "'name' holds no keys"}));
-  EXPECT_TRUE(says(refusal("bodies.spacing_m=1"), {"override", "'bodies' holds no keys"}));
+  EXPECT_TRUE(says(refusal("name.x=1"), {"override", "'name' has no keys below it"}));
+  EXPECT_TRUE(says(refusal("bodies.spacing_m=1"), {"override", "'bodies' has no keys below it"}));
 }
 
 TEST(SceneOverride, TextThatIsNoOverrideIsRefusedAndShown) {

@@ -15,12 +15,12 @@ namespace {
 
 using test::says;
 
-/// What the reader has against a scene.
+/// Returns the reader's error for a scene.
 std::string sceneRefusal(const std::string& yaml, const Overrides& overrides = {}) {
   return test::messageOf<SceneError>([&] { parseScene(yaml, "s.yaml", overrides); });
 }
 
-/// A scene and what its refusal must say.
+/// Scene, and what its error must contain.
 struct Case {
   std::string yaml;
   std::vector<std::string> parts;
@@ -57,22 +57,24 @@ TEST(Scene, UnknownKeyIsRefusedWithFileLineKeyAndTheAcceptedKeys) {
 TEST(Scene, WrongTypeIsRefusedWithFileLineKeyAndWhatIsAccepted) {
   expectRefusals({
       {"bodies:\n  - spacing_m: soft\n",
-       {"s.yaml:2: 'bodies[0].spacing_m' is a number, 1e-05 .. 10 m, or auto; found 'soft'"}},
-      {"bodies:\n  - spacing_m: [1]\n", {"s.yaml:2: 'bodies[0].spacing_m' is a number", "found a list of 1"}},
-      {"bodies:\n  - spacing_m:\n", {"s.yaml:2: 'bodies[0].spacing_m' is a number", "found nothing"}},
-      {"bodies:\n  - position_m: [0, 1]\n", {"s.yaml:2: 'bodies[0].position_m' is a list of 3 numbers, -10 .. 10 m"}},
-      {"bodies:\n  - position_m: [0, 1, up]\n", {"s.yaml:2: 'bodies[0].position_m' is a number", "found 'up'"}},
-      {"bodies:\n  - position_m: 3\n", {"s.yaml:2: 'bodies[0].position_m' is a list of 3 numbers"}},
-      {"bodies:\n  - name: [a]\n", {"s.yaml:2: 'bodies[0].name' is a text that is not empty; found a list of 1"}},
-      {"bodies:\n  - name: ''\n", {"s.yaml:2: 'bodies[0].name' is a text that is not empty"}},
+       {"s.yaml:2: 'bodies[0].spacing_m' must be a number, 1e-05 .. 10 m, or auto; found 'soft'"}},
+      {"bodies:\n  - spacing_m: [1]\n", {"s.yaml:2: 'bodies[0].spacing_m' must be a number", "found a list of 1"}},
+      {"bodies:\n  - spacing_m:\n", {"s.yaml:2: 'bodies[0].spacing_m' must be a number", "found nothing"}},
+      {"bodies:\n  - position_m: [0, 1]\n",
+       {"s.yaml:2: 'bodies[0].position_m' must be a list of 3 numbers, -10 .. 10 m"}},
+      {"bodies:\n  - position_m: [0, 1, up]\n", {"s.yaml:2: 'bodies[0].position_m' must be a number", "found 'up'"}},
+      {"bodies:\n  - position_m: 3\n", {"s.yaml:2: 'bodies[0].position_m' must be a list of 3 numbers"}},
+      {"bodies:\n  - name: [a]\n", {"s.yaml:2: 'bodies[0].name' must be a non-empty string; found a list of 1"}},
+      {"bodies:\n  - name: ''\n", {"s.yaml:2: 'bodies[0].name' must be a non-empty string"}},
       {"bodies:\n  - source: fish\n",
-       {"s.yaml:2: 'bodies[0].source' is one of mesh, box, ball, phantom, sheet, labels; found 'fish'"}},
+       {"s.yaml:2: 'bodies[0].source' must be one of mesh, box, ball, phantom, sheet, labels; found 'fish'"}},
       {"bodies: [{}]\ncameras:\n  - overlays: lattice\n",
-       {"s.yaml:3: 'cameras[0].overlays' is a list of some of lattice, springs, normals, strain, forces, wind"}},
+       {"s.yaml:3: 'cameras[0].overlays' must be a list of names out of lattice, springs, normals, strain, forces, "
+        "wind"}},
       {"bodies: [{}]\ncameras:\n  - overlays: [latice]\n",
-       {"s.yaml:3: 'cameras[0].overlays': there is no overlay 'latice'; there are lattice, forces, wind"}},
-      {"bodies:\n  - target_nodes: 10.5\n", {"s.yaml:2: 'bodies[0].target_nodes' is a whole number, 0 .. 2e+07"}},
-      {"bodies:\n  material: soft\n", {"s.yaml:2: 'bodies' is a list of at most 16; found a map"}},
+       {"s.yaml:3: 'cameras[0].overlays': unknown overlay 'latice'; accepted: lattice, forces, wind"}},
+      {"bodies:\n  - target_nodes: 10.5\n", {"s.yaml:2: 'bodies[0].target_nodes' must be a whole number, 0 .. 2e+07"}},
+      {"bodies:\n  material: soft\n", {"s.yaml:2: 'bodies' must be a list of at most 16 items; found a map"}},
       {"bodies:\n  - material: soft\n", {"s.yaml:2: 'bodies[0].material' must be a map of keys, not 'soft'"}},
       {"bodies:\n  - heart\n", {"s.yaml:2: 'bodies[0]' must be a map of keys, not 'heart'"}},
   });
@@ -80,10 +82,13 @@ TEST(Scene, WrongTypeIsRefusedWithFileLineKeyAndWhatIsAccepted) {
 
 TEST(Scene, SubstepThatTheDashpotMakesUnstableIsRefusedWithTheOneThatWouldDo) {
   expectRefusals({
-      {"bodies: [{}]\nsolver: {dt_fraction: 0.9}\n", {"s.yaml: ", "solver.dt_fraction = 0.9", "use less than 0.81980"}},
-      {"bodies: [{}, {name: b, material: {dashpot_ratio: 0.5}}]\nsolver: {dt_fraction: 0.7}\n", {"body 'b'", "0.618"}},
+      {"bodies: [{}]\nsolver: {dt_fraction: 0.9}\n",
+       {"s.yaml: ", "solver.dt_fraction = 0.9", "it must be less than 0.81980"}},
+      {"bodies: [{}, {name: b, material: {stiffness_damping_ratio: 0.5}}]\nsolver: {dt_fraction: 0.7}\n",
+       {"body 'b'", "0.618"}},
   });
-  EXPECT_NO_THROW(parseScene("bodies: [{material: {dashpot_ratio: 0}}]\nsolver: {dt_fraction: 0.9}\n", "s.yaml"));
+  EXPECT_NO_THROW(
+      parseScene("bodies: [{material: {stiffness_damping_ratio: 0}}]\nsolver: {dt_fraction: 0.9}\n", "s.yaml"));
 }
 
 TEST(Scene, MeshOverridesTurnGltfUpright) {
@@ -95,10 +100,10 @@ TEST(Scene, MeshOverridesTurnGltfUpright) {
 TEST(Scene, ValueOutOfRangeIsRefusedWithFileLineKeyAndRange) {
   expectRefusals({
       {"bodies:\n  - material:\n      young_modulus_pa: -20000\n",
-       {"s.yaml:3: 'bodies[0].material.young_modulus_pa' is a number, 1 .. 1e+09 Pa; found '-20000'"}},
+       {"s.yaml:3: 'bodies[0].material.young_modulus_pa' must be a number, 1 .. 1e+09 Pa; found '-20000'"}},
       {"bodies:\n  - material: {density_kg_per_m3: 0}\n", {"s.yaml:2: ", "1 .. 100000 kg/m3; found '0'"}},
-      {"bodies:\n  - material: {dashpot_ratio: 0.6}\n",
-       {"s.yaml:2: ", "'bodies[0].material.dashpot_ratio'", "0 .. 0.5"}},
+      {"bodies:\n  - material: {stiffness_damping_ratio: 0.6}\n",
+       {"s.yaml:2: ", "'bodies[0].material.stiffness_damping_ratio'", "0 .. 0.5"}},
       {"bodies:\n  - position_m: [0, 0, 11]\n", {"s.yaml:2: ", "'bodies[0].position_m'", "-10 .. 10 m; found '11'"}},
       {"bodies: [{}]\ncameras:\n  - width_px: 5000\n", {"s.yaml:3: ", "'cameras[0].width_px'", "16 .. 4096"}},
       {"bodies: [{}]\nsolver: {tick_hz: 0}\n", {"s.yaml:2: ", "'solver.tick_hz'", "1 .. 1000 Hz"}},
@@ -148,15 +153,15 @@ TEST(Scene, FileThatCannotBeReadIsNamed) {
 }
 
 TEST(Scene, NeedsABody) {
-  EXPECT_TRUE(says(sceneRefusal("name: a\n"), {"s.yaml", "'bodies' must hold at least one body"}));
-  EXPECT_TRUE(says(sceneRefusal("bodies: []\n"), {"s.yaml", "'bodies' must hold at least one body"}));
+  EXPECT_TRUE(says(sceneRefusal("name: a\n"), {"s.yaml", "'bodies' must contain at least one body"}));
+  EXPECT_TRUE(says(sceneRefusal("bodies: []\n"), {"s.yaml", "'bodies' must contain at least one body"}));
 }
 
 TEST(Scene, NamesMustBeUniqueAndFitForTopics) {
   expectRefusals({
-      {"bodies: [{}, {}]\n", {"name 'tissue' stands twice in 'bodies'"}},
-      {"bodies: [{}]\nstyluses: [{name: left}, {name: left}]\n", {"name 'left' stands twice in 'styluses'"}},
-      {"bodies: [{}]\ncameras: [{name: eye}, {name: eye}]\n", {"name 'eye' stands twice in 'cameras'"}},
+      {"bodies: [{}, {}]\n", {"name 'tissue' is used twice in 'bodies'"}},
+      {"bodies: [{}]\nstyluses: [{name: left}, {name: left}]\n", {"name 'left' is used twice in 'styluses'"}},
+      {"bodies: [{}]\ncameras: [{name: eye}, {name: eye}]\n", {"name 'eye' is used twice in 'cameras'"}},
       {"bodies: [{}]\ncameras: [{name: my eye}]\n", {"name 'my eye' in 'cameras'", "letters, digits and _"}},
       {"bodies: [{}]\nstyluses: [{name: ../left}]\n", {"name '../left' in 'styluses'"}},
       {"bodies: [{name: 1st}]\n", {"name '1st' in 'bodies'", "must start with a letter"}},
@@ -190,13 +195,14 @@ TEST(Scene, ALensThatShowsOnePlaceTwiceIsRefusedByName) {
 }
 
 TEST(Scene, WhatIsLeftOutHasItsDefault) {
-  const Scene scene = parseScene("bodies:\n  - {spacing_m: 0.01, material: {drag_per_s: 9}}\n  - {name: b}\n", "s");
+  const Scene scene =
+      parseScene("bodies:\n  - {spacing_m: 0.01, material: {mass_damping_per_s: 9}}\n  - {name: b}\n", "s");
   ASSERT_EQ(scene.bodies.size(), 2u);
   EXPECT_EQ(scene.bodies[0].spacing_m, 0.01);
-  EXPECT_EQ(scene.bodies[0].material.drag_per_s, 9);
+  EXPECT_EQ(scene.bodies[0].material.mass_damping_per_s, 9);
   EXPECT_EQ(scene.bodies[0].material.young_modulus_pa, MaterialConfig{}.young_modulus_pa);
-  EXPECT_EQ(scene.bodies[1].spacing_m, BodyConfig{}.spacing_m);  // and not that of the body before
-  EXPECT_EQ(scene.bodies[1].material.drag_per_s, MaterialConfig{}.drag_per_s);
+  EXPECT_EQ(scene.bodies[1].spacing_m, BodyConfig{}.spacing_m);  // not that of the previous body
+  EXPECT_EQ(scene.bodies[1].material.mass_damping_per_s, MaterialConfig{}.mass_damping_per_s);
   EXPECT_TRUE(scene.styluses.empty());
   EXPECT_TRUE(scene.cameras.empty());
   EXPECT_EQ(scene.environment.gravity_m_per_s2, EnvironmentConfig{}.gravity_m_per_s2);

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Solids and meshes small enough to reason about, for the tests of the skin.
+// Solids and meshes small enough to reason about, for the tests of the surface mesh.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace viscera::testing {
 
-/// Cells of a grid whose centre satisfies a predicate.
+/// Returns the cells of a grid with a centre that satisfies a predicate.
 template <class Inside>
 Solid solidWhere(const Vector3d& origin_m, const Vector3i& cells, double spacing_m, Inside inside) {
   Solid solid;
@@ -33,12 +33,12 @@ Solid solidWhere(const Vector3d& origin_m, const Vector3i& cells, double spacing
   return solid;
 }
 
-/// A box of whole cells from the origin.
+/// Returns a box of whole cells from the origin.
 inline Solid blockSolid(const Vector3i& cells, double spacing_m, const Vector3d& origin_m = Vector3d::Zero()) {
   return solidWhere(origin_m, cells, spacing_m, [](const Vector3d&) { return true; });
 }
 
-/// A ball of cells.
+/// Returns a ball of cells.
 inline Solid ballSolid(const Vector3d& center_m, double radius_m, double spacing_m) {
   const int cells = 2 * static_cast<int>(std::ceil(radius_m / spacing_m)) + 2;
   const Vector3d origin = center_m - Vector3d::Constant(0.5 * cells * spacing_m);
@@ -46,7 +46,7 @@ inline Solid ballSolid(const Vector3d& center_m, double radius_m, double spacing
                     [&](const Vector3d& at) { return (at - center_m).norm() < radius_m; });
 }
 
-/// Grid of 2 n^2 triangles over a parallelogram; the normal is side1 x side2.
+/// Returns a grid of 2 n^2 triangles over a parallelogram; the normal is side1 x side2.
 inline TriangleMesh sheetMesh(const Vector3d& corner_m, const Vector3d& side1_m, const Vector3d& side2_m, int n) {
   TriangleMesh mesh;
   mesh.part_names = {"tissue"};
@@ -72,7 +72,7 @@ inline void append(TriangleMesh& mesh, const TriangleMesh& more) {
   mesh.part_names = more.part_names;
 }
 
-/// Six sheets around a box, outward, not welded at its edges.
+/// Returns six sheets around a box, facing outward, not welded at its edges.
 inline TriangleMesh boxMesh(const Vector3d& min_m, const Vector3d& max_m, int n) {
   TriangleMesh mesh;
   const Vector3d size = max_m - min_m;
@@ -85,7 +85,7 @@ inline TriangleMesh boxMesh(const Vector3d& min_m, const Vector3d& max_m, int n)
   return mesh;
 }
 
-/// A cube's six faces, n^2 squares each, pushed out to a sphere.
+/// Returns a cube's six faces, n^2 squares each, projected onto a sphere.
 inline TriangleMesh sphereMesh(const Vector3d& center_m, double radius_m, int n) {
   TriangleMesh mesh = boxMesh(-Vector3d::Ones(), Vector3d::Ones(), n);
   for (Vector3f& p : mesh.positions_m) {
@@ -94,13 +94,13 @@ inline TriangleMesh sphereMesh(const Vector3d& center_m, double radius_m, int n)
   return mesh;
 }
 
-/// The same as one closed surface.
+/// Returns the same as one closed surface.
 inline TriangleMesh weldedSphereMesh(const Vector3d& center_m, double radius_m, int n) {
   const TriangleMesh sheets = sphereMesh(center_m, radius_m, n);
   TriangleMesh mesh = sheets;
   mesh.positions_m.clear();
   std::map<std::array<int64_t, 3>, uint32_t> known;
-  const double apart_m = 1e-4 * radius_m;  // vertices are farther from each other, and rounding is less
+  const double apart_m = 1e-4 * radius_m;  // less than the distance of vertices, more than rounding
   std::vector<uint32_t> index;
   for (const Vector3f& p : sheets.positions_m) {
     const auto next = static_cast<uint32_t>(mesh.positions_m.size());
@@ -120,21 +120,21 @@ struct BoundSkin {
   Skin skin;
 };
 
-/// A skin on the lattice of a solid.
+/// Binds a surface mesh to the lattice of a solid.
 inline BoundSkin bindTo(const Solid& solid, const TriangleMesh& mesh, Weights weights = Weights::kCell) {
   BoundSkin bound{solid, buildLattice(solid, weights), {}};
   bound.skin = bindSkin(mesh, bound.lattice, bound.solid);
   return bound;
 }
 
-/// Largest coordinate of a mesh [m]: what float rounding is relative to.
+/// Returns the largest coordinate of a mesh [m]: float rounding is relative to it.
 inline double largestCoordinate(const TriangleMesh& mesh) {
   double largest = 0;
   for (const Vector3f& p : mesh.positions_m) largest = std::max<double>(largest, p.cwiseAbs().maxCoeff());
   return largest;
 }
 
-/// Erases from both ends every spring whose ends a predicate (of the rest position) tells apart, and marks the ends.
+/// Erases from both ends every spring with ends that a predicate (of the rest position) separates, and marks the ends.
 template <class Side>
 void cutBetween(const Lattice& lattice, Side side, std::vector<layout::NodeBits>& nodes) {
   for (uint32_t slot : lattice.active_slots) {

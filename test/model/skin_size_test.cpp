@@ -11,7 +11,7 @@ using namespace viscera;
 
 namespace {
 
-/// A small triangle, and a sheet of `edge_m` beside it.
+/// Returns a small triangle, and a sheet of `edge_m` next to it.
 TriangleMesh organAndSheet(float edge_m) {
   TriangleMesh mesh;
   mesh.part_names = {"liver", "drape"};

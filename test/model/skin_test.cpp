@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kSkinSpacing_m = 0.01;
 const Vector3d kCenter_m(0.03, -0.02, 0.05);
-// Bindings keep floats: an offset of up to two cells and weights, each off by half a rounding of 6e-8.
+// Bindings store floats: an offset of up to two cells and weights, each off by half a rounding of 6e-8.
 constexpr double kRestError_m = 4 * 6e-8 * 2 * kSkinSpacing_m;
 constexpr double kRestNormalError = 4 * 6e-8;  // [-] three rounded coordinates of a unit vector
 
@@ -33,7 +33,7 @@ struct RestError {
   double position_m = 0, normal = 0;
 };
 
-/// Largest difference between the mesh and its mapping by nodes at rest.
+/// Returns the largest difference between the mesh and its mapping by nodes at rest.
 RestError restError(const BoundSkin& bound, Bases bases) {
   const std::vector<layout::vec4> still(bound.lattice.nodes.size(), layout::vec4{0, 0, 0, 0});
   const ReferenceMapping mapping(bound.lattice, still, bound.lattice.nodes, bases);
@@ -58,7 +58,7 @@ Vector3d offsetFromReference(const layout::SkinBinding& s) {
   return {s.offset_constant.x, s.offset_constant.y, s.offset_constant.z};
 }
 
-/// Distance [m] to the nearest boundary face of a solid, by looking at all of them.
+/// Returns the distance [m] to the nearest boundary face of a solid, by brute force.
 double distanceToBoundary(const Solid& solid, const Vector3d& point_m) {
   const Vector3d p = (point_m - solid.origin_m) / solid.spacing_m;
   double nearest = std::numeric_limits<double>::infinity();
@@ -178,7 +178,7 @@ TEST(SkinBinding, DeepVerticesAreBoundToTheirOwnCellWithTheConstantBasis) {
 }
 
 TEST(SkinBinding, NodesWhoseNeighborsCancelGetTheConstantBasis) {
-  // Two columns that touch along one edge only: within that edge unit vectors from neighbours add up to nothing.
+  // Two columns that touch only along one edge: on that edge unit vectors from neighbours add up to zero.
   const Solid solid = solidWhere(Vector3d::Zero(), {2, 2, 3}, kSkinSpacing_m,
                                  [](const Vector3d& at) { return (at.x() < 0.01) == (at.y() < 0.01); });
   TriangleMesh sides = sheetMesh({0.01, 0, 0}, {0, 0.01, 0}, {0, 0, 0.03}, 6);  // up to the shared edge
@@ -225,7 +225,8 @@ TEST(SkinBinding, ProgressRunsFromZeroToOne) {
   EXPECT_EQ(fractions.back(), 1);
 }
 
-/// How far a skin is from where a deformation of space puts it [spacings]: with cells that carry it, and by triangles.
+/// Distance of a surface mesh from its position under a deformation of space [spacings]: carried by cells, and by
+/// triangles.
 struct SkinError {
   double carried = 0, by_triangle = 0;
 };
@@ -251,7 +252,7 @@ SkinError skinError(const BoundSkin& bound, Moved moved) {
 }
 
 TEST(SkinBinding, CellsInPartCarryTheirSkinAsTheTissueMoves) {
-  // A balloon of 10 cells across with a wall of 0.8 cells, stretched, and bent to a radius of ten cells.
+  // A balloon 10 cells across with a wall of 0.8 cells, stretched, and bent to a radius of ten cells.
   TriangleMesh balloon = weldedSphereMesh(kCenter_m, 0.05, 16), inner = weldedSphereMesh(kCenter_m, 0.042, 16);
   for (auto& t : inner.triangles) std::swap(t[1], t[2]);
   append(balloon, inner);
@@ -269,13 +270,13 @@ TEST(SkinBinding, CellsInPartCarryTheirSkinAsTheTissueMoves) {
   std::cout << "worst error of the skin in spacings, carried and by triangles: stretched " << stretch.carried << " "
             << stretch.by_triangle << ", bent " << bend.carried << " " << bend.by_triangle << '\n';
   EXPECT_LT(stretch.carried, 1e-5);
-  // A chord of a circle of ten cells over one cell is off by 1/80 in its middle, and more farther out: 1/10 * 1.5 / 8.
+  // A chord over one cell of a circle of ten cells is off by 1/80 in its middle, and more farther out: 1/10 * 1.5 / 8.
   EXPECT_LT(bend.carried, 0.02);
   EXPECT_GT(bend.by_triangle, 3 * bend.carried);
 }
 
 TEST(SkinBinding, TrianglesBetweenSeparatePiecesAreLeftOutAndCounted) {
-  // Two blocks three cells apart under one skin.
+  // Two blocks three cells apart under one surface mesh.
   const Solid solid = solidWhere(Vector3d::Zero(), {9, 3, 3}, kSkinSpacing_m,
                                  [](const Vector3d& at) { return at.x() < 0.03 || at.x() > 0.06; });
   const TriangleMesh sheet = sheetMesh({0, 0, 0.03}, {0.09, 0, 0}, {0, 0.03, 0}, 18);
@@ -297,6 +298,6 @@ TEST(SkinBinding, RealHeartComesBackAtRestAndHardlyLosesATriangle) {
   const TriangleMesh mesh = importMesh(path, 1.0);
   const BoundSkin bound = bindTo(voxelise(mesh, kHeartSpacing_m), mesh);
   EXPECT_LT(restError(bound, Bases::kOrthonormal).position_m, kRestError_m);
-  constexpr double kBridgeShare = 0.001;  // [-] of triangles: thin flaps in pieces of the coarse lattice of their own
+  constexpr double kBridgeShare = 0.001;  // [-] share of triangles: thin flaps in separate pieces of the coarse lattice
   EXPECT_LT(bound.skin.bridges_removed, kBridgeShare * mesh.triangles.size());
 }

@@ -8,7 +8,7 @@
 
 namespace viscera::test {
 
-/// Cell that holds a point.
+/// Returns the cell that contains a point.
 inline Vector3i cellAt(const Solid& solid, const Vector3d& point_m) {
   return ((point_m - solid.origin_m) / solid.spacing_m).array().floor().cast<int>();
 }
@@ -18,8 +18,8 @@ inline uint16_t labelAt(const Solid& solid, const Vector3d& point_m) {
   return solid.label(cell.x(), cell.y(), cell.z());
 }
 
-/// Cells that share faces, numbered piece by piece from 1; 0 for cells of the other kind. The grid is given a rim of
-/// one empty cell, so that cell (x, y, z) is at (x+1, y+1, z+1) and, for empty cells, piece 1 is the outside.
+/// Cells that share faces, numbered piece by piece from 1; 0 for cells of the other kind. The grid gets a rim of one
+/// empty cell, so that cell (x, y, z) is at (x+1, y+1, z+1) and, for empty cells, piece 1 is the outside.
 struct Pieces {
   Vector3i cells;
   std::vector<int> piece;
@@ -32,7 +32,7 @@ struct Pieces {
   int at(const Vector3i& cell) const { return piece[index(cell + Vector3i::Ones())]; }
 };
 
-/// @param is_filled  which cells to number: the filled or the empty ones
+/// Numbers the pieces of a solid. @param is_filled  which cells to number: the filled or the empty ones
 inline Pieces findPieces(const Solid& solid, bool is_filled) {
   Pieces found;
   found.cells = solid.cells + Vector3i::Constant(2);
@@ -65,7 +65,7 @@ inline size_t countPieces(const Solid& solid) {
   return static_cast<size_t>(findPieces(solid, true).count);
 }
 
-/// Whether a path of empty cells leads from outside to the cell at a point.
+/// Returns whether a path of empty cells leads from outside to the cell at a point.
 inline bool outsideReaches(const Solid& solid, const Vector3d& point_m) {
   return findPieces(solid, false).at(cellAt(solid, point_m)) == 1;
 }

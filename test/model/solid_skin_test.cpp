@@ -71,7 +71,7 @@ TEST(SolidSkin, ASphereFieldGetsItsSphere) {
   const auto sphere = [](const Vector3d& p) {
     return LabelledDistance{p.norm() - 0.1, static_cast<uint16_t>(p.x() < 0 ? 0 : 1)};
   };
-  const Vector3d corner = Vector3d::Constant(0.1);  // samples fall exactly on the surface
+  const Vector3d corner = Vector3d::Constant(0.1);  // samples are exactly on the surface
   const TriangleMesh skin = extractSkin(sphere, {"left", "right"}, -corner, corner, kSpacing);
   EXPECT_EQ(openEdges(skin), 0u);
   EXPECT_NEAR(signedVolume(skin), sphereVolume(0.1), 0.02 * sphereVolume(0.1));
@@ -89,7 +89,7 @@ TEST(SolidSkin, ASphereFieldGetsItsSphere) {
 
 TEST(SolidSkin, AHoleIsCappedAndASheetStaysOpen) {
   TriangleMesh open_box = boxMesh({0, 0, 0}, {0.1F, 0.1F, 0.1F});
-  open_box.triangles.resize(10);  // two triangles of a face are gone
+  open_box.triangles.resize(10);  // two triangles of a face are missing
   open_box.parts.resize(10);
   const TriangleMesh closed = withCaps(facingOutward(open_box));
   EXPECT_EQ(openEdges(closed), 0u);

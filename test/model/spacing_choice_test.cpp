@@ -10,7 +10,7 @@
 namespace viscera::test {
 namespace {
 
-constexpr double kEdge_m = 0.1;     ///< of the cube that is counted
+constexpr double kEdge_m = 0.1;     ///< edge of the cube
 constexpr double kStart_m = 0.007;  ///< 15^3 cells
 constexpr double kStepPerM = 0.05;  ///< stable step over spacing [s/m]: E = 20 kPa, halved
 constexpr double kLeastLoad = 0.8;  ///< the rest is unused: one more layer of 13 cells is a quarter of the work
@@ -19,7 +19,7 @@ size_t cubeNodes(double spacing_m) {
   return static_cast<size_t>(std::pow(std::floor(kEdge_m / spacing_m + 1e-9) + 1, 3));
 }
 
-/// A machine that steps so many nodes per second.
+/// Returns the limits of a machine that steps this many nodes per second.
 SpacingLimits limitsOf(double nodes_per_s, double overhead_s = 0) {
   SpacingLimits limits;
   limits.step = {overhead_s, 1 / nodes_per_s};
@@ -150,10 +150,10 @@ TEST(SpacingChoice, CountsNoMoreLatticesThanItMust) {
     return cubeNodes(spacing_m);
   };
   chooseSpacing(nodes, kStart_m, limitsOf(4e8));
-  EXPECT_LE(counts, 6);  // two to begin with, then the one, and what comes of whole layers
+  EXPECT_LE(counts, 6);  // two initially, then one, and corrections for whole layers
 }
 
-/// A box whose spacing is to be chosen and one of 5 mm.
+/// Returns a box with a spacing to be chosen and one of 5 mm.
 Scene twoBodies() {
   Scene scene;
   scene.bodies = {boxConfig({0.04, 0.04, 0.04}, 0.004), boxConfig({0.02, 0.02, 0.02}, 0.005)};
@@ -179,7 +179,7 @@ TEST(UndividedBodies, OfSeveralHaveOneSpacing) {
   const UndividedBodies bodies(scene);
   EXPECT_EQ(bodies.nodes(0.01), 125u + 27u);
   EXPECT_EQ(bodies.others().bodies.size(), 0u);
-  scene.bodies[0].target_nodes = 1000;  // goes before
+  scene.bodies[0].target_nodes = 1000;  // takes precedence
   EXPECT_EQ(UndividedBodies(scene).nodes(0.01), 27u);
 }
 
@@ -215,10 +215,11 @@ TEST(AutoSpacing, OtherWordsAreRefusedWithWhatIsAccepted) {
   for (const char* value : {"automatic", "Auto", "[auto]", "", "-1", ".inf"}) {
     const std::string message = messageOf<SceneError>(
         [&] { parseScene(std::string("bodies:\n  - {name: a, spacing_m: ") + value + "}", "s.yaml"); });
-    EXPECT_TRUE(says(message, {"s.yaml:2: ", "'bodies[0].spacing_m' is a number, 1e-05 .. 10 m, or auto", "found"}));
+    EXPECT_TRUE(
+        says(message, {"s.yaml:2: ", "'bodies[0].spacing_m' must be a number, 1e-05 .. 10 m, or auto", "found"}));
   }
   EXPECT_TRUE(says(messageOf<SceneError>([] { parseScene("bodies: [{}]\nsolver: {real_time_factor: 0}", "s.yaml"); }),
-                   {"'solver.real_time_factor' is a number, 0.01 .. 1000"}));
+                   {"'solver.real_time_factor' must be a number, 0.01 .. 1000"}));
 }
 
 TEST(AutoSpacing, WithoutASessionGivesAUsualNumberOfNodes) {

@@ -35,7 +35,7 @@ void expectNumbers(const Config& config, double young_modulus_pa, double poisson
   EXPECT_EQ(config.density_kg_per_m3, density_kg_per_m3);
 }
 
-/// Rounded to two digits?
+/// Returns whether a value is rounded to two digits.
 bool hasTwoDigits(double value) {
   const double unit = std::pow(10, std::floor(std::log10(value)) - 1), digits = value / unit;
   return std::abs(digits - std::round(digits)) < 1e-9;
@@ -76,7 +76,7 @@ TEST(TissuePresets, EveryRowIsWithinItsRangeAndSaysHowAndWhereItWasMeasured) {
 TEST(TissuePresets, GiveWhatTheSceneDoesNot) {
   expectNumbers(materialOf("young_modulus_pa: 9000, tissue: liver"), 9000, 0.49, 1060);
   expectNumbers(materialOf("tissue: liver, poisson_ratio: 0.4, density_kg_per_m3: 1000"), 6400, 0.4, 1000);
-  EXPECT_EQ(materialOf("tissue: liver").drag_per_s, MaterialConfig{}.drag_per_s);
+  EXPECT_EQ(materialOf("tissue: liver").mass_damping_per_s, MaterialConfig{}.mass_damping_per_s);
 }
 
 TEST(TissuePresets, GiveTheirToughnessWhereItIsAskedForAlone) {
@@ -94,7 +94,7 @@ TEST(TissuePresets, GiveTheirToughnessWhereItIsAskedForAlone) {
   for (const char* tissue : {"", "tissue: brain, "}) {
     EXPECT_TRUE(
         says(test::messageOf<SceneError>([&] { materialOf(std::string(tissue) + "cut: {toughness_j_per_m2: auto}"); }),
-             {"s.yaml: body 'tissue': material.cut.toughness_j_per_m2: auto needs a tissue whose toughness is known "
+             {"s.yaml: body 'tissue': material.cut.toughness_j_per_m2: auto needs a tissue with a known toughness "
               "(liver,"}));
   }
 }
@@ -105,7 +105,7 @@ TEST(TissuePresets, GiveTheirStiffeningWhereItIsAskedForAlone) {
   EXPECT_EQ(materialOf("tissue: skin, stiffening: 3").stiffening, 3);
   for (const char* tissue : {"", "tissue: spleen, "}) {
     EXPECT_TRUE(says(test::messageOf<SceneError>([&] { materialOf(std::string(tissue) + "stiffening: auto"); }),
-                     {"s.yaml: body 'tissue': material.stiffening: auto needs a tissue whose stiffening is known "
+                     {"s.yaml: body 'tissue': material.stiffening: auto needs a tissue with a known stiffening "
                       "(skin, heart_muscle, brain, lung), not "}));
   }
   EXPECT_TRUE(says(test::messageOf<SceneError>([&] { materialOf("tissue: skin, law: springs, stiffening: auto"); }),
@@ -123,27 +123,27 @@ TEST(TissuePresets, OfAPartGoBeforeItsBodysMaterialAndBehindItsOwnNumbers) {
   EXPECT_TRUE(body.parts[0].tissue.empty());
   const std::vector<std::string> notes = tissueNotes(body);
   ASSERT_EQ(notes.size(), 2U);
-  EXPECT_TRUE(says(notes[0], {"tissue liver: E 6400 Pa (3900 to 8000), nu 0.3 of the scene instead of 0.49, density "
+  EXPECT_TRUE(says(notes[0], {"tissue liver: E 6400 Pa (3900 to 8000), nu 0.3 from the scene instead of 0.49, density "
                               "1060 kg/m3; ",
                               "Obrzut et al. 2019"}));
-  EXPECT_TRUE(says(notes[1], {"part b, tissue prostate_cancer: E 24000 Pa", "density 1100 kg/m3 of the scene"}));
+  EXPECT_TRUE(says(notes[1], {"part b, tissue prostate_cancer: E 24000 Pa", "density 1100 kg/m3 from the scene"}));
 }
 
 TEST(TissuePresets, AnUnknownNameIsRefusedWithAllThatThereAre) {
-  std::vector<std::string> parts = {"s.yaml:2: 'bodies[0].material.tissue' is one of ", "found 'livre'"};
+  std::vector<std::string> parts = {"s.yaml:2: 'bodies[0].material.tissue' must be one of ", "found 'livre'"};
   for (const TissuePreset& preset : tissuePresets()) parts.emplace_back(preset.name);
   const auto refused = [](const std::string& tissue) {
     return test::messageOf<SceneError>(
         [&] { parseScene("bodies:\n  - material: {tissue: " + tissue + "}\n", "s.yaml"); });
   };
   EXPECT_TRUE(says(refused("livre"), parts));
-  EXPECT_TRUE(says(refused("[liver]"), {"'bodies[0].material.tissue' is one of ", "found a list of 1"}));
-  EXPECT_TRUE(says(refused("''"), {"'bodies[0].material.tissue' is one of "}));
+  EXPECT_TRUE(says(refused("[liver]"), {"'bodies[0].material.tissue' must be one of ", "found a list of 1"}));
+  EXPECT_TRUE(says(refused("''"), {"'bodies[0].material.tissue' must be one of "}));
 }
 
 TEST(TissuePresets, FromOutsideGoBeforeNumbersOfTheFileAndBehindThoseFromOutside) {
   const std::string tissue = "bodies[0].material.tissue=spleen", young = "bodies[0].material.young_modulus_pa=7";
-  expectNumbers(materialOf("drag_per_s: 3", {tissue}), 17000, 0.49, 1050);
+  expectNumbers(materialOf("mass_damping_per_s: 3", {tissue}), 17000, 0.49, 1050);
   expectNumbers(materialOf("young_modulus_pa: 5, poisson_ratio: 0.2, tissue: liver", {tissue}), 17000, 0.49, 1050);
   expectNumbers(materialOf("young_modulus_pa: 5", {tissue, young}), 7, 0.49, 1050);
   expectNumbers(materialOf("young_modulus_pa: 5", {young, tissue}), 7, 0.49, 1050);
@@ -156,7 +156,7 @@ TEST(TissuePresets, OfASurfaceHaveTheNuOfItsSprings) {
       "s.yaml");
   expectNumbers(scene.bodies.at(0).material, 240000, MaterialConfig{}.poisson_ratio, 1030);
   const std::vector<std::string> notes = buildModel(scene).bodies.at(0).notes;
-  EXPECT_TRUE(says(notes.at(0), {"tissue small_intestine_wall: E 240000 Pa", "nu that of its springs"}));
+  EXPECT_TRUE(says(notes.at(0), {"tissue small_intestine_wall: E 240000 Pa", "nu of its springs"}));
 }
 
 TEST(TissuePresets, ASceneIsWhatItsNumbersAre) {

@@ -28,7 +28,7 @@ TEST(TriangleMesh, NormalsOfASphereArePointingOutward) {
 }
 
 TEST(TriangleMesh, NormalsAreWeightedByArea) {
-  // A large face up and a small face sideways meet in vertex 0.
+  // A large upward face and a small sideways face meet in vertex 0.
   TriangleMesh mesh;
   mesh.positions_m = {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {0, 1, 0}, {0, 0, 1}};
   mesh.triangles = {{0, 1, 2}, {0, 3, 4}};

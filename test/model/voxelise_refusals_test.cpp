@@ -13,7 +13,7 @@ constexpr float kRadius = 0.05f;  // m
 constexpr int kRings = 48;
 const Vector3f kCenter(0.012f, -0.3f, 0.207f);
 
-/// Message of the error that voxelising gives.
+/// Returns the message of the error of voxelisation.
 template <typename Expected>
 std::string refusalOf(const TriangleMesh& mesh, double spacing_m) {
   try {

@@ -28,7 +28,7 @@ TEST(Voxelise, ABoxOfWholeCellsIsFilledExactly) {
 TEST(Voxelise, VolumeOfASphereConvergesWithTheSpacing) {
   const TriangleMesh sphere = sphereMesh(kVoxeliseCenter, kVoxeliseRadius, kVoxeliseRings);
   const double exact = signedVolume(sphere);
-  // Counting lattice points in a ball is off by less than 6 (R/h) points out of 4/3 pi (R/h)^3.
+  // The number of lattice points in a ball is off by less than 6 (R/h) points out of 4/3 pi (R/h)^3.
   for (const double cells : {5, 10, 20, 40}) {
     EXPECT_NEAR(filled(sphere, kVoxeliseRadius / cells), exact, 1.5 * std::pow(cells, -2) * exact) << cells;
   }
@@ -173,13 +173,14 @@ TEST(Voxelise, TheRealHeartHasHollowChambersInSolidWalls) {
   const std::string path = realData("VH_M_Heart.glb");
   if (path.empty()) GTEST_SKIP() << "VH_M_Heart.glb not found; set VISCERA_TEST_DATA";
   const TriangleMesh heart = importMesh(path, 1);
-  // docs/fill_rule.md
+  // docs/volumes.md
   constexpr double kFilled = 0.01;
   for (const auto& [h, filled_m3] : {std::pair(0.004, 286e-6), {0.002, 268e-6}}) {
     VoxelReport report;
     const Solid solid = voxelise(heart, h, &report);
     std::cout << "heart at " << h << " m: " << report.text() << '\n';
-    // The parts hold 297 cm3 and overlap by about a tenth; atrial walls of 2 mm grow to a cell where cells are larger.
+    // The parts hold 297 cm3 and overlap by about a tenth; atrial walls of 2 mm grow to one cell where cells are
+    // larger.
     EXPECT_NEAR(report.mesh_volume_m3, 297e-6, 1e-6);
     EXPECT_NEAR(solid.volumeM3() / filled_m3, 1, kFilled) << h;
     EXPECT_EQ(report.parts_dropped, 0) << report.text();

@@ -9,7 +9,7 @@
 namespace viscera::test {
 namespace {
 
-/// A wall of 4 mm between two spheres: the cavity's surface faces inwards.
+/// Returns a wall of 4 mm between two spheres. The cavity's surface faces inwards.
 Body hollowBall(double spacing_m) {
   TriangleMesh inner = sphereMesh(Vector3f::Zero(), 0.026F, 40);
   for (auto& triangle : inner.triangles) std::swap(triangle[1], triangle[2]);
@@ -19,7 +19,7 @@ Body hollowBall(double spacing_m) {
 }  // namespace
 
 TEST(WallThickness, OfAHollowBallIsItsWall) {
-  constexpr double kFacets = 0.03;  // of the wall: the chords of 40 rings lie 0.1 mm within the sphere
+  constexpr double kFacets = 0.03;  // share of the wall: the chords of 40 rings are 0.1 mm within the sphere
   const std::optional<WallThickness> walls = wallThickness(hollowBall(0.004));
   ASSERT_TRUE(walls);
   EXPECT_NEAR(walls->least_m, 0.004, kFacets * 0.004);
@@ -48,7 +48,7 @@ TEST(WallThickness, ErrorsAreThoseThatWereMeasured) {
 TEST(WallThickness, ANoteSaysWhatErrorToExpectOfThinWalls) {
   const auto saysWalls = [](const Body& body) {
     return std::any_of(body.notes.begin(), body.notes.end(),
-                       [](const std::string& note) { return note.find("walls: least ") == 0; });
+                       [](const std::string& note) { return note.find("walls: thinnest ") == 0; });
   };
   EXPECT_TRUE(saysWalls(hollowBall(0.004)));
   EXPECT_FALSE(saysWalls(hollowBall(0.0012)));

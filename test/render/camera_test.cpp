@@ -10,8 +10,8 @@ using namespace viscera;
 
 namespace {
 
-constexpr double kTight = 1e-12;      // of double arithmetic on numbers of order 1
-constexpr double kFloatTight = 1e-5;  // of float matrices, relative to numbers of order 1
+constexpr double kTight = 1e-12;      // rounding of double arithmetic with numbers of order 1
+constexpr double kFloatTight = 1e-5;  // rounding of float matrices, relative to numbers of order 1
 
 CameraConfig lookingAlongY() {
   CameraConfig camera;
@@ -97,7 +97,7 @@ TEST(Camera, LinesOfSightAreThoseThatPixelsShow) {
 TEST(Camera, AnImageThatFoldsOverHasNoLinesOfSightThere) {
   CameraConfig camera = lookingAlongY();
   camera.vertical_fov_deg = 90;
-  camera.distortion.k1 = -0.4;  // at most 0.61 from the middle: r (1 - 0.4 r^2), at r = 0.91
+  camera.distortion.k1 = -0.4;  // at most 0.61 from the centre: r (1 - 0.4 r^2), at r = 0.91
   EXPECT_FALSE(undistorted(camera.distortion, {0.8, 0}));
   EXPECT_THROW(lineOfSight(camera, {0, 240}), SceneError);
   EXPECT_FALSE(pixelOf(camera, Vector3d(1.2, 0, 1))) << "shown where 0.5 is";

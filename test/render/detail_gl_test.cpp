@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Textures and normal maps as they are drawn (docs/detail.md).
+// Rendering of textures and normal maps (docs/surface.md).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@
 namespace viscera {
 namespace {
 
-constexpr int kSameShade = 3;  // of 255: rounding of normals to 10 bits and of texels to 8
+constexpr int kSameShade = 3;  // of 255: rounding of normals to 10 bits and of texels to 8 bits
 
 TextureImage picture(int side, std::array<uint8_t, 3> (*at)(double u, double v)) {
   TextureImage image{side, side, {}};
@@ -32,13 +32,13 @@ TextureImage picture(int side, std::array<uint8_t, 3> (*at)(double u, double v))
   return image;
 }
 
-/// Four quarters: red, green, blue, yellow, from the lower left to the upper right.
+/// Returns the colour of four quarters: red, green, blue, yellow, from the lower left to the upper right.
 std::array<uint8_t, 3> quarters(double u, double v) {
   if (v < 0.5) return u < 0.5 ? std::array<uint8_t, 3>{255, 0, 0} : std::array<uint8_t, 3>{0, 255, 0};
   return u < 0.5 ? std::array<uint8_t, 3>{0, 0, 255} : std::array<uint8_t, 3>{255, 255, 0};
 }
 
-/// A mesh of a model of one body, with what surfaces hand out beside their vertices.
+/// A mesh of a model with one body, with the outputs of a surface besides its vertices.
 struct Detailed {
   Model model;
   GpuMesh gpu;
@@ -46,7 +46,7 @@ struct Detailed {
   gpu::Buffer<uint32_t> charts;
   gpu::TexelView charts_view;
 
-  /// @param pose  where the vertices are now; at rest they are those of the mesh
+  /// @param pose  current pose of the vertices; at rest they are those of the mesh
   explicit Detailed(const TriangleMesh& mesh, const Pose& pose = {})
       : gpu(positions(mesh, pose), normals(mesh, pose), indices(mesh), 0x00808080u) {
     model.bodies.emplace_back();
@@ -83,7 +83,7 @@ struct Detailed {
   }
 };
 
-/// A square of 10 cm in the plane y = 0, seen from -y, x to the right and z up, with u and v along these.
+/// Returns a square of 10 cm in the plane y = 0, seen from -y, with x to the right and z up, and u and v along these.
 TriangleMesh square(const SurfaceMaterial& material, std::vector<TextureImage> images, double repeats = 1) {
   TriangleMesh mesh;
   mesh.positions_m = {{-0.05F, 0, -0.05F}, {0.05F, 0, -0.05F}, {0.05F, 0, 0.05F}, {-0.05F, 0, 0.05F}};
@@ -120,7 +120,7 @@ class DetailGl : public Drawing {
     Renderer renderer({camera_}, styluses_, {}, &of.model);
     return draw(renderer, of.view());
   }
-  /// Which of red, green, blue, yellow ('r', 'g', 'b', 'y') a pixel is.
+  /// Returns which of red, green, blue, yellow ('r', 'g', 'b', 'y') a pixel is.
   static char hueAt(const Image& image, int column, int row) {
     const uint8_t* rgb = image.at(column, row);
     const bool r = rgb[0] > 100, g = rgb[1] > 100, b = rgb[2] > 100;
@@ -132,7 +132,7 @@ class DetailGl : public Drawing {
 
 TEST_F(DetailGl, TexturesThatTheDriverRefusesNameTheirSize) {
   const std::string said = test::messageOf<GpuError>([] { TextureArray(1 << 20, 1 << 20, 3, false); });
-  EXPECT_TRUE(test::says(said, {"3 pictures of 1048576 x 1048576 pixels", "bodies[].textures: false"}));
+  EXPECT_TRUE(test::says(said, {"3 images of 1048576 x 1048576 pixels", "bodies[].textures: false"}));
   EXPECT_NO_THROW(gpu::checkErrors("what came after"));
 }
 
@@ -146,7 +146,7 @@ TEST_F(DetailGl, PicturesLieTheRightWayUp) {
 
 TEST_F(DetailGl, PicturesGoWithTheTissue) {
   Pose turned;
-  turned.orientation = rotationFromDegrees({0, 180, 0});  // in its plane: the lower left is the upper right
+  turned.orientation = rotationFromDegrees({0, 180, 0});  // in its plane: the lower left is now the upper right
   turned.position_m = {0.004, 0, 0};
   const Image image = drawn(Detailed(square(colored(), {picture(64, quarters)}), turned));
   EXPECT_EQ(hueAt(image, middle_x() - 20, middle_y() + 20), 'y');
@@ -176,11 +176,11 @@ TEST_F(DetailGl, FinePicturesSeenSmallAreTheirMean) {
     least = std::min(least, green);
     most = std::max(most, green);
   }
-  constexpr int kShading = 12;  // of 255: light falls differently on the ends of the row
+  constexpr int kShading = 12;  // of 255: shading differs between the ends of the row
   EXPECT_LT(most - least, kShading) << "stripes finer than pixels shimmer";
 }
 
-/// A flat map is the bare square; one that leans by 20 degrees looks as a square whose normals do.
+/// A flat map looks like the bare square; one that tilts by 20 degrees looks like a square with such normals.
 TEST_F(DetailGl, NormalMapLooksAsSuchNormalsDo) {
   SurfaceMaterial material;
   material.normal_texture.image = 0;
@@ -214,7 +214,7 @@ TEST_F(DetailGl, NormalMapLooksAsSuchNormalsDo) {
   EXPECT_GT(std::abs(truth.sum(middle_x(), middle_y()) - upright.sum(middle_x(), middle_y())), 30);
 }
 
-/// A coarse ball with the normals of a bumpy one looks like the bumpy one, turned as well.
+/// A coarse ball with the normals of a bumpy one looks like the bumpy one, also when turned.
 TEST_F(DetailGl, BakedBallLooksLikeTheDetailedOne) {
   const auto bumpy = [](double edge_m) {
     TriangleMesh mesh = ballMesh(0.05, edge_m);
@@ -240,8 +240,7 @@ TEST_F(DetailGl, BakedBallLooksLikeTheDetailedOne) {
         off_smooth += std::abs(smooth.sum(middle_x() + x, middle_y() + y) - of_truth);
       }
     }
-    constexpr double kShare =
-        0.25;  // of the difference that the map is to take away: what is left are shifts of bumps by their height
+    constexpr double kShare = 0.25;  // of the difference that the map removes; the rest is the parallax of the bumps
     EXPECT_LT(off, kShare * off_smooth) << off << " of " << off_smooth;
   }
 }

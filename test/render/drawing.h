@@ -16,7 +16,7 @@
 
 namespace viscera {
 
-/// A hand-made mesh on the GPU, of one colour.
+/// A mesh of one colour on the GPU, made from given vertices.
 struct GpuMesh {
   gpu::Buffer<float> positions;
   gpu::Buffer<uint32_t> normals, colors, indices;
@@ -34,7 +34,7 @@ struct GpuMesh {
   MeshView view() const { return {positions.id(), normals.id(), colors.id(), indices.id(), indices.size()}; }
 };
 
-/// Unit directions of a sphere's vertices, rings from +z to -z; each ring closes on itself.
+/// Returns the unit directions of a sphere's vertices, in rings from +z to -z. Each ring is closed.
 inline std::vector<Vector3f> sphereDirections(int rings, int segments) {
   std::vector<Vector3f> out;
   for (int i = 0; i <= rings; ++i) {
@@ -66,7 +66,7 @@ inline GpuMesh sphereMesh(const Vector3f& center_m, float radius_m) {
   return GpuMesh(points_m, directions, sphereTriangles(kRings, kSegments));
 }
 
-/// A square in the plane y = 0, 2 `half_m` wide, whose front is on the -y side, with normals as given.
+/// Returns a square in the plane y = 0, 2 `half_m` wide, with its front towards -y and with the given normals.
 inline GpuMesh squareMesh(float half_m, const Vector3f& normal, bool front_to_minus_y = true) {
   const std::vector<Vector3f> corners = {
       {-half_m, 0, -half_m}, {half_m, 0, -half_m}, {half_m, 0, half_m}, {-half_m, 0, half_m}};
@@ -81,7 +81,7 @@ struct Image {
 
   const uint8_t* at(int column, int row) const { return &rgb[3 * (static_cast<size_t>(row) * width + column)]; }
   int sum(int column, int row) const { return at(column, row)[0] + at(column, row)[1] + at(column, row)[2]; }
-  /// The corner is background in every test.
+  /// Returns whether a pixel differs from the corner, which is background in every test.
   bool drawn(int column, int row) const { return !std::equal(at(column, row), at(column, row) + 3, rgb.begin()); }
   int drawnPixels() const {
     int count = 0;
@@ -90,7 +90,7 @@ struct Image {
     }
     return count;
   }
-  /// Mean position of what is drawn [px]: pixel centres are at halves.
+  /// Returns the mean position of the drawn pixels [px], with pixel centres at halves.
   Eigen::Vector2d center() const {
     Eigen::Vector2d total = Eigen::Vector2d::Zero();
     for (int row = 0; row < height; ++row) {
@@ -102,7 +102,7 @@ struct Image {
   }
 };
 
-/// Tests that draw: a context, a camera in front of the origin that looks along +y with z up.
+/// Fixture of tests that draw: a context, and a camera in front of the origin that looks along +y with z up.
 class Drawing : public ::testing::Test {
  protected:
   Drawing() {

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The film of fluid on wet tissue (docs/detail.md, Looks) lies on the tissue, as its rest positions say.
+// The film of fluid on wet tissue (docs/surface.md, Looks) is fixed to the rest positions of the tissue.
 #include <cstdlib>
 
 #include "render/drawing.h"
@@ -11,8 +11,8 @@ using namespace viscera;
 namespace {
 
 constexpr int kSameShade = 3;     ///< of 255: rounding of normals to 10 bits
-constexpr double kSame = 0.99;    ///< share of pixels: those at edges of triangles are rounded to others
-constexpr double kOthers = 0.15;  ///< share of pixels that show where the film is
+constexpr double kSame = 0.99;    ///< least share of equal pixels: those at edges of triangles may be rounded to others
+constexpr double kOthers = 0.15;  ///< least share of pixels in which the film shows
 
 class FilmGl : public Drawing {
  protected:
@@ -20,8 +20,10 @@ class FilmGl : public Drawing {
     model_.bodies.emplace_back();
     camera_.position_m = Vector3d(0, -0.2, 0);
   }
-  /// A bent wall of skin. @param pose  where it is now   @param along_m  how far its tissue at rest is moved
-  Image drawn(double wetness, const Pose& pose = {}, double along_m = 0) {
+  /// Draws a bent wall of tissue.
+  /// @param pose  its current pose
+  /// @param along_m  shift of its rest positions
+  Image drawn(double specular_wetness, const Pose& pose = {}, double along_m = 0) {
     constexpr int kAcross = 40;
     std::vector<Vector3f> points, normals;
     std::vector<uint32_t> triangles;
@@ -44,12 +46,12 @@ class FilmGl : public Drawing {
     const gpu::Buffer<layout::vec4> at_rest(rests);
     MeshView view = mesh.view();
     view.rests = at_rest.id();
-    model_.bodies[0].wetness = wetness;
+    model_.bodies[0].specular_wetness = specular_wetness;
     Renderer renderer({camera_}, styluses_, {}, &model_);
     renderer.placeCamera(0, pose * opticalPose(camera_));
     return draw(renderer, view);
   }
-  /// Share of the pixels that are the same in two pictures.
+  /// Returns the share of equal pixels in two pictures.
   static double alike(const Image& a, const Image& b) {
     size_t same = 0;
     for (size_t i = 0; i < a.rgb.size(); i += 3) {

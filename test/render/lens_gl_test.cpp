@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What a camera with distortion shows is where its lens puts it: a straight edge, undistorted, is straight.
+// Distortion of a camera: the picture agrees with the lens model, and a straight edge, undistorted, is straight.
 #include <algorithm>
 #include <vector>
 
@@ -13,19 +13,18 @@ using namespace viscera;
 
 namespace {
 
-constexpr float kHalf_m = 0.2f;  ///< of the square whose edges are looked at
-constexpr double kStraight_px =
-    0.3;                        ///< what is asked of an undistorted edge; edges of pixels of 8 bits are known to 0.1
-constexpr double kBent_px = 2;  ///< the edge in the picture is bent by far more than that
-constexpr int kAround_px = 5;   ///< an edge, drawn with 2 x 2 samples and mixed once more, is 3 pixels wide
+constexpr float kHalf_m = 0.2f;       ///< half width of the square
+constexpr double kStraight_px = 0.3;  ///< limit for an undistorted edge; with 8 bits per pixel, edges are known to 0.1
+constexpr double kBent_px = 2;        ///< the edge in the picture is bent by far more than this
+constexpr int kAround_px = 5;         ///< an edge, drawn with 2 x 2 samples and resampled, is 3 pixels wide
 
 class LensGl : public Drawing {
  protected:
   LensGl() {
     camera_.vertical_fov_deg = 80;
-    camera_.up = Vector3d(0.1, 0, 1);  // so that edges cross rows and columns
+    camera_.up = Vector3d(0.1, 0, 1);  // edges cross rows and columns
   }
-  /// Where the middle of a point's picture would be in a pinhole's [px].
+  /// Returns the position of a point in the picture of a pinhole camera [px].
   Eigen::Vector2d straight(const Eigen::Vector2d& shown) const {
     const Intrinsics k = intrinsics(camera_);
     const Vector3d sight = lineOfSight(camera_, shown);
@@ -38,7 +37,8 @@ double level(const Image& image, int column, int row) {
   return linearFromSrgb(image.at(column, row)[0] / 255.0);
 }
 
-/// Column of an edge in a row, near a column: by how much of the pixels around is covered, in light.
+/// Returns the column of an edge in a row, near a column, from the covered share of the pixels around it in linear
+/// light.
 double edgeColumn(const Image& image, int near, int row) {
   const double left = level(image, near - kAround_px, row), right = level(image, near + kAround_px, row);
   double covered = 0;
@@ -47,7 +47,7 @@ double edgeColumn(const Image& image, int near, int row) {
   return near + kAround_px + 1 - covered;
 }
 
-/// Largest distance of points from the straight line through most of them.
+/// Returns the largest distance of points from their regression line.
 double bentBy(const std::vector<Eigen::Vector2d>& points) {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (const auto& point : points) middle += point / static_cast<double>(points.size());
@@ -96,7 +96,7 @@ TEST_F(LensGl, AStraightEdgeUndistortedIsStraightAndWhereItIs) {
 }
 
 TEST_F(LensGl, APictureHasTheCamerasSizeAndNothingOfItIsMissing) {
-  const GpuMesh wall = squareMesh(2, {0, -1, 0});  // beyond all that is seen
+  const GpuMesh wall = squareMesh(2, {0, -1, 0});  // fills the picture
   for (const PlumbBob& lens : {kBarrel, kPincushion}) {
     camera_.distortion = lens;
     renderer_.reset();

@@ -27,7 +27,7 @@ class ObstaclesGl : public Drawing {
   const MeshView nothing_;
 };
 
-constexpr double kOutline = 0.08;  // of the area: perspective, and the rounding of an outline to pixels
+constexpr double kOutline = 0.08;  // share of the area: perspective, and rounding of the outline to pixels
 
 }  // namespace
 
@@ -47,7 +47,7 @@ TEST_F(ObstaclesGl, SpheresCapsulesAndBoxesAreAsLargeAsWhatNodesMeet) {
 TEST_F(ObstaclesGl, APlaneIsSeenFromAboveAndLiesWhereItsPoseSays) {
   const Pose floor{Vector3d(0, 0, -0.03), Quaterniond::Identity()};
   const Image image = drawn(obstacle(ObstacleShape::kPlane), {floor});
-  EXPECT_FALSE(image.drawn(160, 100));  // above the horizon of a floor that ends
+  EXPECT_FALSE(image.drawn(160, 100));  // above the horizon of a finite floor
   EXPECT_TRUE(image.drawn(160, 200));
 }
 

@@ -26,7 +26,7 @@ double meanSum(const Image& image) {
   return total / image.drawnPixels();
 }
 
-/// Leaves behind whatever state another user of the context might.
+/// Leaves state behind as another user of the context might.
 void disturbState() {
   glEnable(GL_SCISSOR_TEST);
   glScissor(3, 3, 5, 5);
@@ -54,7 +54,7 @@ TEST_F(RendererGl, SphereIsDrawnOnADarkBackground) {
 }
 
 TEST_F(RendererGl, BackgroundIsEncodedAsSrgb) {
-  // linear light 0.0056, 0.0066, 0.0080 through the sRGB transfer function
+  // linear light 0.0056, 0.0066, 0.0080 after the sRGB transfer function
   const GpuMesh sphere = sphereMesh({0, 0, 0}, 0.01f);
   const Image image = draw(sphere.view());
   EXPECT_EQ(std::vector<int>(image.at(0, 0), image.at(0, 0) + 3), (std::vector<int>{17, 19, 22}));
@@ -110,7 +110,7 @@ TEST_F(RendererGl, TornTrianglesDrawNothing) {
 }
 
 TEST_F(RendererGl, NullNormalsAreShadedFlat) {
-  constexpr double kWithinLevels = 2;  // sum over three channels; packed normals are true to 1/511
+  constexpr double kWithinLevels = 2;  // sum over three channels; packed normals are exact to 1/511
   const GpuMesh smooth = squareMesh(0.05f, kToCamera), flat = squareMesh(0.05f, Vector3f::Zero());
   EXPECT_NEAR(meanSum(draw(flat.view())), meanSum(draw(smooth.view())), kWithinLevels);
   const GpuMesh inside = squareMesh(0.05f, -kToCamera, false), flat_inside = squareMesh(0.05f, Vector3f::Zero(), false);
@@ -118,7 +118,7 @@ TEST_F(RendererGl, NullNormalsAreShadedFlat) {
 }
 
 TEST_F(RendererGl, NearerSurfaceHidesTheFarther) {
-  // two squares in one mesh, the far one last and of twice the size: the near one stays visible
+  // Two squares in one mesh, the far one last and twice as large: the near one stays visible.
   const float far_y = 0.05f, near_y = -0.05f;
   std::vector<Vector3f> points, normals;
   for (const auto& [y, half] : {std::pair(near_y, 0.02f), std::pair(far_y, 0.08f)}) {
@@ -152,13 +152,13 @@ TEST_F(RendererGl, ImageDoesNotDependOnTheStateLeftByOthers) {
   motions[0].mode = ToolMode::kGrab;
   motions[0].to.position_m = Vector3d(0, -0.06, 0);
   const Image calm = draw(sphere.view(), motions);
-  draw({}, {});  // so that an image that is not drawn is not the old one
+  draw({}, {});  // an image that is not drawn would otherwise be the old one
   disturbState();
   EXPECT_EQ(draw(sphere.view(), motions).rgb, calm.rgb);
 }
 
 TEST_F(RendererGl, SupersamplingSmoothsEdges) {
-  camera_.up = Vector3d(0.3, 0, 1);  // so that the square's edges are oblique
+  camera_.up = Vector3d(0.3, 0, 1);  // makes the square's edges oblique
   const GpuMesh square = squareMesh(0.05f, kToCamera);
   auto between = [&](int supersampling) {
     CameraConfig camera = camera_;
@@ -210,6 +210,6 @@ TEST_F(RendererGl, ImageTooLargeForTheDriverIsRefusedWithTheLimit) {
     FAIL() << "made a framebuffer of a million columns";
   } catch (const GpuError& e) {
     EXPECT_NE(std::string(e.what()).find("1048576 x 240"), std::string::npos) << e.what();
-    EXPECT_NE(std::string(e.what()).find("the driver takes 1 to"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("the driver accepts 1 to"), std::string::npos) << e.what();
   }
 }

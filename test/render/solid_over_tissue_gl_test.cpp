@@ -1,21 +1,21 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Solid things in front of tissue hide it, whichever way the tissue is lit (docs/benchmarks.md, Picture).
+// Solid objects in front of tissue hide it, with either method of lighting (docs/benchmarks.md, Picture).
 #include <cstdlib>
 
 #include "model/scene/tool_kinds.h"
 #include "render/drawing.h"
-#include "render/thread_painter.h"
+#include "render/tube_painter.h"
 #include "viscera/model/model.h"
 
 using namespace viscera;
 
 namespace {
 
-constexpr int kHiddenLevels = 1;  ///< of 255 that what is behind may change: rounding of a mean
-constexpr int kSameLevels = 2;    ///< of 255 between two supersamplings: rounding of samples and of their mean
+constexpr int kHiddenLevels = 1;  ///< of 255, largest effect of objects behind: rounding of a mean
+constexpr int kSameLevels = 2;    ///< of 255, between two supersamplings: rounding of samples and of their mean
 
-/// A red wall that fills the picture, in front of it what a test places there.
+/// A red wall that fills the picture, with the objects of a test in front of it.
 class SolidOverTissueGl : public Drawing {
  protected:
   SolidOverTissueGl() {
@@ -25,7 +25,7 @@ class SolidOverTissueGl : public Drawing {
     ball.radius_m = 0.01;
     obstacles_ = {ball};
   }
-  /// @param place  (renderer) puts threads and obstacles into it
+  /// @param place  (renderer) adds sutures and obstacles
   template <class Place>
   Image drawn(int supersampling, bool with_wall, const ToolMotions& motions, Place place) {
     camera_.supersampling = supersampling;
@@ -39,7 +39,7 @@ class SolidOverTissueGl : public Drawing {
     return draw(renderer, with_wall ? view : MeshView(), motions);
   }
 
-  /// Compares the pixels that solid things cover whole: those in which the wall behind them makes no difference.
+  /// Compares the pixels that solid objects cover completely: those which do not depend on the wall behind.
   template <class Place>
   void expectNothingShinesThrough(const ToolMotions& motions, Place place) {
     constexpr int kFewest = 100;  // pixels
@@ -80,17 +80,17 @@ TEST_F(SolidOverTissueGl, ToolsOfEveryModeHideTheTissueBehindThem) {
   }
 }
 
-TEST_F(SolidOverTissueGl, ThreadsNeedlesClipsAndObstaclesHideTheTissueBehindThem) {
-  ShownThreads shown;
-  std::vector<ThreadLook> looks;
-  for (const ThreadPart part : {ThreadPart::kThread, ThreadPart::kNeedle, ThreadPart::kClip}) {
+TEST_F(SolidOverTissueGl, SuturesNeedlesClipsAndObstaclesHideTheTissueBehindThem) {
+  VisibleTubes shown;
+  std::vector<TubeStyle> looks;
+  for (const TubeKind part : {TubeKind::kSuture, TubeKind::kNeedle, TubeKind::kClip}) {
     const double z_m = 0.02 * static_cast<double>(looks.size()) - 0.03;
     looks.push_back({0.003, {40, 60, 200, 255}, 3, 0, part});
     shown.push_back({0, part, {{-0.05, -0.05, z_m}, {0, -0.09, z_m + 0.01}, {0.05, -0.05, z_m}}});
   }
   expectNothingShinesThrough({}, [&](Renderer& renderer) {
-    renderer.addThreads(looks);
-    renderer.placeThreads(shown);
+    renderer.addTubes(looks);
+    renderer.placeTubes(shown);
     renderer.placeObstacles({Pose{Vector3d(0, -0.06, 0.04), Quaterniond::Identity()}});
   });
 }

@@ -12,7 +12,7 @@ namespace {
 constexpr ToolMode kModes[] = {ToolMode::kNone,         ToolMode::kProbe,   ToolMode::kGrab,   ToolMode::kCut,
                                ToolMode::kCutParticles, ToolMode::kSuction, ToolMode::kNeedle, ToolMode::kScissors,
                                ToolMode::kGrasper,      ToolMode::kClip,    ToolMode::kCautery};
-constexpr float kTight_m = 1e-6f;  // of float coordinates of some centimetres
+constexpr float kTight_m = 1e-6f;  // rounding of float coordinates of some centimetres
 
 Vector3f position(const ToolVertex& vertex) {
   return Vector3f(vertex.position_m.data());
@@ -30,7 +30,7 @@ float lowestZ(const ToolShape& shape) {
 }  // namespace
 
 TEST(ToolShape, TrianglesFaceOutwards) {
-  constexpr float kSmallestArea = 1e-14f;  // [m2] at poles triangles vanish and have no side
+  constexpr float kSmallestArea = 1e-14f;  // [m2] triangles at poles are degenerate and have no side
   for (ToolMode mode : kModes) {
     const ToolShape shape = toolShape(StylusConfig(), mode);
     for (size_t i = 0; i < shape.indices.size(); i += 3) {
@@ -73,7 +73,7 @@ TEST(ToolShape, ActingPartsHaveTheSizesOfTheStylus) {
 }
 
 TEST(ToolShape, NoShaftIsWhereABladeCutsHoweverLongItIs) {
-  constexpr float kFlat_m = 0.0005f;  // half of what a blade of 2 cm is thick, and less than the shaft is anywhere
+  constexpr float kFlat_m = 0.0005f;  // half the thickness of a blade of 2 cm, and less than the radius of the shaft
   StylusConfig stylus;
   const ToolShape shape = toolShape(stylus, ToolMode::kCut);
   for (const ToolVertex& vertex : shape.vertices) {
@@ -85,7 +85,7 @@ TEST(ToolShape, NoShaftIsWhereABladeCutsHoweverLongItIs) {
   float highest = 0;
   for (const ToolVertex& vertex : toolShape(stylus, ToolMode::kCut).vertices)
     highest = std::max(highest, vertex.position_m[2]);
-  EXPECT_NEAR(highest, 0.55, 1e-3);  // the blade and its root
+  EXPECT_NEAR(highest, 0.55, 1e-3);  // the blade and its base
 }
 
 TEST(ToolShape, ShaftEndsTwelveCentimetresBehindTheTip) {
@@ -107,7 +107,7 @@ TEST(ToolShape, ShaftsAreAsLongAsTheirKeySaysAndTheirThicknessFollows) {
   ASSERT_EQ(shape.vertices.size(), usual.vertices.size());
   for (size_t v = 0; v < shape.vertices.size(); ++v)
     EXPECT_LT((position(shape.vertices[v]) - position(usual.vertices[v]) / 4).norm(), kTight_m);
-  EXPECT_NEAR(lowestZ(toolShape(small, ToolMode::kProbe)), -0.006, kTight_m);  // what acts stays in its true size
+  EXPECT_NEAR(lowestZ(toolShape(small, ToolMode::kProbe)), -0.006, kTight_m);  // the acting part keeps its true size
 }
 
 TEST(ToolShape, OnlyTheSphereOfWhatHoldsIsTranslucent) {

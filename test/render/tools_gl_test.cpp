@@ -13,7 +13,8 @@ constexpr ToolMode kToolsModes[] = {ToolMode::kNone,         ToolMode::kProbe,  
 
 class ToolsGl : public Drawing {
  protected:
-  /// The stylus's shaft points up (+z), the flat of its blade to the camera, its tip is at a point [m].
+  /// Returns the motions of a stylus with its tip at a point [m], its shaft up (+z), and the flat of its blade towards
+  /// the camera.
   static ToolMotions tool(ToolMode mode, const Vector3d& tip_m = Vector3d::Zero()) {
     ToolMotions motions;
     motions[0].present = true;
@@ -31,7 +32,7 @@ int differingPixels(const Image& a, const Image& b) {
   return count;
 }
 
-/// Rows [px] in which something is drawn, first and last.
+/// Returns the first and the last row with drawn pixels [px].
 std::pair<int, int> drawnRows(const Image& image) {
   std::pair<int, int> rows{image.height, -1};
   for (int row = 0; row < image.height; ++row) {
@@ -88,9 +89,9 @@ TEST_F(ToolsGl, FingersStandAsFarOpenAsTheMotionSays) {
   constexpr double kLength_m = 0.03, kOpening_rad = 0.8;
   constexpr int kTip_px = 3;  // above the tips, which are pointed
   styluses_[0].grasper.jaw_length_m = kLength_m;
-  styluses_[0].grasper.radius_m = 1e-4;  // the sphere of its reach hides nothing
+  styluses_[0].grasper.radius_m = 1e-4;  // so small that the sphere of the reach hides nothing
   ToolMotions motions = tool(ToolMode::kGrasper);
-  motions[0].to.orientation = Quaterniond::Identity();  // they open across the picture
+  motions[0].to.orientation = Quaterniond::Identity();  // the jaws open in the image plane
   const auto drawnAt = [&](double opening_rad, double half_rad) {
     motions[0].opens_to_rad = opening_rad;
     const Image image = draw(nothing_, motions);
@@ -117,10 +118,10 @@ TEST_F(ToolsGl, TissueHidesWhatIsBehindItAndShinesThroughAGrabOutline) {
 }
 
 TEST_F(ToolsGl, OutlineOfOneStylusDoesNotHideThatOfTheOther) {
-  constexpr int kSumWithin = 3;  // levels over three channels: blending in the other order rounds differently
+  constexpr int kSumWithin = 3;  // levels over three channels: rounding depends on the order of blending
   const ToolMotions near = tool(ToolMode::kGrab, {0, -0.05, 0}), far = tool(ToolMode::kGrab, {0.008, 0, 0});
   const Image near_first = draw(nothing_, {near[0], far[0]}), far_first = draw(nothing_, {far[0], near[0]});
-  const int column = camera_.width_px / 2 + 9, row = camera_.height_px / 2 + 5;  // within both outlines, off both jaws
+  const int column = camera_.width_px / 2 + 9, row = camera_.height_px / 2 + 5;  // in both outlines, off both jaws
   EXPECT_GT(near_first.sum(column, row), draw(nothing_, near).sum(column, row));
   EXPECT_NEAR(near_first.sum(column, row), far_first.sum(column, row), kSumWithin);
 }

@@ -122,7 +122,7 @@ TEST(SentSurface, WrongMessagesAreNamedAndChangeNothing) {
   };
   SurfaceTopology bad = whole(2);
   bad.triangles[4] = 7;
-  refuses(bad, "vertex 7 of 7");
+  refuses(bad, "vertex 7, but there are only 7");
   bad = whole(2);
   bad.wound_triangles = {3, 0};
   refuses(bad, "wound_triangles[0] = 3");
@@ -131,7 +131,7 @@ TEST(SentSurface, WrongMessagesAreNamedAndChangeNothing) {
   refuses(bad, "1, 2 and 2");
   bad = whole(2);
   bad.body_triangles = {2, 2};
-  refuses(bad, "sum up to 4 of 3");
+  refuses(bad, "sum up to 4, but there are 3");
   bad = whole(2);
   bad.triangles.pop_back();
   refuses(bad, "8 entries");

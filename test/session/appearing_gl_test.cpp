@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-constexpr double kForceN = 0.1;  ///< well below what millimetres of tissue of 20 kPa give, well above rounding
+constexpr double kForceN = 0.1;  ///< well below the force of millimetres of tissue of 20 kPa, well above rounding
 constexpr int kGapTicks = 60;    ///< tissue comes back meanwhile
 constexpr int kHeldTicks = 20;
 
@@ -22,7 +22,7 @@ class Appearing : public OnSceneBackend {
   static StylusSamples absent(int) { return {}; }
   static StylusSamples withdrawn(int) { return leftAt({0, 0, 3 * kHalfM}); }
 
-  /// No force, no node moved, and the frame says why.
+  /// Expects no force and no moved node, and that the frame gives the reason.
   void expectNothingHappens() {
     const uint64_t before = session_.stateHash();
     for (int t = 0; t < kHeldTicks; ++t) {
@@ -42,7 +42,7 @@ class Appearing : public OnSceneBackend {
   }
 
   Session session_;
-  bool at_rest_ = true;  ///< the tissue, and so it must stay
+  bool at_rest_ = true;  ///< the tissue is at rest, and must stay so
 };
 VISCERA_ON_EVERY_BACKEND(Appearing);
 
@@ -58,18 +58,18 @@ TEST_P(Appearing, AtDepthDoesNothingUntilItWasOutside) {
 TEST_P(Appearing, AfterAGapAtDepthDoesNothingUntilItWasOutside) {
   expectForceOutwards();
   play(session_, absent, kGapTicks);
-  at_rest_ = false;  // it still rings
+  at_rest_ = false;  // it still oscillates
   expectNothingHappens();
   play(session_, withdrawn, 2);
   expectForceOutwards();
 }
 
-/// Where cells are tissue in part, nodes lie above the skin: a tip in the air beside them is outside.
+/// Where cells are partially filled, nodes are above the surface: a tip in the air next to them is outside.
 TEST_P(AppearingAbove, InTheAirWithinACellOfTheSkinPushesAtOnce) {
   Scene low = scene();
   BodyConfig& body = low.bodies[0];
   body.spacing_m = 0.005;                       // the probe is no finer
-  body.box_size_m.z() -= 0.9 * body.spacing_m;  // the lowest cells and the highest are tissue to 0.55
+  body.box_size_m.z() -= 0.9 * body.spacing_m;  // the lowest cells and the highest are filled to 0.55
   body.fixed[0].point_m.z() = -0.5 * body.box_size_m.z();
   Session session(low, context_);
   const double skin_m = 0.5 * body.box_size_m.z(), begin_m = skin_m + low.styluses[0].probe.radius_m + 0.0005;
@@ -81,11 +81,11 @@ TEST_P(AppearingAbove, InTheAirWithinACellOfTheSkinPushesAtOnce) {
 TEST_P(Appearing, ForgottenHandsLetGoAndAppearAgain) {
   const auto pull = [](int tick) { return leftAt({0, 0, kHalfM + 0.0005 * tick}, true); };
   ASSERT_GT(play(session_, pull, kHeldTicks).stats.grabbed[0], 0u);
-  session_.forgetHands();
+  session_.resetInput();
   session_.step(withdrawn(0), {});
   EXPECT_EQ(session_.drain().stats.grabbed[0], 0u);
   expectForceOutwards();
-  session_.forgetHands();
+  session_.resetInput();
   at_rest_ = false;
   expectNothingHappens();
 }

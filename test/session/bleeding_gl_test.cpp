@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Vessels that are cut, clipped and burnt, as those see them who hold the tools.
+// Vessels that are cut, clipped and burnt, as seen by the user of the tools.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -23,15 +23,15 @@ using namespace test;
 constexpr double kSide_m = 0.008;  // of the vessel
 constexpr double kFlow = 60;       // ml/min, out of a stump
 constexpr double kBalance = 1e-9;  // of all blood, sums of float64
-constexpr double kFull = 1e-9;     // of the flow out of what is cut through: its area is that of the vessel at least
+constexpr double kFull = 1e-9;     // of the flow out of a full cut: its area is at least that of the vessel
 constexpr double kNick = 0.02;     // of the flow out of a nick: lengths of vessels are from corner to corner
 constexpr int kClosing = 20, kOpen = 4, kDraws = 15;  // ticks
 constexpr Structure kStructures[] = {Structure::kLattice, Structure::kExplicit, Structure::kSurface};
 
 class Bleeding : public OnSceneBackend {
  protected:
-  /// Hangs from its end at -x, where its blood comes from, so light that what is cut off falls by 0.3 m in the 2.5 s of
-  /// a test.
+  /// Returns a vessel that hangs from its end at -x, the source of its blood. It is so light that a cut piece falls by
+  /// 0.3 m in the 2.5 s of a test.
   static Scene vessel(Structure structure = Structure::kLattice) {
     Scene out = scene();
     out.environment.gravity_m_per_s2 = {0.1, 0, 0};
@@ -51,7 +51,7 @@ class Bleeding : public OnSceneBackend {
     out.styluses[1].idle = ToolMode::kNone;
     return out;
   }
-  /// From above across the vessel, its tips beyond it.
+  /// Returns a tool from above across the vessel, its tips beyond it.
   static StylusSamples at(const Vector3d& tip_m, bool closes, bool cuts = false) {
     StylusSamples out{};
     out[0].valid = true;
@@ -64,7 +64,7 @@ class Bleeding : public OnSceneBackend {
   static void rest(Session& session, int ticks) {
     for (int t = 0; t < ticks; ++t) session.step({}, {});
   }
-  /// With the blade from its tip upwards, across the vessel.
+  /// Cuts with the blade from its tip upwards, across the vessel.
   static void cutAt(Session& session, double x_m, double tip_z_m = -0.012) {
     for (int t = 0; t <= kDraws; ++t) session.step(at({x_m, 0.015 - 0.03 * t / kDraws, tip_z_m}, false, true), {});
     rest(session, kOpen);
@@ -83,12 +83,12 @@ TEST_P(Bleeding, OutOfAStumpIsWhatTheKeySaysAndAllOfItIsSomewhere) {
     rest(session, 3);
     EXPECT_EQ(seenBlood(session).bled_ml, 0) << "nothing is cut";
     cutAt(session, 0.0051);
-    const SeenBlood first = seenBlood(session);
+    const BloodReport first = seenBlood(session);
     EXPECT_NEAR(first.flow_ml_per_min, kFlow, kFull * kFlow);
     EXPECT_EQ(first.stumps, 1U) << "the other one is not held: nothing feeds it";
     constexpr int kTicks = 60;
     rest(session, kTicks);
-    const SeenBlood seen = seenBlood(session);
+    const BloodReport seen = seenBlood(session);
     EXPECT_NEAR(seen.bled_ml - first.bled_ml, kFlow / 60 * kTicks * session.tick_s(), kBalance * seen.bled_ml);
     EXPECT_NEAR(seen.on_tissue_ml + seen.dripped_ml, seen.bled_ml, kBalance * seen.bled_ml);
     EXPECT_GT(seen.dripped_ml, 0);
@@ -97,10 +97,10 @@ TEST_P(Bleeding, OutOfAStumpIsWhatTheKeySaysAndAllOfItIsSomewhere) {
   }
 }
 
-/// What is sent to rviz and exported is coloured as pictures are.
+/// The surfaces sent to rviz and exported are coloured as images are.
 TEST_P(Bleeding, SurfacesHaveTheColourOfBlood) {
   Session session(vessel(), context_);
-  Wants wants;
+  FrameRequest wants;
   wants.surface = true;
   rest(session, 3);
   EXPECT_TRUE(session.show(wants).surface->colors.empty());
@@ -134,12 +134,12 @@ TEST_P(Bleeding, StopsByAClipBetweenTheHeldEndAndTheCutAndGoesOnWithoutIt) {
     EXPECT_NEAR(seenBlood(session).flow_ml_per_min, kFlow, kFull * kFlow) << "a clip beyond the cut";
     clipAt(session, -0.006);
     ASSERT_EQ(seenClips(session).on.size(), 2U);
-    const SeenBlood stopped = seenBlood(session);
+    const BloodReport stopped = seenBlood(session);
     EXPECT_EQ(stopped.flow_ml_per_min, 0);
     EXPECT_EQ(stopped.stumps, 0U);
     rest(session, 10);
     EXPECT_EQ(seenBlood(session).bled_ml, stopped.bled_ml);
-    // Along the vessel, across the clip's legs, and back on its other side: cut, it swings by a clip's half width.
+    // Along the vessel, across the clip's legs, and back on its other side: when cut, it swings by a clip's half width.
     for (const double aside_m : {0.001, -0.001}) {
       for (int t = 0; t <= kDraws; ++t)
         session.step(at({-0.012 * (aside_m > 0 ? t : kDraws - t) / kDraws, aside_m, -0.006}, false, true), {});

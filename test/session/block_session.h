@@ -10,7 +10,7 @@
 
 namespace viscera::test {
 
-constexpr double kHalfM = 0.02;  ///< half an edge of the block, which is centred on the origin
+constexpr double kHalfM = 0.02;  ///< half an edge of the block, which is centred at the origin
 constexpr double kProbeRadiusM = 0.008;
 
 inline CameraConfig cameraOf(const std::string& name, double rate_hz = 30) {
@@ -23,7 +23,7 @@ inline CameraConfig cameraOf(const std::string& name, double rate_hz = 30) {
   return camera;
 }
 
-/// A soft block of 125 nodes that stands on its bottom, without gravity, with two styluses and one camera.
+/// Returns a soft block of 125 nodes fixed at its bottom, without gravity, with two styluses and one camera.
 inline Scene blockScene() {
   Scene scene;
   scene.environment.gravity_m_per_s2 = Vector3d::Zero();
@@ -48,7 +48,7 @@ inline Scene blockScene() {
   return scene;
 }
 
-/// The first stylus at a place, pointing down.
+/// Returns the first stylus at a position, pointing down.
 inline StylusSamples leftAt(const Vector3d& tip_m, bool button1 = false, bool button2 = false) {
   StylusSamples samples;
   samples[0] = {true, {tip_m, Quaterniond::Identity()}, button1, button2};
@@ -59,7 +59,7 @@ inline StylusSamples leftAt(const Vector3d& tip_m, bool button1 = false, bool bu
 using StrokesByTick = std::function<StylusSamples(int tick)>;
 
 constexpr int kPressTicks = 15;
-/// The probe comes down on the middle of the block's top and ends 6 mm deep in it.
+/// Returns the probe moving down on the middle of the block's top; it ends 6 mm deep.
 inline StylusSamples press(int tick) {
   constexpr double kAboveM = kHalfM + kProbeRadiusM + 0.002, kDeepM = kHalfM + kProbeRadiusM - 0.006;
   const double share = std::min(1.0, static_cast<double>(tick) / kPressTicks);
@@ -67,30 +67,30 @@ inline StylusSamples press(int tick) {
 }
 
 constexpr int kCutTicks = 10;
-/// The blade, 2 cm long, goes through the upper half of the block along the plane y = 1 mm.
+/// Returns the blade, 2 cm long, moving through the upper half of the block along the plane y = 1 mm.
 inline StylusSamples cut(int tick) {
   const double share = static_cast<double>(tick) / kCutTicks;
   return leftAt({-0.03 + 0.06 * share, 0.001, kHalfM + 0.001 - 0.02}, false, true);
 }
 
-/// Steps through a stroke. @returns the last frame that the session gave
-inline Frame play(Session& session, const StrokesByTick& strokes, int ticks, const Wants& wants = {}) {
+/// Plays a stroke. @returns the last frame of the session
+inline Frame play(Session& session, const StrokesByTick& strokes, int ticks, const FrameRequest& wants = {}) {
   Frame last;
   for (int t = 1; t <= ticks; ++t) last = session.step(strokes(t), wants);
   return last;
 }
 
-/// The skin after one more tick.
+/// Returns the surface mesh after one more tick.
 inline SurfaceFrame surfaceAfter(Session& session, const StylusSamples& samples) {
   session.drain();
-  Wants wants;
+  FrameRequest wants;
   wants.surface = true;
   Frame frame = session.step(samples, wants);
   if (!frame.surface) frame = session.drain();
   return frame.surface ? *frame.surface : SurfaceFrame{};
 }
 
-/// Rest positions of the skin of all bodies, as a surface frame has them.
+/// Returns the rest positions of the surface meshes of all bodies, as in a surface frame.
 inline std::vector<float> restPositions(const Session& session) {
   std::vector<float> out;
   for (const Body& body : session.model().bodies)

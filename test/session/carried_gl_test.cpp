@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Tissue that other lattices of the same bodies go on with: its motion, its cuts and what comes after them.
+// Tissue continued on other lattices of the same bodies: its motion, its cuts and what follows them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 using namespace test;
 
 constexpr double kFine_m = 0.004, kCoarse_m = 0.0053;
-constexpr double kFloats_m = 1e-7;  ///< what a float keeps of some centimetres, with the sums of a fit
+constexpr double kFloats_m = 1e-7;  ///< float resolution of some centimetres, with the sums of a fit
 
 class Carried : public OnSceneBackend {
  protected:
@@ -26,12 +26,12 @@ class Carried : public OnSceneBackend {
     if (!held) out.bodies[0].fixed.clear();
     return out;
   }
-  /// Those of the GPU share their context; those of the processor, whose views would keep it, need none.
+  /// Makes a session. Those on the GPU share their context; those on the CPU need none, and their views would keep it.
   Session made(const Scene& scene) {
     if (scene.solver.backend == Backend::kCpu) return Session(scene);
     return {scene, context_};
   }
-  /// Pulled, turned and sheared, and moving.
+  /// Sets a linear state: stretched, rotated and sheared, and moving.
   static void setLinear(const Body& body, HostState& state) {
     for (const uint32_t slot : body.lattice.active_slots) {
       const Vector3d at = restPosition(body, slot);
@@ -71,11 +71,10 @@ TEST_P(Carried, TheSameLatticeIsCarriedToTheBit) {
   EXPECT_EQ(next.stateHash(), old.stateHash());
 }
 
-/// Of springs that cross the plane of the blade's way, those above its tip are cut and those below are whole; no other
-/// is.
+/// Springs that cross the plane of the blade's path are cut above its tip and whole below; no other spring is cut.
 TEST_P(Carried, ACutIsWhereItWas) {
   constexpr double kPlaneY_m = 0.001, kTipZ_m = 0.001;
-  constexpr double kShare = 0.05;  // in which it is looked for, and at least kept from nodes (CutSprings)
+  constexpr double kShare = 0.05;  // resolution of the position of a cut; its least distance from nodes (CutSprings)
   Session old = made(spaced(kFine_m)), next = made(spaced(kCoarse_m));
   play(old, cut, kCutTicks);
   next.carry(old.carried());
@@ -107,7 +106,7 @@ TEST_P(Carried, ACutIsWhereItWas) {
   EXPECT_EQ(next.solver().readState().nodes.size(), lattice.nodes.size());
 }
 
-/// What an eraser took is not there either.
+/// What an eraser removed is missing in the new lattice too.
 TEST_P(Carried, WhatWasErasedIsErased) {
   constexpr double kHole_m = 0.01;
   const auto eroding = [](double spacing_m) {
@@ -139,9 +138,10 @@ TEST_P(Carried, WhatWasErasedIsErased) {
   EXPECT_GT(gone, 5);
 }
 
-/// A block that hangs in its own weight hangs on: what is held moves between lattices, which sets it swinging a little.
+/// A block hanging under its own weight stays at rest: fixed positions differ slightly between lattices, which makes it
+/// oscillate a little.
 TEST_P(Carried, TissueAtRestStaysSo) {
-  constexpr double kSeconds = 1.5, kSwing = 0.1;  // of the sag: what a person hardly sees; from rest it is 1
+  constexpr double kSeconds = 1.5, kSwing = 0.1;  // of the sag: hardly visible; started from rest it would be 1
   const auto heavy = [](double spacing_m) {
     Scene out = spaced(spacing_m);
     out.environment.gravity_m_per_s2 = Vector3d(9.81, 0, 0);
@@ -152,7 +152,7 @@ TEST_P(Carried, TissueAtRestStaysSo) {
     for (int t = 0; t * session.tick_s() < seconds; ++t) session.step({}, {});
     session.drain();
   };
-  // of the skin: nodes outside of it go further the coarser the lattice
+  // of the surface mesh: nodes outside it move farther the coarser the lattice
   const auto sag_m = [](Session& session) {
     const std::vector<float> rest = restPositions(session), now = surfaceAfter(session, {}).positions_m;
     float most_m = 0;

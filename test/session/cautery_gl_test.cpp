@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Hot tips, as those see them who hold one.
+// Hot tips, as seen by their user.
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -16,13 +16,13 @@ namespace {
 
 using namespace test;
 
-constexpr double kTip_m = 0.004;          // of the hot tip's radius, and of the probe's beside it
+constexpr double kTip_m = 0.004;          // radius of the hot tip, and of the probe next to it
 constexpr double kCauteryBalance = 1e-9;  // of all heat, sums of float64
 constexpr double kTime = 1e-6;            // of the heat of a number of ticks
-constexpr double kAlike = 0.02;           // of heat and of forces, backend beside backend: places differ by float32
-constexpr double kFelt = 1.2;             // a burn is felt: at least so many times the fresh force
-constexpr int kHeats = 20;                // ticks, until tissue is warm
-constexpr double kShrunk_m = 1.5e-4;      // a free corner of coagulated tissue is drawn in by so much at least
+constexpr double kAlike = 0.02;  // of heat and of forces, one backend against the other: positions differ by float32
+constexpr double kFelt = 1.2;    // factor over the fresh force at which a burn is felt
+constexpr int kHeats = 20;       // ticks until tissue is warm
+constexpr double kShrunk_m = 1.5e-4;  // least displacement of a free corner of coagulated tissue
 
 class Cautery : public OnSceneBackend {
  protected:
@@ -50,7 +50,7 @@ class Cautery : public OnSceneBackend {
     }
     return out;
   }
-  /// Half a millimetre deep in the middle of the top.
+  /// Returns a tip half a millimetre deep in the middle of the top.
   static StylusSamples on(bool hot, bool probes = false, double top_m = 0.006) {
     return leftAt({0, 0, top_m + kTip_m - 0.0005}, hot, probes);
   }
@@ -58,7 +58,7 @@ class Cautery : public OnSceneBackend {
     session.step(leftAt({0, 0, 0.03}, true), {});
     for (int t = 0; t < ticks; ++t) session.step(on(true, false, top_m), {});
   }
-  /// What more a probe feels half a cell deeper than where it is at the skin in the middle, at `top_m`.
+  /// Returns the additional force on a probe half a cell below the surface in the middle, compared to `top_m`.
   static double pressed_n(Session& session, double top_m) {
     double force_n[2];
     session.step(leftAt({0, 0, 0.03}, false, true), {});
@@ -69,9 +69,9 @@ class Cautery : public OnSceneBackend {
     }
     return force_n[1] - force_n[0];
   }
-  /// Of the skin in the middle.
+  /// Returns the height of the surface in the middle.
   static double top_m(Session& session) {
-    Wants wants;
+    FrameRequest wants;
     wants.surface = true;
     const Pictures pictures = session.show(wants);
     double out = -1;
@@ -91,7 +91,7 @@ TEST_P(Cautery, HeatIsPowerTimesTimeInTouchAndAllOfItIsAccountedFor) {
     for (int t = 0; t < 3; ++t) session.step(leftAt({0, 0, 0.03}, true), {});
     EXPECT_EQ(seenBurns(session).given_j, 0) << "nothing is touched";
     burn(session, kHeats, top_m);
-    const SeenBurns seen = seenBurns(session);
+    const BurnReport seen = seenBurns(session);
     EXPECT_NEAR(seen.given_j, kHeats * 4 * session.tick_s(), kTime * seen.given_j);
     EXPECT_NEAR(seen.stored_j + seen.steam_j + seen.perfused_j + seen.surface_j, seen.given_j,
                 kCauteryBalance * seen.given_j);
@@ -127,7 +127,7 @@ TEST_P(Cautery, WhatBoilsDryPartsAndLooksBurnt) {
   const ImageFrame during = picture(session);
   EXPECT_NE(before.rgb, during.rgb);
   burn(session, 60);
-  const SeenBurns seen = seenBurns(session);
+  const BurnReport seen = seenBurns(session);
   EXPECT_GT(seen.parted, 0U);
   EXPECT_GT(seen.steam_j, 0);
   EXPECT_GT(session.drain().stats.springs_cut, 0U);
@@ -136,7 +136,7 @@ TEST_P(Cautery, WhatBoilsDryPartsAndLooksBurnt) {
 
 TEST_P(Cautery, SurfacesHaveTheColoursOfBurnsAndOfStrainWhereThereAreSome) {
   Session session(burning(24), context_);
-  Wants wants;
+  FrameRequest wants;
   wants.surface = true;
   session.step({}, {});
   const Pictures plain = session.show(wants);
@@ -167,7 +167,7 @@ TEST_P(Cautery, SavedStatesAndResetsHaveBurns) {
   const Scene scene = burning(60);
   Archive saved;
   uint64_t hash = 0;
-  SeenBurns seen;
+  BurnReport seen;
   {
     Session session(scene, context_);
     const uint64_t whole = session.stateHash();
@@ -193,7 +193,7 @@ VISCERA_ON_EVERY_BACKEND(Cautery);
 
 TEST_F(GpuTest, CauteryIsTheSameOnBothBackends) {
   double force_n[2];
-  SeenBurns seen[2];
+  BurnReport seen[2];
   for (const Backend backend : {Backend::kCpu, Backend::kGpu}) {
     Scene scene = blockScene();
     scene.solver.backend = backend;

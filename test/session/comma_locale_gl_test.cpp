@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A program whose locale has a comma where numbers have their point reads, writes and steps the same.
+// A program with a locale that has a decimal comma reads, writes and steps the same.
 #include <gtest/gtest.h>
 
 #include "math/number_text.h"
@@ -18,7 +18,7 @@ namespace {
 
 using namespace test;
 
-/// The same with a comma and without. @param make  text of all that may differ
+/// Expects the same with a decimal comma and without. @param make  returns the text of everything that may differ
 template <class Make>
 void expectSame(const Make& make) {
   const std::string plain = make();

@@ -10,7 +10,7 @@ namespace {
 
 using test::leftAt;
 
-/// Some ticks in which the tip goes into the block from above and stays there.
+/// Makes some ticks in which the tip moves into the block from above and stays there.
 TickContact pressedContact(Session& session) {
   constexpr double kAbove_m = test::kHalfM + test::kProbeRadiusM + 0.002, kDeep_m = 0.005;
   Frame frame;
@@ -34,12 +34,12 @@ TEST(Contacts, GoOnFromTickToTick) {
   EXPECT_FALSE(pressed.anew);
 }
 
-/// What a surface was before is no surface now: its plane must not be felt.
+/// The previous surface is no surface now: its plane must not be felt.
 TEST(Contacts, BeginAgainWithAResetAnotherHandAndAnotherMode) {
   Session session(scene());
   pressedContact(session);
   session.reset();
-  session.forgetHands();
+  session.resetInput();
   EXPECT_TRUE(session.step(leftAt({0, 0, 0.1}), {}).contacts[0].anew);
   pressedContact(session);
   session.setToolMode(0, ToolSwitch::kIdle, ToolMode::kNone);

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Shipped lessons, saved at every tick: a session that goes on from there is the one that was never stopped.
+// Shipped lessons, saved at every tick: a session resumed from there equals the one that was never stopped.
 #include <gtest/gtest.h>
 
 #include <deque>
@@ -18,16 +18,16 @@ constexpr int kGoesOn = 2;  // ticks
 
 struct Lesson {
   const char *scene, *strokes;
-  double from_s, to_s;                                         ///< when it is saved
+  double from_s, to_s;                                         ///< time range in which it is saved
   const char* name = strokes;                                  ///< of the test
-  double lets_go_s = std::numeric_limits<double>::infinity();  ///< from then on no button is pressed
-  ToolMode button1 = ToolMode::kNone;                          ///< in place of the scene's, unless none
+  double lets_go_s = std::numeric_limits<double>::infinity();  ///< time from which no button is pressed
+  ToolMode button1 = ToolMode::kNone;                          ///< replaces the scene's, unless none
 };
 void PrintTo(const Lesson& lesson, std::ostream* out) {
   *out << lesson.name;
 }
 
-/// All that a step hands out that does not depend on the clock, to be compared to the bit.
+/// All outputs of a step that do not depend on the clock, compared to the bit.
 struct Told {
   uint64_t hash = 0, trips = 0, springs_cut = 0;
   std::vector<double> numbers;
@@ -82,7 +82,7 @@ class EveryTick : public ::testing::TestWithParam<Lesson> {
   void expectSame(double from_s, double to_s) {
     struct Save {
       Archive archive;
-      std::vector<Told> told;  ///< at once, and after each of the next ticks
+      std::vector<Told> told;  ///< immediately, and after each of the next ticks
     };
     Session unbroken(scene_), resumed(scene_);
     std::deque<Save> saves;

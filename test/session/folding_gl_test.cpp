@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Tissue that a tool goes deep into pushes back, and comes back by itself (physics.md 3).
+// Tissue that a tool penetrates deeply pushes back, and returns by itself (physics.md 3).
 #include <gtest/gtest.h>
 
 #include "session/on_backends.h"
@@ -13,7 +13,7 @@ using namespace test;
 
 class Folding : public OnSceneBackend {
  protected:
-  /// A ball of two cells' radius, pushed through most of the block and out at its side.
+  /// Pushes a ball with a radius of two cells through most of the block and out at its side.
   static void pushThrough(Session& session) {
     constexpr int kDown = 20, kAside = 60;
     for (int t = 0; t <= kDown; ++t) session.step(leftAt({0, 0, kHalfM + kBall_m - 1.6 * kHalfM * t / kDown}), {});
@@ -35,7 +35,7 @@ class Folding : public OnSceneBackend {
 
   static constexpr double kBall_m = 0.5 * kHalfM;
   static constexpr int kGapTicks = 100;
-  static constexpr double kBack = 0.1;  ///< [spacings] as `viscera bench stability` has it
+  static constexpr double kBack = 0.1;  ///< [spacings] as in `viscera bench stability`
 };
 VISCERA_ON_EVERY_BACKEND(Folding);
 
@@ -45,13 +45,13 @@ TEST_P(Folding, ComesBackOnceTheToolIsAway) {
   EXPECT_LT(strayed(session), kBack);
 }
 
-/// Cells are not turned inside out while a ball presses, deep down too.
+/// Cells are not inverted while a ball presses, even deep inside.
 TEST_P(Folding, PushesBackHarderTheDeeperABallIs) {
   constexpr int kPresses = 12, kHolds = 10;
   constexpr double kDeepest = 0.8;  // of half the block
-  constexpr double kHarder = 1.2;   // at least; of Hertz' force at 2, 3 and 4 times the depth 2.8, 1.8 and 1.5
+  constexpr double kHarder = 1.2;   // least ratio; Hertz' force at 2, 3 and 4 times the depth gives 2.8, 1.8 and 1.5
   Scene deep = pressed(scene());
-  deep.styluses[0].max_force_n = 50;  // more than is felt
+  deep.styluses[0].max_force_n = 50;  // more than the actual force
   Session session(deep, context_);
   const auto at = [&](double share) { return leftAt({0, 0, kHalfM + kBall_m - share * kDeepest * kHalfM}); };
   session.step(at(-0.1), {});  // a ball that appears in tissue pushes nothing

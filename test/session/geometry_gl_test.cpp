@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Depths, labels and pairs of pictures say where things are: against a block, a ball and tools whose places are known.
+// Depths, labels and pairs of images give positions: against a block, a ball and tools at known positions.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,15 +17,15 @@ using namespace test;
 
 constexpr double kAwayM = 0.25;   ///< of the camera from the middle of the block
 constexpr double kDepthM = 2e-6;  ///< float32 at a quarter of a metre, through two matrices
-/// Rasterisers put vertices on a grid of 1/256 pixel, which is 1.1 mm here: half of that, on a face seen at 60 degrees,
-/// and kDepthM.
+/// Rasterisers put vertices on a grid of 1/256 pixel; a pixel is 1.1 mm here. Half of that, on a face seen at 60
+/// degrees, plus kDepthM.
 constexpr double kSnappedM = 6e-6;
-constexpr double kFlatM = 3e-4;  ///< between a round shape and the flat faces that it is drawn with
+constexpr double kFlatM = 3e-4;  ///< between a round shape and the flat faces with which it is drawn
 constexpr double kBaselineM = 0.01;
 
 class Geometry : public OnSceneBackend {
  protected:
-  /// A camera straight before the block's front face, y = -kHalfM.
+  /// Returns a scene with a camera directly in front of the block's front face, y = -kHalfM.
   static Scene scene() {
     Scene scene = OnSceneBackend::scene();
     CameraConfig& camera = scene.cameras[0];
@@ -34,7 +34,7 @@ class Geometry : public OnSceneBackend {
     camera.height_px = 120;
     return scene;
   }
-  /// Where what a pixel shows is, tissue frame.
+  /// Returns the position shown by a pixel, tissue frame.
   static Vector3d placeOf(const CameraConfig& camera, const ImageFrame& depths, size_t pixel) {
     const auto width = static_cast<size_t>(depths.width);
     const Eigen::Vector2d at(static_cast<double>(pixel % width) + 0.5, static_cast<double>(pixel / width) + 0.5);
@@ -72,8 +72,8 @@ TEST_P(Geometry, PixelsLieOnTheSurfaceWhereCameraInfoPutsThem) {
 }
 
 TEST_P(Geometry, ThroughALensPixelsLieOnTheSurfaceToo) {
-  constexpr double kAtEdges_m = 0.002;  // of half a pixel, 1.2 mm: beside an edge a depth is that of the nearest one
-  constexpr double kBeside_m = 0.006;   // of an edge of the block: two pixels of 1.2 mm, on a face seen at 27 degrees
+  constexpr double kAtEdges_m = 0.002;  // of half a pixel, 1.2 mm: next to an edge a depth is that of the nearest one
+  constexpr double kBeside_m = 0.006;   // from an edge of the block: two pixels of 1.2 mm, on a face seen at 27 degrees
   Scene bent = scene();
   bent.cameras[0].position_m = Vector3d(0.05, -0.08, 0.06);
   bent.cameras[0].vertical_fov_deg = 70;
@@ -109,7 +109,7 @@ TEST_P(Geometry, LabelsTellBodiesWallsToolsAndObstaclesApart) {
       [](int tick) {
         return leftAt({-0.03, 0.0, kHalfM + 0.002 * tick});
       },
-      5);  // the probe, beside
+      5);  // the probe, next to it
   session.drain();
   const ImageFrame labels = picture(session, PictureKind::kLabels), depths = picture(session, PictureKind::kDepth);
   const std::set<int> seen(labels.labels.begin(), labels.labels.end());
@@ -122,10 +122,10 @@ TEST_P(Geometry, LabelsTellBodiesWallsToolsAndObstaclesApart) {
 }
 
 TEST_P(Geometry, DepthsOfRoundObstaclesAreThoseOfTheShapeUpToItsRim) {
-  constexpr double kRound_m = 5e-5;  // of float rays at 0.3 m, beside a rim
+  constexpr double kRound_m = 5e-5;  // of float rays at 0.3 m, next to a rim
   constexpr double kRim_px = 0.02;   // share of pixels: a rim of one pixel is a thirtieth
   Scene round = scene();
-  round.bodies[0].box_size_m = Vector3d::Constant(0.004);  // out of the way
+  round.bodies[0].box_size_m = Vector3d::Constant(0.004);  // out of the view
   round.bodies[0].spacing_m = 0.001;
   round.bodies[0].fixed = {};
   round.styluses.clear();
@@ -158,7 +158,7 @@ TEST_P(Geometry, DepthsOfRoundObstaclesAreThoseOfTheShapeUpToItsRim) {
     }
   }
   EXPECT_GT(on_capsule, 100U);
-  // As many pixels as the cone of rays that touches the ball has: none is missing at its rim.
+  // As many pixels as the cone of rays tangent to the ball contains: none is missing at its rim.
   size_t wanted = 0;
   ImageFrame unit = depths;
   std::fill(unit.depths_m.begin(), unit.depths_m.end(), 1.0F);
@@ -202,7 +202,7 @@ double meanDrawnColumn(const ImageFrame& image) {
 
 TEST_P(Geometry, TheRightPictureIsShiftedByTheDisparity) {
   Scene stereo = scene();
-  stereo.cameras[0].stereo_baseline_m = kBaselineM;  // inside the face, so that no side comes into view
+  stereo.cameras[0].stereo_baseline_m = kBaselineM;  // inside the face, so no side comes into view
   Session session(stereo, context_);
   const double left = meanDrawnColumn(picture(session, PictureKind::kColor)),
                right = meanDrawnColumn(picture(session, PictureKind::kRight));
@@ -218,16 +218,16 @@ TEST_P(Geometry, OnlyWhatIsWantedIsDrawnAndAStillPictureOnce) {
   picture(session, PictureKind::kDepth);
   EXPECT_EQ(session.counters().renders, 1U);
   EXPECT_EQ(session.counters().readbacks, 1U);
-  Wants all;
+  FrameRequest all;
   all.cameras = all.right = all.depth = all.labels = {true};
   EXPECT_EQ(session.show(all).images.size(), 4U);
   EXPECT_EQ(session.counters().readbacks, 5U);
   EXPECT_LE(session.counters().renders, 4U);  // left and right, and depths with labels at most once more
 }
 
-/// A camera that is carried to a place shows what one shows that stands there.
+/// A camera carried to a position shows the same as one placed there.
 TEST_P(Geometry, ACarriedCameraSeesWhatOneThatStandsThereSees) {
-  const Vector3d away(0.125, -0.03125, 0.0625);  // whole in binary: no rounding
+  const Vector3d away(0.125, -0.03125, 0.0625);  // exact in binary: no rounding
   Scene carried = scene(), standing = scene();
   carried.cameras[0].frame = "scope";
   standing.cameras[0].position_m += away;
@@ -247,7 +247,7 @@ TEST_P(Geometry, ACarriedCameraSeesWhatOneThatStandsThereSees) {
 TEST_P(Geometry, AnOpticalFrameIsTheCameraItself) {
   Scene carried = scene(), standing = scene();
   carried.cameras[0].frame = "scope_optical";
-  carried.cameras[0].position_m = Vector3d(kAwayM, 0, 0);  // of which the distance is taken alone
+  carried.cameras[0].position_m = Vector3d(kAwayM, 0, 0);  // only its distance is used
   ImageFrame seen;
   {
     Session moving(carried, context_);
@@ -258,7 +258,7 @@ TEST_P(Geometry, AnOpticalFrameIsTheCameraItself) {
   EXPECT_EQ(seen.rgb, picture(fixed, PictureKind::kColor).rgb);
 }
 
-/// docs/hidden.md, for a camera that goes over the block and past it.
+/// docs/surface.md, for a camera that moves over the block and past it.
 TEST_P(Geometry, WhatAMovingCameraDoesNotSeeIsLeftOutAndNoPictureDiffers) {
   constexpr int kFlightTicks = 20;
   const auto flight = [this](bool draw_hidden) {
@@ -272,7 +272,7 @@ TEST_P(Geometry, WhatAMovingCameraDoesNotSeeIsLeftOutAndNoPictureDiffers) {
       const double way = static_cast<double>(tick) / kFlightTicks;
       const Eigen::AngleAxisd turn(0.6 * way - 0.3, Vector3d::UnitZ());
       session.setCameraFrame(0, {Vector3d(0.4 * way - 0.2, 0.1 * way, 0.01), Quaterniond(turn)});
-      Wants wants;
+      FrameRequest wants;
       wants.cameras = wants.depth = {true};
       wants.every_image = true;
       for (ImageFrame& image : session.step(press(tick), wants).images) out.push_back(std::move(image));

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Sessions without OpenGL, beside ones that have it.
+// Sessions without OpenGL, compared with sessions with it.
 #include <gtest/gtest.h>
 
 #include "session/block_session.h"
@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-constexpr float kPlace_m = 1e-6f;  ///< float rounding of places of some centimetres
+constexpr float kPlace_m = 1e-6f;  ///< float rounding of positions of some centimetres
 
 Scene cpuScene() {
   Scene scene = blockScene();
@@ -61,7 +61,7 @@ TEST(Headless, WhatNeedsAContextIsRefused) {
   scene.solver.backend = Backend::kGpu;
   EXPECT_TRUE(says(messageOf<GpuError>([&] { Session session(scene); }), {"solver.backend", "OpenGL context"}));
   Session session(cpuScene());
-  Wants wants;
+  FrameRequest wants;
   wants.cameras = {true};
   EXPECT_TRUE(says(messageOf<GpuError>([&] { session.step({}, wants); }), {"image", "OpenGL context"}));
 }

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What no camera sees is neither mapped nor drawn, and no picture differs for it (docs/hidden.md).
+// Tissue that no camera sees is neither mapped nor drawn, and no image changes by it (docs/surface.md).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -26,8 +26,8 @@ CameraConfig cameraAt(const std::string& name, const Vector3d& position_m, const
   return camera;
 }
 
-/// The block of the other tests, a ball beside it, a cloth behind both; cameras that see all, half of the block, the
-/// ball alone, and nothing.
+/// Returns the block of the other tests, a ball next to it, a cloth behind both; cameras that see all, half of the
+/// block, only the ball, and nothing.
 Scene hiddenScene(bool draw_hidden, Mapping mapping = Mapping::kAuto, bool can_cut = true) {
   Scene scene = blockScene();
   scene.bodies[0].mapping = mapping;
@@ -59,9 +59,10 @@ Scene hiddenScene(bool draw_hidden, Mapping mapping = Mapping::kAuto, bool can_c
   return scene;
 }
 
-/// Which pictures are wanted changes from tick to tick: what one camera has not seen comes into view of another.
-Wants wantsOf(int tick) {
-  Wants wants;
+/// Returns the requested images, which change from tick to tick: tissue unseen by one camera comes into view of
+/// another.
+FrameRequest wantsOf(int tick) {
+  FrameRequest wants;
   wants.every_image = true;
   wants.cameras = {tick % 7 == 3, tick % 2 == 0, tick % 3 == 0, tick % 5 == 0};
   wants.surface = tick % 11 == 0;
@@ -93,7 +94,7 @@ void expectSame(const Shown& a, const Shown& b) {
   }
 }
 
-/// A grip of the top is drawn aside by up to half an edge.
+/// Returns a grip of the top that is drawn aside by up to half an edge.
 StylusSamples drag(int tick) {
   const double share = static_cast<double>(tick) / kCutTicks;
   return leftAt({share * kHalfM / 2, 0.001, kHalfM + 0.001}, false, true);
@@ -102,7 +103,7 @@ StylusSamples drag(int tick) {
 using Setting = std::tuple<Backend, Mapping>;
 class Hidden : public GpuTest, public ::testing::WithParamInterface<Setting> {
  protected:
-  /// Presses, then cuts where that is a tool's, or holds and drags.
+  /// Presses, then cuts if a tool can cut, or holds and drags.
   Shown played(bool draw_hidden, bool can_cut) {
     Scene scene = hiddenScene(draw_hidden, std::get<1>(GetParam()), can_cut);
     scene.solver.backend = std::get<0>(GetParam());
@@ -123,7 +124,7 @@ TEST_P(Hidden, NoPictureDiffersWhileTissueMoves) {
   const Shown all = played(true, false), seen = played(false, false);
   expectSame(all, seen);
   EXPECT_EQ(all.counters.renders, seen.counters.renders);
-  EXPECT_LT(seen.counters.mappings, all.counters.mappings);  // ticks in which only "nothing" looks
+  EXPECT_LT(seen.counters.mappings, all.counters.mappings);  // ticks in which only the camera "nothing" is used
 }
 
 TEST_P(Hidden, NoPictureDiffersWhileTissueIsCut) {
@@ -135,11 +136,11 @@ INSTANTIATE_TEST_SUITE_P(Backends, Hidden,
                          ::testing::Combine(::testing::Values(Backend::kCpu, Backend::kGpu),
                                             ::testing::Values(Mapping::kAuto, Mapping::kInterpolated)));
 
-/// Tissue on the host that is where the test puts it.
+/// Tissue on the host, positioned by the test.
 class PlacedTissue : public Solver {
  public:
   explicit PlacedTissue(const Model& model) : model_(model), state_(restState(model)) {}
-  /// All but sways about a place. @param tick  of the motion
+  /// Moves all tissue to an offset, about which it oscillates a little. @param tick  of the motion
   void put(const Vector3f& away_m, int tick) {
     for (size_t b = 0; b < model_.bodies.size(); ++b) {
       for (const uint32_t slot : model_.bodies[b].lattice.active_slots) {
@@ -167,7 +168,7 @@ class PlacedTissue : public Solver {
 
 class HiddenView : public GpuTest {
  protected:
-  /// Tissue that goes out of every picture and comes back, by another way.
+  /// Returns the position of tissue that leaves every image and comes back on another path.
   static Vector3f placeAt(int tick) {
     const float way = 0.04F * static_cast<float>(tick % 20 < 10 ? tick % 20 : 20 - tick % 20);
     return tick < 20 ? Vector3f(way, 0, 0) : Vector3f(0, 0, -way);
@@ -180,11 +181,11 @@ class HiddenView : public GpuTest {
     ThreadedView view(model, scene, context_);
     for (int tick = 1; tick <= 40; ++tick) {
       tissue.put(placeAt(tick), tick);
-      Look look;
-      look.tick = static_cast<uint64_t>(tick);
-      look.wants = wantsOf(tick);
+      RenderRequest request;
+      request.tick = static_cast<uint64_t>(tick);
+      request.wants = wantsOf(tick);
       Pictures pictures;
-      view.capture(tissue, look, pictures);
+      view.capture(tissue, request, pictures);
       view.collect(pictures, true);
       add(std::move(pictures), out);
     }
@@ -205,11 +206,11 @@ TEST_F(HiddenView, WhatIsNotSeenIsNotMapped) {
   ThreadedView view(model, scene, context_);
   for (int tick = 1; tick <= 5; ++tick) {
     tissue.put(Vector3f::Zero(), tick);
-    Look look;
-    look.tick = static_cast<uint64_t>(tick);
-    look.wants.cameras = {false, false, false, true};
+    RenderRequest request;
+    request.tick = static_cast<uint64_t>(tick);
+    request.wants.cameras = {false, false, false, true};
     Pictures pictures;
-    view.capture(tissue, look, pictures);
+    view.capture(tissue, request, pictures);
     view.collect(pictures, true);
     ASSERT_EQ(pictures.images.size(), 1U);
   }

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Tools with jaws: clips on a bar, and a grasper that holds by friction what its fingers meet.
+// Tools with jaws: clips on a bar, and a grasper that holds tissue between its fingers by friction.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -17,14 +17,14 @@ namespace {
 using namespace test;
 
 constexpr double kJawsSide_m = 0.008;  // of the bar
-constexpr double kRounding_m = 1e-4;   // of sides that give a little between substeps, beside kMostSqueezed
-constexpr double kAside_m = 0.003;     // 1.5 spacings: by so much two nodes of a column may lie beside each other
+constexpr double kRounding_m = 1e-4;   // of sides that yield a little between substeps, in addition to kMostSqueezed
+constexpr double kAside_m = 0.003;     // 1.5 spacings: largest sideways distance of two nodes of a column
 constexpr int kJawsClosing = 20, kJawsOpen = 4, kRests = 30;  // ticks
-constexpr double kStill_per_s = 40;           // drag: what was squeezed sets the bar swinging when it is cut
+constexpr double kStill_per_s = 40;           // drag: squeezed tissue makes the bar swing when it is cut
 constexpr double kMostSqueezed = 0.4;         // Clips::kMostSqueezed
-constexpr double kRated_n = 3, kSlips = 0.1;  // of a grasper; share by which its force may differ as tissue slides
-constexpr double kJaw_m = 0.006;              // how far it slides
-constexpr double kLost_m = 0.0015;  // by so much more or less: how far the tissue goes on stretching meanwhile
+constexpr double kRated_n = 3, kSlips = 0.1;  // of a grasper; share by which its force may vary as tissue slides
+constexpr double kJaw_m = 0.006;              // sliding distance
+constexpr double kLost_m = 0.0015;            // tolerance of it: stretch of the tissue in the meantime
 
 class ClipSession : public OnSceneBackend {
  protected:
@@ -46,7 +46,7 @@ class ClipSession : public OnSceneBackend {
     out.styluses[0].cut.blade_length_m = 0.03;
     return out;
   }
-  /// From above across the bar, its tips beyond it.
+  /// Returns a tool from above across the bar, its tips beyond it.
   static StylusSamples at(double x_m, bool closes, bool cuts = false, double y_m = 0) {
     StylusSamples out{};
     out[0].valid = true;
@@ -68,7 +68,7 @@ TEST_P(ClipSession, HoldsTwoSidesOfEveryKindOfTissueTogether) {
     SCOPED_TRACE(static_cast<int>(structure));
     Session session(barScene(structure), context_);
     clip(session, 0.006);
-    const SeenClips clips = seenClips(session);
+    const ClipStates clips = seenClips(session);
     ASSERT_EQ(clips.on.size(), 1U);
     EXPECT_NEAR(clips.on[0].rest_m.x(), 0.006, 0.0011) << "the layer of nodes that is next";
     EXPECT_GT(clips.on[0].opening_m, kMostSqueezed * 0.75 * kJawsSide_m);
@@ -96,11 +96,11 @@ TEST_P(ClipSession, ThatClosesOnNothingIsSpentAndAMagazineEnds) {
 
 TEST_P(ClipSession, IsTakenOffByABladeThatMeetsItAndNotByOneBesideIt) {
   Scene still = barScene();
-  still.bodies[0].material.drag_per_s = kStill_per_s;
+  still.bodies[0].material.mass_damping_per_s = kStill_per_s;
   Session session(still, context_);
   clip(session, 0.006);
   const auto draw = [&](double x_m) {
-    session.step(at(x_m, false, false, 0.015), {});  // or the blade would cut all the way there from the clip
+    session.step(at(x_m, false, false, 0.015), {});  // or the blade would cut all the way from the clip to there
     for (int t = 0; t <= kJawsClosing; ++t) session.step(at(x_m, false, true, 0.015 - 0.03 * t / kJawsClosing), {});
     for (int t = 0; t < kJawsOpen; ++t) session.step(at(x_m, false, false, -0.015), {});
     return seenClips(session);
@@ -113,7 +113,7 @@ TEST_P(ClipSession, IsTakenOffByABladeThatMeetsItAndNotByOneBesideIt) {
     along[0].pose.position_m = {0.012 - 0.016 * t / kJawsClosing, 0, -0.006};
     session.step(along, {});
   }
-  const SeenClips after = seenClips(session);
+  const ClipStates after = seenClips(session);
   EXPECT_EQ(after.on.size(), 0U);
   EXPECT_EQ(after.taken_off, 1U);
 }
@@ -147,7 +147,7 @@ TEST_P(ClipSession, OfTwoBodiesJoinsThem) {
   scene.bodies[1].fixed.clear();
   Session session(scene, context_);
   clip(session, 0.006);
-  const SeenClips clips = seenClips(session);
+  const ClipStates clips = seenClips(session);
   ASSERT_EQ(clips.on.size(), 1U);
   EXPECT_LT(clips.on[0].opening_m, kMostSqueezed * 2 * kJawsSide_m);
 }
@@ -173,13 +173,13 @@ class GrasperSession : public ClipSession {
     scene.styluses[0].grasper.max_force_n = kRated_n;
     return scene;
   }
-  /// 2.4 mm/s upwards, from the block's top.
+  /// Returns a pull of 2.4 mm/s upwards, from the block's top.
   static StylusSamples pull(int tick) { return leftAt({0, 0, kHalfM + 4e-5 * tick}, tick > 1); }
   static double force_n(Session& session) {
     const layout::vec4 impulse = session.drain().stats.impulse[0];
     return Vector3d(impulse.x, impulse.y, impulse.z).norm() / session.tick_s();
   }
-  /// A bar, 8 mm wide between the jaws.
+  /// Returns a bar, 8 mm wide between the jaws.
   static Scene barWithGrasper() {
     Scene scene = barScene();
     scene.styluses[0].button1 = ToolMode::kGrasper;
@@ -241,7 +241,7 @@ TEST_P(GrasperSession, IsKeptOpenByWhatIsBetweenItsFingersAndFeelsIt) {
     frame = session.drain();
     return session.motions()[0].opens_to_rad;
   };
-  // The bar's sides, from its bottom to 3 mm below its top, are seen from the pivot 24 mm above its middle.
+  // The bar's sides, from its bottom to 3 mm below its top, as seen from the pivot 24 mm above its middle.
   const double low_rad = 2 * std::atan2(0.004, 0.028), high_rad = 2 * std::atan2(0.004, 0.021);
   const double held_rad = close(0);
   EXPECT_GT(held_rad, low_rad);

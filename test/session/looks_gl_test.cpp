@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What pictures may have beside (docs/detail.md, Looks), by the keys of a scene: what each does, and that it does
-// nothing to what does not ask for it.
+// Optional looks of images (docs/surface.md, Looks), by the keys of a scene: the effect of each, and that it does not
+// affect anything that does not request it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using namespace test;
 
 class Looks : public OnSceneBackend {
  protected:
-  /// A block that fills much of a picture.
+  /// Returns a block that fills much of an image.
   static Scene scene(int supersampling = 0) {
     Scene scene = OnSceneBackend::scene();
     scene.bodies[0].spacing_m = 0.005;  // shades are compared to a step of 255
@@ -41,7 +41,7 @@ class Looks : public OnSceneBackend {
 VISCERA_ON_EVERY_BACKEND(Looks);
 
 constexpr int kOpenTicks = kCutTicks + 10;
-/// A cut whose far lip is then drawn away by the other hand.
+/// Returns a cut, after which the far lip is drawn away by the other stylus.
 StylusSamples opened(int tick) {
   if (tick <= kCutTicks) return cut(tick);
   StylusSamples samples;
@@ -49,12 +49,12 @@ StylusSamples opened(int tick) {
   return samples;
 }
 
-/// Light of a colour of a pixel, linear.
+/// Returns the light of one colour of a pixel, linear.
 double light(const ImageFrame& image, int column, int row, size_t color) {
   return linearFromSrgb(image.rgb[3 * static_cast<size_t>(row * image.width + column) + color] / 255.0);
 }
 
-/// Pixels of which some colour differs.
+/// Returns the pixels in which some colour differs.
 std::vector<size_t> changed(const ImageFrame& a, const ImageFrame& b) {
   std::vector<size_t> out;
   for (size_t i = 0; 3 * i < a.rgb.size(); ++i) {
@@ -73,16 +73,17 @@ double sumOf(const ImageFrame& image, size_t pixel) {
 
 }  // namespace
 
-/// Beside a body and a camera that ask for all of them; where nothing does, shaders are without.
+/// Next to a body and a camera that request all of them. If nothing requests them, they are compiled out of the
+/// shaders.
 TEST_P(Looks, WhatDoesNotAskForThemLooksAsBefore) {
-  constexpr int kRounded = 1;  // of 255: other shaders round otherwise
+  constexpr int kRounded = 1;  // of 255: other shaders round differently
   for (const int supersampling : {0, 2}) {
     const Scene plain = scene(supersampling);
     Scene beside = plain;
     BodyConfig far = plain.bodies[0];
     far.name = "far";
-    far.position_m = Vector3d(1, 0, 0);  // where the first camera does not look
-    far.wetness = far.wall_grain = far.blanching = 1;
+    far.position_m = Vector3d(1, 0, 0);  // outside the view of the first camera
+    far.specular_wetness = far.cut_wall_texture = far.blanching = 1;
     beside.bodies.push_back(far);
     CameraConfig other = plain.cameras[0];
     other.name = "other";
@@ -94,7 +95,7 @@ TEST_P(Looks, WhatDoesNotAskForThemLooksAsBefore) {
       Session session(of, context_);
       play(session, press, kPressTicks);
       session.drain();
-      Wants wants;
+      FrameRequest wants;
       wants.cameras = {all, all};
       if (all) session.show(wants);
       return picture(session).rgb;
@@ -108,14 +109,14 @@ TEST_P(Looks, WhatDoesNotAskForThemLooksAsBefore) {
 }
 
 TEST_P(Looks, LightAtTheLensFadesWithTheSquareOfTheDistanceAndTowardsTheRimOfItsCone) {
-  constexpr double kShare = 0.06;  // of what is compared: 8 bits of dark colours, and a light 4 mm beside the lens
+  constexpr double kShare = 0.06;  // of the compared light: 8 bits of dark colours, and a light 4 mm from the lens
   Scene lit = scene();
   CameraConfig& camera = lit.cameras[0];
   lit.bodies[0].roughness = 1;
-  lit.bodies[0].mottling = 0;  // an even face
+  lit.bodies[0].color_variation = 0;  // a uniform face
   lit.styluses.clear();
   camera.position_m = Vector3d(0, -0.12, 0);
-  camera.vertical_fov_deg = 17;  // the front face, y = -kHalfM, is all there is to be seen
+  camera.vertical_fov_deg = 17;  // the front face, y = -kHalfM, fills the view
   camera.light = CameraLight::kLens;
   camera.light_cone_deg = 170;
   const auto at = [&](double focus_m, double cone_deg) {
@@ -128,8 +129,7 @@ TEST_P(Looks, LightAtTheLensFadesWithTheSquareOfTheDistanceAndTowardsTheRimOfIts
   const int column = 80, row = 60;
   EXPECT_NEAR(light(halfway, column, row, 0) / light(there, column, row, 0), 0.25, 0.25 * kShare);
   EXPECT_NEAR(light(narrow, column, row, 0) / light(there, column, row, 0), 1, 0.1) << "4 mm aside of 18 mm";
-  // In the lower left corner, 13 mm to the side and 10 + 4 mm below the light, of which half a cone of 10 degrees
-  // is 17.6.
+  // In the lower left corner, 13 mm to the side and 10 + 4 mm below the light; half a cone of 10 degrees is 17.6.
   const double tangent = std::tan(8.5 * M_PI / 180), half = std::tan(10 * M_PI / 180);
   const Eigen::Vector2d aside(-tangent * 160 / 120 * face_m - 0.0015, tangent * face_m + 0.004);
   const double faded = std::exp2(-aside.squaredNorm() / (half * half * face_m * face_m));
@@ -168,7 +168,7 @@ TEST_P(Looks, LobulesAndBundlesAreOnWallsOfWoundsAlone) {
     plain.cameras[0].vertical_fov_deg = 25;
     plain.styluses[1].idle = ToolMode::kGrab;
     Scene grained = plain;
-    grained.bodies[0].wall_grain = 1;
+    grained.bodies[0].cut_wall_texture = 1;
     const ImageFrame labels = after(plain, opened, kOpenTicks, PictureKind::kLabels);
     const ImageFrame a = after(plain, opened, kOpenTicks), b = after(grained, opened, kOpenTicks);
     size_t on_walls = 0, walls = 0, elsewhere = 0;
@@ -193,7 +193,7 @@ TEST_P(Looks, SkinIsPalerWhereItIsPressedAndNowhereElse) {
   Scene plain = scene(), pale = plain;
   pale.bodies[0].blanching = 1;
   EXPECT_TRUE(after(plain).rgb == after(pale).rgb) << "at rest";
-  const auto deep = [](int tick) {  // 14 mm: beside the ball springs are shortened by a twentieth
+  const auto deep = [](int tick) {  // 14 mm: next to the ball springs are shortened by a twentieth
     const double share = std::min(1.0, static_cast<double>(tick) / kPressTicks);
     return leftAt({0, 0, kHalfM + kProbeRadiusM + 0.002 - 0.016 * share});
   };

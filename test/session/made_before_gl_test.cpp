@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Sessions that another thread has made, of a model that was there.
+// Sessions that another thread has made, of an existing model.
 #include <gtest/gtest.h>
 
 #include <future>

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A scene and a strokes file as users write them: a stylus takes a needle, drives it through and lets it go.
+// A scene and a strokes file as users write them: a stylus takes a needle, drives it through and releases it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,13 +20,13 @@ bodies:
   - {source: box, box_size_m: [0.03, 0.018, 0.012], position_m: [0, 0, -0.006], spacing_m: 0.003, material: {young_modulus_pa: 10000},
      fixed: [{min_m: [-1, -1, -1], max_m: [1, 1, -0.0059]}]}
 styluses: [{name: holder, idle: none, button1: needle, button2: none, grab: {radius_m: 0.01}}]
-threads:
+sutures:
   - {material: silk, usp: 4-0, position_m: [0.008, 0, 0.003], path: [{position_m: [0.008, 0, 0.09]}],
      needle: {arc: half_circle, radius_m: 0.008, rotation_deg: [0, 180, 0]}}
 solver: {backend: cpu, threads: 1}
 )";
 
-/// Turns the holder about the middle of the needle's circle, by 252 degrees in a second.
+/// Turns the holder about the centre of the needle's circle, by 252 degrees in a second.
 constexpr const char* kStrokes = R"(
 strokes:
   - stylus: holder
@@ -41,20 +41,20 @@ strokes:
 )";
 
 constexpr double kFelt_n = 1e-3;
-/// E of the scene times its spacing; and with all of the needle in tissue.
+/// E of the scene times its spacing; and with the whole needle in tissue.
 constexpr double kSkin_n_per_m = 1e4 * 0.003, kWhole_m = 3.1416 * 0.008, kWhole_n_per_m = 1e4 * (0.003 + kWhole_m);
-constexpr double kPuncture_n = 0.05, kFriction_n_per_m = 1;  ///< of docs/thread.md 6
+constexpr double kPuncture_n = 0.05, kFriction_n_per_m = 1;  ///< of docs/sutures.md
 
 struct Sewn {
-  double most_n = 0, off_m = 0, moved_m = 0;  ///< of the thread's start from the tail; after it was let go
+  double most_n = 0, off_m = 0, moved_m = 0;  ///< the suture's start from the tail; motion after the release
   Vector3d tip = Vector3d::Zero();
   uint64_t hash = 0, trips = 0;
-  int unfelt = 0;                               ///< ticks with a force that the answers between ticks do not know of
-  double skin_n = 0, inside_n = 0;              ///< widest range of force along that is told, at the skin and inside
-  double skin_n_per_m = 0, inside_n_per_m = 0;  ///< largest stiffness that is told of the tissue around it
-  double unseen_m = 0;                          ///< how far tip and tail were from where seenNeedles() has them
-  bool in_tissue = false;                       ///< as that has it
-  std::vector<size_t> holders = {};             ///< one after another, kMaxStyluses for none
+  int unfelt = 0;                   ///< ticks with a force that the haptic model between ticks does not have
+  double skin_n = 0, inside_n = 0;  ///< widest reported range of force along, at the surface and inside
+  double skin_n_per_m = 0, inside_n_per_m = 0;  ///< largest reported stiffness of the tissue around it
+  double unseen_m = 0;                          ///< distance of tip and tail from their positions in needleStates()
+  bool in_tissue = false;                       ///< as reported there
+  std::vector<size_t> holders = {};             ///< in order, kMaxStyluses for none
 };
 
 Sewn sew(const Overrides& overrides) {
@@ -65,7 +65,7 @@ Sewn sew(const Overrides& overrides) {
   Vector3d left = Vector3d::Zero();
   for (double time_s = 0; time_s < 1.8; time_s += session.tick_s()) {
     const Frame frame = session.step(strokes.at(time_s, scene.styluses), {});
-    const std::vector<Vector3d> needle = needlePlaces(session, 0);
+    const std::vector<Vector3d> needle = needlePositions(session, 0);
     out.most_n = std::max(out.most_n, frame.reactions[0].force_n.norm());
     const layout::vec4& given = frame.stats.impulse[0];
     const bool pressed = Vector3d(given.x, given.y, given.z).norm() > kFelt_n * session.tick_s();
@@ -78,9 +78,9 @@ Sewn sew(const Overrides& overrides) {
       most_n = std::max(most_n, contact.limit_n + contact.back_n);
       most_n_per_m = std::max(most_n_per_m, contact.stiffness_n_per_m);
     }
-    out.off_m = std::max(out.off_m, (threadPlaces(session, 0)[0] - needle.back()).norm());
+    out.off_m = std::max(out.off_m, (suturePositions(session, 0)[0] - needle.back()).norm());
     if (frame.needles.size() == 1) {
-      const SeenNeedle& seen = frame.needles[0];
+      const NeedleState& seen = frame.needles[0];
       const Vector3d tip = seen.pose * Vector3d(seen.radius_m, 0, 0);
       const double arc_rad = seen.arc_rad;
       const Vector3d tail =
@@ -105,13 +105,13 @@ TEST(NeedleSession, AStylusTakesOneDrivesItThroughAndLetsItGo) {
   EXPECT_GT(once.most_n, 0.04);
   EXPECT_LT(once.most_n, 0.5);
   EXPECT_LT(once.off_m, 1e-4);
-  EXPECT_EQ(once.unfelt, 0);  // also at the skin, before it is in
+  EXPECT_EQ(once.unfelt, 0);  // also at the surface, before it is in
   EXPECT_LT(once.unseen_m, 1e-9);
   EXPECT_TRUE(once.in_tissue);
   EXPECT_EQ(std::count(once.holders.begin(), once.holders.end(), 0U), 1) << "taken once";
   EXPECT_EQ(once.holders.back(), layout::kMaxStyluses) << "let go";
   EXPECT_NEAR(once.skin_n, kPuncture_n, 1e-3 * kPuncture_n);
-  EXPECT_GT(once.inside_n, kPuncture_n);  // the far skin, and friction both ways
+  EXPECT_GT(once.inside_n, kPuncture_n);  // the far surface, and friction both ways
   EXPECT_LT(once.inside_n, kPuncture_n + 2 * kFriction_n_per_m * kWhole_m);
   EXPECT_NEAR(once.skin_n_per_m, kSkin_n_per_m, 0.01 * kSkin_n_per_m);
   EXPECT_GT(once.inside_n_per_m, 2 * kSkin_n_per_m);
@@ -135,11 +135,11 @@ std::string refusal(const Overrides& overrides) {
 TEST(NeedleSession, ScenesThatCannotBeAreRefused) {
   const auto names = [](const std::string& text, const std::string& what) { return text.find(what) != text.npos; };
   EXPECT_TRUE(refusal({}).empty());
-  EXPECT_TRUE(names(refusal({"threads[0].needle.arc=none"}), "stylus 'holder' has mode needle"));
-  EXPECT_TRUE(names(refusal({"threads[0].needle.arc=quarter"}), "half_circle"));
-  EXPECT_TRUE(names(refusal({"threads[0].start=fixed"}), "'start' must be free"));
-  EXPECT_TRUE(names(refusal({"threads[0].needle.wire_radius_m=0.002"}), "'needle.wire_radius_m' must be at most 0.2"));
-  EXPECT_TRUE(names(refusal({"threads[0].needle.puncture_n=0.1", "threads[0].needle.cutting_n=0.2"}),
+  EXPECT_TRUE(names(refusal({"sutures[0].needle.arc=none"}), "stylus 'holder' has mode needle"));
+  EXPECT_TRUE(names(refusal({"sutures[0].needle.arc=quarter"}), "half_circle"));
+  EXPECT_TRUE(names(refusal({"sutures[0].start=fixed"}), "'start' must be free"));
+  EXPECT_TRUE(names(refusal({"sutures[0].needle.wire_radius_m=0.002"}), "'needle.wire_radius_m' must be at most 0.2"));
+  EXPECT_TRUE(names(refusal({"sutures[0].needle.puncture_n=0.1", "sutures[0].needle.cutting_n=0.2"}),
                     "'needle.cutting_n' must be at most"));
 }
 

@@ -14,12 +14,12 @@ using namespace test;
 
 class Observation : public GpuTest {
  protected:
-  /// Presses, then cuts; everything a session can do with one stylus.
+  /// Returns a stroke that presses, then cuts: everything a session can do with one stylus.
   static StylusSamples pressAndCut(int tick) { return tick <= kPressTicks ? press(tick) : cut(tick - kPressTicks); }
   static constexpr int kTicks = kPressTicks + kCutTicks;
 };
 
-Wants everything() {
+FrameRequest everything() {
   return {true, {true, true}};
 }
 
@@ -85,7 +85,7 @@ TEST_F(Observation, FramesComeInOrderAndNoneIsLost) {
     last_surface = frame.surface->tick;
   };
   for (int t = 1; t <= 9; ++t) take(session.step(press(t), everything()));
-  take(session.drain());  // there is room again for whatever the tenth tick gives
+  take(session.drain());  // there is room again for the output of the tenth tick
   take(session.step(press(10), everything()));
   take(session.drain());
   EXPECT_EQ(last_surface, 10u);
@@ -103,7 +103,7 @@ TEST_F(Observation, ForcesSurfacesAndImagesTellWhenThePoseBehindThemCame) {
     samples[0].received = received(tick);
     return samples;
   };
-  const Wants wants = {true, {true}};
+  const FrameRequest wants = {true, {true}};
   Frame frame;
   const auto check = [&] {
     for (const ImageFrame& image : frame.images) EXPECT_EQ(image.pose_received, received(static_cast<int>(image.tick)));
@@ -113,7 +113,7 @@ TEST_F(Observation, ForcesSurfacesAndImagesTellWhenThePoseBehindThemCame) {
   for (int t = 1; t <= 5; ++t) {
     frame = session.step(pressStamped(t), wants);
     check();
-    EXPECT_EQ(frame.poses_received[0], received(t));  // the governor waits for every tick
+    EXPECT_EQ(frame.poses_received[0], received(t));  // the stability monitor waits for every tick
     EXPECT_EQ(frame.poses_received[1], SteadyTime{});
   }
   frame = session.drain();
@@ -125,7 +125,7 @@ TEST_F(Observation, ForcesSurfacesAndImagesTellWhenThePoseBehindThemCame) {
 
 TEST_F(Observation, ForceThatComesLateTellsWhichPoseItAnswers) {
   Scene scene = blockScene();
-  scene.solver.governor = false;  // no waiting for the measurements of a tick
+  scene.solver.stability_monitor = false;  // no waiting for the measurements of a tick
   Session session(scene, context_);
   const SteadyTime begin{std::chrono::hours(1)};
   SteadyTime last{};
@@ -142,7 +142,7 @@ TEST_F(Observation, ForceThatComesLateTellsWhichPoseItAnswers) {
 }
 
 TEST_F(Observation, SameInputGivesTheSameStateWhateverIsWatched) {
-  const auto hashOf = [&](const Wants& wants) {
+  const auto hashOf = [&](const FrameRequest& wants) {
     Session session(blockScene(), context_);
     play(session, pressAndCut, kTicks, wants);
     return session.stateHash();

@@ -10,7 +10,7 @@ using namespace viscera;
 
 namespace {
 
-/// A weightless block over a plate on a frame, with a camera.
+/// Returns a weightless block over a plate on a frame, with a camera.
 Scene liftScene(Backend backend) {
   Scene scene;
   scene.bodies.resize(1);
@@ -34,7 +34,7 @@ Pose at(double height_m) {
 }
 
 std::vector<uint8_t> picture(Session& session) {
-  Wants wants;
+  FrameRequest wants;
   wants.cameras = {true};
   wants.every_image = true;
   Frame frame = session.step({}, wants);
@@ -64,9 +64,9 @@ TEST(ObstaclesOfASession, GoWhereTheirFrameGoesInTissueAndPictures) {
   }
 }
 
-/// tf's odd transform: the plate is 10 cm higher for a tick.
+/// A single wrong transform from tf: the plate is 10 cm higher for a tick.
 TEST(ObstaclesOfASession, WhoseFrameGlitchesDoNotThrowTissue) {
-  constexpr double kOver = 2.5;  // of waves' speed at rest: squeezed to a half, waves are twice as fast
+  constexpr double kOver = 2.5;  // of the wave speed at rest: compressed to a half, waves are twice as fast
   for (const Backend backend : {Backend::kGpu, Backend::kCpu}) {
     gpu::Context context;
     Scene scene = liftScene(backend);
@@ -77,11 +77,11 @@ TEST(ObstaclesOfASession, WhoseFrameGlitchesDoNotThrowTissue) {
       session.step({}, {});
     };
     for (int t = 0; t < 10; ++t) stepAt(-0.016);
-    EXPECT_EQ(session.extremes().obstacles_held_back, 0u);
+    EXPECT_EQ(session.extremes().obstacles_speed_limited, 0u);
     stepAt(-0.016 + 0.1);
     for (int t = 0; t < 20; ++t) stepAt(-0.016);
     session.drain();
-    EXPECT_GT(session.extremes().obstacles_held_back, 0u);
+    EXPECT_GT(session.extremes().obstacles_speed_limited, 0u);
     EXPECT_GT(session.extremes().max_speed_m_per_s, 0);  // it was touched
     EXPECT_LT(session.extremes().max_speed_m_per_s, kOver * waveSpeed(session.model()));
   }

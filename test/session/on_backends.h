@@ -17,9 +17,9 @@ class OnSceneBackend : public GpuTest, public ::testing::WithParamInterface<Back
     out.solver.backend = GetParam();
     return out;
   }
-  /// What a session's first camera sees now.
+  /// Returns what a session's first camera sees now.
   static ImageFrame picture(Session& session, PictureKind kind = PictureKind::kColor) {
-    Wants wants;
+    FrameRequest wants;
     wants.of(kind) = {true};
     Pictures pictures = session.show(wants);
     EXPECT_EQ(pictures.images.size(), 1U);

@@ -32,7 +32,7 @@ size_t pixelsThatDiffer(const ImageFrame& a, const ImageFrame& b) {
   return count;
 }
 
-/// How much more green than blue there is over the tissue: the scale of strains goes from blue to yellow.
+/// Returns the largest excess of green over blue on the tissue: the scale of strains goes from blue to yellow.
 int yellowest(const ImageFrame& image) {
   int most = -255;
   for (int row = 0; row < image.height; ++row) {
@@ -66,7 +66,7 @@ TEST_P(OverlayPictures, StrainIsBlueAtRestAndYellowWhereTheProbePresses) {
   Session session(strained, context_);
   const int at_rest = yellowest(picture(session));
   for (int t = 1; t <= kPressTicks; ++t) session.step(press(t), {});
-  session.step({}, {});    // no tool in the picture
+  session.step({}, {});    // no tool in the image
   EXPECT_LT(at_rest, 10);  // the background, which is grey
   EXPECT_GT(yellowest(picture(session)), 60);
 }
@@ -74,7 +74,7 @@ TEST_P(OverlayPictures, StrainIsBlueAtRestAndYellowWhereTheProbePresses) {
 TEST_P(OverlayPictures, TissueStepsAsWithoutThem) {
   Scene plain = scene(), over = scene();
   over.cameras[0].overlays = overlaysOf({"lattice", "springs", "normals", "strain", "forces"});
-  Wants wants;
+  FrameRequest wants;
   wants.cameras = {true};
   const auto hashOf = [&](const Scene& scene) {
     Session session(scene, context_);
@@ -91,7 +91,7 @@ TEST(Arrows, ForcesStandAtTipsAndWindComesFromAhead) {
   std::array<Reaction, layout::kMaxStyluses> reactions{};
   motions[1].present = true;
   motions[1].to.position_m = {0.1, 0.2, 0.3};
-  reactions[0].force_n = {1, 0, 0};  // of a stylus that is not there
+  reactions[0].force_n = {1, 0, 0};  // of an absent stylus
   reactions[1].force_n = {0, 0, 2};
   std::vector<Arrow> arrows;
   addForceArrows(motions, reactions, arrows);

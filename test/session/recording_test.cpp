@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Sessions that are recorded and made again: the same states, whatever was done to them; files that are cut or spoilt.
+// Sessions that are recorded and replayed: the same states, whatever was done to them; truncated or corrupted files.
 #include <gtest/gtest.h>
 
 #include <sys/resource.h>
@@ -39,7 +39,7 @@ Scene recordedScene() {
   return scene;
 }
 
-/// Cuts, and pulls with the other hand, whose jaws close and open.
+/// Returns a cut, and a pull with the other stylus, with jaws that close and open.
 StylusSamples handsAt(int tick) {
   StylusSamples samples = cut(tick % kCutTicks + 1);
   if (tick > 2) samples[1] = {true, {{0.012, 0.006, kHalfM + 0.0004 * (tick % 20)}, Quaterniond::Identity()}, true};
@@ -47,10 +47,10 @@ StylusSamples handsAt(int tick) {
   return samples;
 }
 
-/// Everything that can be done to a session. @returns the hash that it ends with
+/// Does everything that can be done to a session. @returns the final hash
 uint64_t live(const std::string& file, const std::string& state) {
   Session session(recordedScene());
-  play(session, press, 3);  // what was before the recording
+  play(session, press, 3);  // before the recording
   SessionRecorder recorder(file);
   recorder.follow(session);
   for (int t = 1; t <= 20; ++t) {
@@ -58,7 +58,7 @@ uint64_t live(const std::string& file, const std::string& state) {
     session.step(handsAt(t), {});
   }
   session.save(state);
-  session.forgetHands();
+  session.resetInput();
   session.setToolMode(0, ToolSwitch::kButton2, ToolMode::kProbe);
   for (int t = 1; t <= 10; ++t) session.step(handsAt(t), {});
   session.reset();
@@ -87,7 +87,7 @@ Replayed again(const std::string& file, double from_s = 0, double until_s = 1e9,
   SessionReplay::Ports ports;
   ports.make = [&](const Scene& scene, size_t) -> Session& { return *(session = std::make_unique<Session>(scene)); };
   ports.leaps = [&](Session&) { ++out.leaps; };
-  ports.wants = [](const Session&) { return Wants{}; };
+  ports.wants = [](const Session&) { return FrameRequest{}; };
   ports.stepped = [&](Session&, Frame&&, double) { ++out.looked; };
   out.outcome = replay.run(from_s, until_s, overrides, ports);
   out.hash = session->stateHash();
@@ -131,7 +131,7 @@ TEST_F(RecordingTest, SaysWhereStatesBeginToDiffer) {
     recorder.follow(session);
     for (int t = 1; t <= 20; ++t) {
       if (t == 12) session.removeLog(recorder);
-      if (t == 12) session.setToolMode(1, ToolSwitch::kButton1, ToolMode::kGrab);  // the recorder is not told
+      if (t == 12) session.setToolMode(1, ToolSwitch::kButton1, ToolMode::kGrab);  // the recorder does not know of it
       if (t == 12) session.addLog(recorder);
       session.step(handsAt(t), {});
     }
@@ -184,7 +184,7 @@ TEST_F(RecordingTest, EndsWithItsLastWholeChunkWhereItsLimitIs) {
       writer.put(ChunkKind::kScene, bytes);
     }
     writer.finish();
-    EXPECT_NE(writer.fault().find("has reached the 2000 bytes"), std::string::npos) << writer.fault();
+    EXPECT_NE(writer.fault().find("has reached its limit of 2000 bytes"), std::string::npos) << writer.fault();
   }
   EXPECT_LE(readFile(file_).size(), 2000U);
   RecordFileReader reader(file_);
@@ -198,7 +198,7 @@ TEST_F(RecordingTest, OfAFullDiskLeavesNoEmptyFile) {
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);
   rlimit small = before;
-  small.rlim_cur = 100;  // the head of the file, and no chunk
+  small.rlim_cur = 100;  // room for the head of the file, and no chunk
   setrlimit(RLIMIT_FSIZE, &small);
   auto* const handler = std::signal(SIGXFSZ, SIG_IGN);
   std::string fault;
@@ -293,7 +293,7 @@ TEST_F(RecordingTest, TurnedBitsAreFound) {
   }
 }
 
-/// What checksums do not find: files that were made so.
+/// Errors that checksums do not detect: files that were written so.
 TEST_F(RecordingTest, SpoiltChunksWithRightSumsAreRefusedOrReplayed) {
   live(file_, folder_.file("state"));
   std::mt19937 random(3);
@@ -304,7 +304,7 @@ TEST_F(RecordingTest, SpoiltChunksWithRightSumsAreRefusedOrReplayed) {
       RecordFileWriter writer(file);
       while (const std::optional<ChunkKind> kind = reader.next()) {
         std::vector<char> bytes = reader.bytes();
-        const bool states = *kind == ChunkKind::kState && time % 3 != 0;  // Saved.SpoiltBytes... has more of them
+        const bool states = *kind == ChunkKind::kState && time % 3 != 0;  // Saved.SpoiltBytes... tests more of them
         for (unsigned n = random() % 4; n > 0 && !bytes.empty() && !states; --n)
           bytes[random() % bytes.size()] = static_cast<char>(random());
         if (random() % 8 == 0) bytes.resize(bytes.size() - std::min<size_t>(bytes.size(), random() % 40));

@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Whatever was done to a session, after reset() it goes on as one that was just made: state, measurements, forces and
-// skin are the same to the bit.
+// After reset() a session behaves as a new one, whatever was done to it: state, measurements, forces and surface meshes
+// are the same to the bit.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -17,9 +17,9 @@ namespace {
 
 using namespace test;
 
-constexpr int kAfterTicks = 12;  ///< after the reset; the first ones show what was left behind
+constexpr int kAfterTicks = 12;  ///< after the reset; the first ones show any remaining state
 
-/// What a session is put through, and what must have happened by then for that to be worth anything.
+/// What is done to a session, and what must have happened by then for the test to be meaningful.
 struct Disturbance {
   std::string name;
   std::function<Scene()> scene = blockScene;
@@ -41,25 +41,25 @@ bool holds(const Frame& last, const Session&) {
   return last.stats.grabbed[0] > 0;
 }
 bool tripped(const Frame&, const Session& session) {
-  return session.extremes().governor_trips > 0;
+  return session.extremes().roll_backs > 0;
 }
 
 constexpr int kPauseTicks = 3;
 
-/// Cuts, then pushes one side of the wound into the other.
+/// Returns a stroke that cuts, then pushes one side of the wound into the other.
 StylusSamples cutAndClose(int tick) {
   if (tick <= kCutTicks) return cut(tick);
-  if (tick < kCutTicks + kPauseTicks) return {};  // or the hand would be held back on its way over
+  if (tick < kCutTicks + kPauseTicks) return {};  // or the stylus would be speed-limited on its way over
   const double share = std::min(1.0, (tick - kCutTicks - kPauseTicks) / 12.0);
   return leftAt({0, 0.034 - 0.02 * share, 0.01});
 }
 
-/// Takes hold of the top and swings it about; still holds it at the end.
+/// Returns a stroke that takes hold of the top and swings it about; it still holds it at the end.
 StylusSamples swing(int tick) {
   return leftAt({0.004 * std::sin(0.7 * tick), 0.002 * tick / 10.0, kHalfM + 0.0004 * tick}, true);
 }
 
-/// Swings, and then for a tick is nowhere.
+/// Returns the same, with a non-finite pose for a tick.
 StylusSamples swingToNoPlace(int tick) {
   StylusSamples samples = swing(tick);
   if (tick == 12) samples[0].pose.position_m.x() = std::numeric_limits<double>::quiet_NaN();
@@ -71,7 +71,7 @@ StylusSamples cutAndTrip(int tick) {
   return swingToNoPlace(tick - kCutTicks - kPauseTicks);
 }
 
-/// Holds with one hand, presses and cuts with the other.
+/// Returns a stroke that holds with one stylus, presses and cuts with the other.
 StylusSamples bothHands(int tick) {
   StylusSamples samples = swing(tick);
   samples[1] = cutAndClose(tick)[0];
@@ -82,7 +82,7 @@ StylusSamples noHands(int /*tick*/) {
   return {};
 }
 
-/// Software takes its time: coarse where the search for contacts goes with it.
+/// Returns a coarse block, as the search for contacts is slow in software.
 Scene coarseBlock() {
   Scene scene = blockScene();
   scene.bodies[0].spacing_m = 0.01;
@@ -94,7 +94,7 @@ Scene withCollisions(Scene scene) {
   return scene;
 }
 
-/// Two blocks that a force drives into each other.
+/// Returns two blocks that a force drives into each other.
 Scene meetingBlocks() {
   Scene scene = withCollisions(coarseBlock());
   scene.bodies.push_back(scene.bodies[0]);
@@ -119,7 +119,7 @@ Scene withPlough() {
   return scene;
 }
 
-/// A cloth in gusts, held at two corners, over a block.
+/// Returns a cloth in gusts, fixed at two corners, over a block.
 Scene clothScene(Structure structure = Structure::kSurface) {
   Scene scene = withCollisions(coarseBlock());
   scene.solver.tick_hz = 240;  // light cloth has short substeps
@@ -143,7 +143,7 @@ Scene clothScene(Structure structure = Structure::kSurface) {
   return scene;
 }
 
-/// Where leapfrog steps it, of nearly incompressible tissue.
+/// Returns a block; with leapfrog, of nearly incompressible tissue.
 Scene blockOf(Integrator integrator) {
   Scene scene = blockScene();
   if (integrator == Integrator::kLeapfrog) scene.bodies[0].material.poisson_ratio = 0.4;
@@ -268,7 +268,7 @@ std::vector<Disturbance> allDisturbances() {
   return out;
 }
 
-/// What there is to tell two sessions apart by.
+/// Everything by which two sessions can be distinguished.
 struct Trace {
   std::vector<uint64_t> hashes;  ///< [ticks]
   std::vector<layout::TickStats> stats;
@@ -283,7 +283,7 @@ StylusSamples afterwards(int tick) {
 Trace traceOf(Session& session, const Disturbance& it) {
   Trace out;
   for (int t = 1; t <= kAfterTicks; ++t) {
-    it.before(session, kAfterTicks);  // frames are where they are, whatever is reset
+    it.before(session, kAfterTicks);  // frames stay where they are at a reset
     session.step(afterwards(t), {});
     const Frame frame = session.drain();
     out.hashes.push_back(session.stateHash());
@@ -338,7 +338,7 @@ TEST_P(ResetAfter, GoesOnAsANewSession) {
   const auto session = make();
   it.before(*session, kAfterTicks);
   const Trace fresh = traceOf(*session, it);
-  session->step({}, {});  // the hand is gone, or it would come back within tissue
+  session->step({}, {});  // the stylus is absent, or it would come back within tissue
   session->reset();
   Frame last;
   for (int t = 1; t <= it.ticks; ++t) {

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A session that goes on from a saved one ends as the one that was never stopped: to the bit, whatever was going on.
+// A session resumed from a saved one ends as the one that was never stopped: to the bit, whatever was going on.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -31,17 +31,17 @@ class Saved : public GpuTest, public ::testing::WithParamInterface<std::tuple<St
     Scene scene = blockScene();
     scene.environment.gravity_m_per_s2 = Vector3d(0, 0, -9.81);
     scene.solver.integrator = std::get<0>(GetParam()).integrator;
-    scene.solver.iterations = 4;  // of pd: what it keeps does not depend on how many there are
+    scene.solver.iterations = 4;  // of pd: the saved data do not depend on their number
     scene.solver.backend = std::get<1>(GetParam());
     scene.styluses[1].button1 = ToolMode::kGrab;
     return scene;
   }
-  /// The GPU's share their context; those of the processor, whose views would keep it, need none.
+  /// Makes a session. Those on the GPU share their context; those on the CPU need none, and their views would keep it.
   Session made(const Scene& scene) {
     if (scene.solver.backend == Backend::kCpu) return Session(scene);
     return {scene, context_};
   }
-  /// Saves after one tick and goes on; another session resumes there. Both must end alike.
+  /// Saves after one tick and continues; another session resumes there. Both must end in the same state.
   void expectSameEnd(const Scene& scene, const StrokesByTick& strokes, int saved_after, int ticks) {
     const std::string file = folder_.file("state");
     Session unbroken = made(scene);
@@ -51,7 +51,7 @@ class Saved : public GpuTest, public ::testing::WithParamInterface<std::tuple<St
     for (int t = 1; t <= saved_after; ++t) stopped.step(strokes(t), {});
     stopped.save(file);
     const uint64_t saved_hash = stopped.stateHash();
-    Session& resumed = unbroken;  // restoring does not ask what was before
+    Session& resumed = unbroken;  // restoring does not depend on the previous state
     resumed.restore(file);
     EXPECT_EQ(resumed.tick(), static_cast<uint64_t>(saved_after));
     EXPECT_EQ(resumed.stateHash(), saved_hash);
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(All, Saved,
                                   (std::get<1>(info.param) == Backend::kCpu ? "_cpu" : "_gpu");
                          });
 
-/// Cuts, and pulls the cut edge with the other hand; both go on through it all.
+/// Returns a stroke that cuts, and pulls the cut edge with the other stylus; both continue throughout.
 StylusSamples cutAndPull(int tick) {
   StylusSamples samples = tick <= kCutTicks ? cut(tick) : press(tick - kCutTicks);
   if (tick > 2) samples[1] = {true, {{0.012, 0.006, kHalfM + 0.0004 * (tick - 2)}, Quaterniond::Identity()}, true};
@@ -96,7 +96,7 @@ TEST_P(Saved, GoesOnToTheSameEndWhileCutTissueIsPushedAndPulled) {
 }
 
 TEST_P(Saved, GoesOnToTheSameEndAmongMovingThings) {
-  if (std::get<0>(GetParam()).integrator == Integrator::kVerletPaper) GTEST_SKIP() << "knows no surroundings";
+  if (std::get<0>(GetParam()).integrator == Integrator::kVerletPaper) GTEST_SKIP() << "knows no environment";
   Scene scene = Saved::scene();
   ObstacleConfig ball;
   ball.name = "ball";
@@ -111,17 +111,17 @@ TEST_P(Saved, GoesOnToTheSameEndAmongMovingThings) {
   expectSameEnd(scene, cutAndPull, kCutTicks + 3, 2 * kCutTicks);
 }
 
-/// Bricks that sleep, of tissue that nothing touches any more.
+/// Sleeping bricks, of tissue that nothing touches any more.
 TEST_P(Saved, GoesOnToTheSameEndWhenTissueFallsAsleep) {
   Scene scene = Saved::scene();
-  scene.bodies[0].material.dashpot_ratio = 0.5;
+  scene.bodies[0].material.stiffness_damping_ratio = 0.5;
   const StrokesByTick once = [](int tick) {
     return tick < 8 ? press(tick) : tick > 55 ? press(tick - 50) : StylusSamples{};
   };
   for (const int after : {20, 50}) expectSameEnd(scene, once, after, 62);
 }
 
-/// Files whose checksum is right though their bytes are not: whatever they hold, the session goes on.
+/// Files with a right checksum although their bytes are wrong: whatever they contain, the session continues.
 TEST_P(Saved, SpoiltBytesWithRightSumsAreRefusedOrGoOn) {
   constexpr int kMostSpoilt = 200;
   const auto& [steps, backend] = GetParam();

@@ -12,13 +12,13 @@ class ScissorsSession : public OnSceneBackend {
  protected:
   static Scene scissorsScene() {
     Scene out = scene();
-    out.bodies[0].spacing_m = 0.005;  // half of what the blades reach
+    out.bodies[0].spacing_m = 0.005;  // half of the blades' reach
     out.styluses[0].idle = ToolMode::kNone;
     out.styluses[0].button1 = ToolMode::kScissors;
     out.styluses[0].scissors.closing_s = 0.1;  // six ticks
     return out;
   }
-  /// From above into the block, in a plane between nodes.
+  /// Returns scissors from above in the block, in a plane between nodes.
   static StylusSamples at(double x_m, bool closes) { return leftAt({x_m, 0.001, kHalfM - 0.008}, closes); }
 };
 

@@ -15,12 +15,11 @@ namespace {
 
 using namespace test;
 
-constexpr double kRestM = 1e-6;  ///< mapping positions of a few centimetres in single precision
-constexpr double kFollowM =
-    1e-5;  ///< a held node is where the stylus is; the skin above it is bound to its neighbours too
-constexpr double kSessionForceN = 0.1;  ///< well below what millimetres of tissue of 20 kPa give, well above rounding
-constexpr double kDentM = 0.003;        ///< half of what the probe goes deep
-constexpr double kAside = 0.05;         ///< of a force on a block that is the same on all sides
+constexpr double kRestM = 1e-6;         ///< mapping positions of a few centimetres in single precision
+constexpr double kFollowM = 1e-5;       ///< a held node is at the stylus; the surface is bound to its neighbours too
+constexpr double kSessionForceN = 0.1;  ///< well below the force of millimetres of tissue of 20 kPa, above rounding
+constexpr double kDentM = 0.003;        ///< half of the probe's depth
+constexpr double kAside = 0.05;         ///< of a force on a block that is symmetric
 
 /// On every backend, by name.
 class SessionTest : public OnSceneBackend {
@@ -32,7 +31,7 @@ using SessionWithTools = SessionTest;
 VISCERA_ON_EVERY_BACKEND(SessionTest);
 VISCERA_ON_EVERY_BACKEND(SessionWithTools);
 
-/// Height of the skin's vertex that lies nearest to a point at rest.
+/// Returns the height of the vertex of the surface mesh nearest to a point at rest.
 float heightAt(const SurfaceFrame& surface, const std::vector<float>& rest_m, const Vector3f& point_m) {
   size_t nearest = 0;
   float distance = std::numeric_limits<float>::max();
@@ -63,7 +62,7 @@ TEST_P(SessionWithTools, ProbeDentsTheTissueAndIsPushedBackOut) {
   const std::vector<float> rest_m = restPositions(session_);
   const SurfaceFrame surface = surfaceAfter(session_, press(kPressTicks));
   EXPECT_LT(heightAt(surface, rest_m, {0, 0, kHalfM}), kHalfM - kDentM);
-  EXPECT_NEAR(heightAt(surface, rest_m, {0, 0, -kHalfM}), -kHalfM, kRestM);  // held
+  EXPECT_NEAR(heightAt(surface, rest_m, {0, 0, -kHalfM}), -kHalfM, kRestM);  // fixed
 }
 
 TEST_P(SessionWithTools, GrabbedTissueFollowsThePullAndPullsBack) {
@@ -75,7 +74,7 @@ TEST_P(SessionWithTools, GrabbedTissueFollowsThePullAndPullsBack) {
   const std::vector<float> rest_m = restPositions(session_);
   EXPECT_NEAR(heightAt(surfaceAfter(session_, pull(20)), rest_m, {0, 0, kHalfM}), kHalfM + 0.0095, kFollowM);
   session_.step({}, {});
-  EXPECT_EQ(session_.drain().stats.grabbed[0], 0u);  // a lost stylus lets go
+  EXPECT_EQ(session_.drain().stats.grabbed[0], 0u);  // a lost stylus releases
 }
 
 TEST_P(SessionWithTools, CutSeversSpringsAndOpensTheSkin) {
@@ -85,7 +84,7 @@ TEST_P(SessionWithTools, CutSeversSpringsAndOpensTheSkin) {
   EXPECT_GT(after.stats.springs_cut, 0u);
   EXPECT_LT(after.stats.springs_cut, session_.model().springs());
   const size_t all = session_.wholeSkin()->triangleCount(), shown = surface.topology->triangleCount();
-  EXPECT_GT(shown, all);  // lips are split, and walls are there
+  EXPECT_GT(shown, all);  // lips are split, and there are walls
   EXPECT_LT(shown, 2 * all);
   EXPECT_NE(surface.topology->revision, session_.wholeSkin()->revision);
   EXPECT_EQ(after.stats.nonfinite, 0u);
@@ -103,7 +102,7 @@ TEST_P(SessionWithTools, ResetRestoresEverything) {
   EXPECT_EQ(session_.extremes().peak_force_n, 0);
   EXPECT_FALSE(session_.drain().has_stats);
 
-  play(session_, cut, kCutTicks);  // at once: no tool may remember where it was
+  play(session_, cut, kCutTicks);  // at once: no tool may remember its position
   play(session_, press, kPressTicks);
   EXPECT_EQ(session_.stateHash(), first);
 
@@ -121,7 +120,7 @@ TEST_P(SessionTest, TissueThatNothingActsOnStaysAtRest) {
   EXPECT_LT(largestMove(surface, restPositions(session_)), kRestM);
 }
 
-/// The force on the stylus changes slowly.
+/// Returns a scene in which the rate of the force on the stylus is limited.
 Scene slowForce() {
   Scene scene = blockScene();
   scene.styluses[0].max_force_rate_n_per_s = 2;
@@ -142,7 +141,7 @@ TEST_P(SessionWithSlowForce, LostStylusHasNoForceAtOnceAllTheSame) {
   EXPECT_EQ(lost.reactions[0].torque_nm, Vector3d::Zero());
 }
 
-/// Two blocks side by side; the right one is pressed.
+/// Returns two adjacent blocks; the right one is pressed.
 Scene twoBlocks() {
   Scene scene = blockScene();
   scene.bodies.push_back(scene.bodies[0]);
@@ -174,7 +173,7 @@ TEST_P(SessionTest, RunsOnTheBackendThatTheSceneAsksFor) {
   EXPECT_EQ(session_.solver().onHost(), GetParam() == Backend::kCpu);
 }
 
-/// Where a software rasteriser runs the compute shaders, the processor does the same faster by itself.
+/// Where a software rasteriser runs the compute shaders, the CPU backend does the same faster.
 TEST_F(GpuTest, AutoTakesTheGpuWhereThereIsOneAndElseTheCpu) {
   const Session session(blockScene(), context_);
   ASSERT_EQ(blockScene().solver.backend, Backend::kAuto);

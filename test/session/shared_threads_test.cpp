@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Many sessions in one process, without OpenGL, on threads that they share.
+// Many sessions in one process, without OpenGL, on shared threads.
 #include <gtest/gtest.h>
 
 #include <thread>
@@ -15,7 +15,7 @@ using namespace test;
 
 constexpr int kSessions = 10, kThreads = 2, kTicks = 20;
 
-/// No two alike.
+/// Returns scenes that all differ.
 Scene sceneOf(int which) {
   Scene scene = blockScene();
   scene.cameras.clear();

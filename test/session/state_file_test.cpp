@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of saved states: every bit counts, and a writer that is killed leaves the old one or the new one.
+// Files of saved states: every bit is checked, and a killed writer leaves the old file or the new one.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -22,7 +22,7 @@ std::vector<Archive::Section> someSections(size_t bytes, char content) {
   return {{"scene", std::vector<char>(100, content)}, {"nodes", std::vector<char>(bytes, content)}, {"hands", {}}};
 }
 
-/// What writers left that were killed, or have not ended yet.
+/// Returns the drafts left by writers that were killed or have not finished.
 std::vector<std::string> draftsIn(const std::string& folder) {
   std::vector<std::string> out;
   for (const auto& file : std::filesystem::directory_iterator(folder))
@@ -115,7 +115,7 @@ TEST(StateFile, CannotBeWrittenWhereThereIsNoFolder) {
   EXPECT_THROW(writeStateFile(folder.file("none/state"), someSections(10, 'd')), Error);
 }
 
-/// Writes one after the other until it is killed.
+/// Writes one file after the other until it is killed.
 [[noreturn]] void writeForEver(const std::string& path, size_t bytes) {
   for (char content = 'a';; content = content == 'z' ? 'a' : static_cast<char>(content + 1))
     writeStateFile(path, someSections(bytes, content));
@@ -123,14 +123,14 @@ TEST(StateFile, CannotBeWrittenWhereThereIsNoFolder) {
 
 TEST(StateFile, AKilledWriterLeavesAWholeFile) {
   constexpr size_t kBytes = 4000000;
-  constexpr int kRounds = 25, kLongest_us = 2000;  // from the begin of a file, whose bytes take about as long
+  constexpr int kRounds = 25, kLongest_us = 2000;  // from the beginning of a file, which takes about as long to write
   const TemporaryFolder folder;
   const std::string path = folder.file("state");
   writeStateFile(path, someSections(kBytes, '-'));
   std::mt19937 random(11);
   int cut_short = 0;
   for (int round = 0; round < kRounds; ++round) {
-    for (const std::string& draft : draftsIn(folder.path())) std::filesystem::remove(draft);  // of the writer before
+    for (const std::string& draft : draftsIn(folder.path())) std::filesystem::remove(draft);  // of the previous writer
     const pid_t child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) writeForEver(path, kBytes);
@@ -146,7 +146,7 @@ TEST(StateFile, AKilledWriterLeavesAWholeFile) {
   EXPECT_GT(cut_short, 0) << "no writer was killed while it wrote";
 }
 
-/// What has less or more than was asked for is another state's.
+/// A section with fewer or more data than requested belongs to another state.
 TEST(Archive, RefusesWhatDoesNotFit) {
   Archive out;
   out.section("a");

@@ -25,7 +25,7 @@ namespace {
 using namespace test;
 using std::chrono::milliseconds;
 
-/// Tissue on the host that sways: its state follows from the number of ticks, and costs nothing.
+/// Tissue on the host that oscillates: its state follows from the number of ticks, and costs nothing.
 class SwayingTissue : public Solver {
  public:
   explicit SwayingTissue(const Model& model) : model_(model), state_(restState(model)) {}
@@ -77,7 +77,7 @@ class SwayingTissue : public Solver {
 
   bool still = false;
   bool broken = false;        ///< snapshots have more nodes than the model
-  mutable int snapshots = 0;  ///< how many were taken
+  mutable int snapshots = 0;  ///< number of snapshots taken
 
  private:
   const Model& model_;
@@ -98,20 +98,20 @@ class ThreadedViewTest : public GpuTest {
   explicit ThreadedViewTest(const Scene& threadedViewScene = viscera::threadedViewScene())
       : scene_(threadedViewScene), model_(buildModel(threadedViewScene)) {}
 
-  /// A tick, with a probe that wanders above the tissue.
-  Look lookAfterStep(const Wants& wants) {
-    Look look;
-    look.tick = ++tick_;
-    look.wants = wants;
-    look.motions[0].mode = ToolMode::kProbe;
-    look.motions[0].present = true;
-    look.motions[0].to.position_m = Vector3d(0.0005 * static_cast<double>(tick_), 0, kHalfM + kProbeRadiusM);
-    tissue_.step(look.motions, {});
-    return look;
+  /// Makes a tick, with a probe that wanders above the tissue.
+  RenderRequest lookAfterStep(const FrameRequest& wants) {
+    RenderRequest request;
+    request.tick = ++tick_;
+    request.wants = wants;
+    request.motions[0].mode = ToolMode::kProbe;
+    request.motions[0].present = true;
+    request.motions[0].to.position_m = Vector3d(0.0005 * static_cast<double>(tick_), 0, kHalfM + kProbeRadiusM);
+    tissue_.step(request.motions, {});
+    return request;
   }
-  Pictures show(View& view, const Look& look) {
+  Pictures show(View& view, const RenderRequest& request) {
     Pictures out;
-    view.capture(tissue_, look, out);
+    view.capture(tissue_, request, out);
     view.collect(out, true);
     return out;
   }
@@ -122,7 +122,7 @@ class ThreadedViewTest : public GpuTest {
   uint64_t tick_ = 0;
 };
 
-Wants threadedViewEverything() {
+FrameRequest threadedViewEverything() {
   return {true, {true, true}, false};
 }
 
@@ -140,7 +140,7 @@ void expectSame(const Pictures& a, const Pictures& b) {
   }
 }
 
-/// Buffers that hold a state as a solver on the GPU would: what moved is unknown.
+/// Buffers that hold a state as a solver on the GPU would: it is unknown what moved.
 struct GpuState {
   explicit GpuState(const Model& model)
       : displacement(model.slots()), nodes(model.slots()), bricks(allBricks(model)), bodies(bodyParams(model, 0)) {}
@@ -164,7 +164,7 @@ struct GpuState {
 TEST_F(ThreadedViewTest, ShowsToTheBitWhatAViewOnTheSteppersThreadShows) {
   constexpr int kTicks = 12, kCutTick = 5, kStillTick = 9;
   struct Shown {
-    Look look;
+    RenderRequest request;
     HostState state;
     uint64_t cut_revision;
     Pictures pictures;
@@ -175,32 +175,32 @@ TEST_F(ThreadedViewTest, ShowsToTheBitWhatAViewOnTheSteppersThreadShows) {
     for (int t = 1; t <= kTicks; ++t) {
       if (t == kCutTick) tissue_.cut();
       tissue_.still = t >= kStillTick;
-      const Look look = lookAfterStep(threadedViewEverything());
-      Pictures pictures = show(view, look);
-      shown.push_back({look, tissue_.readState(), t >= kCutTick ? 1u : 0u, std::move(pictures)});
+      const RenderRequest request = lookAfterStep(threadedViewEverything());
+      Pictures pictures = show(view, request);
+      shown.push_back({request, tissue_.readState(), t >= kCutTick ? 1u : 0u, std::move(pictures)});
     }
   }
-  InlineView view(model_, scene_);  // the context is this thread's again
+  InlineView view(model_, scene_);  // the context belongs to this thread again
   GpuState gpu(model_);
   for (const Shown& s : shown) {
     Pictures pictures;
     view.wound(s.state, s.cut_revision);
-    view.capture(gpu.view(s.state, s.cut_revision), s.look, pictures);
+    view.capture(gpu.view(s.state, s.cut_revision), s.request, pictures);
     view.collect(pictures, true);
     expectSame(s.pictures, pictures);
-    ASSERT_FALSE(HasFailure()) << "tick " << s.look.tick;
+    ASSERT_FALSE(HasFailure()) << "tick " << s.request.tick;
   }
   EXPECT_NE(shown[1].pictures.images[0].rgb, shown[2].pictures.images[0].rgb);
 }
 
-/// A large picture is being drawn; surfaces of later ticks are there before it, and are those that an idle view shows.
+/// While a large image is drawn, surfaces of later ticks arrive before it, and equal those of an idle view.
 TEST_F(ThreadedViewTest, SurfacesDoNotWaitForImages) {
-  if (!context_.isSoftware()) return;  // a GPU may draw any picture in the time of a tick
+  if (!context_.isSoftware()) return;  // a GPU may draw any image in the time of a tick
   scene_.cameras.resize(1);
   scene_.cameras[0].width_px = scene_.cameras[0].height_px = 1400;
   scene_.cameras[0].position_m = Vector3d(0, -3 * kHalfM, 0);  // the block fills it
   ThreadedView view(model_, scene_, context_);
-  show(view, lookAfterStep({true, {true}, false}));  // drivers compile shaders at the first picture
+  show(view, lookAfterStep({true, {true}, false}));  // drivers compile shaders at the first image
   Pictures out;
   view.capture(tissue_, lookAfterStep({false, {true}, false}), out);
   const uint64_t image_tick = tick_;
@@ -236,13 +236,13 @@ TEST_F(ThreadedViewTest, WithoutViewersNothingIsCopied) {
 
 TEST_F(ThreadedViewTest, ImageIsNotDrawnAgainWhileNothingChanges) {
   ThreadedView view(model_, scene_, context_);
-  Look look = lookAfterStep({false, {true, true}});
-  const Pictures first = show(view, look);
+  RenderRequest request = lookAfterStep({false, {true, true}});
+  const Pictures first = show(view, request);
   ASSERT_EQ(first.images.size(), 2u);
   EXPECT_EQ(view.counters().renders, 2u);
   tissue_.still = true;
-  look.tick = 2;
-  const Pictures second = show(view, look);
+  request.tick = 2;
+  const Pictures second = show(view, request);
   ASSERT_EQ(second.images.size(), 2u);
   EXPECT_EQ(second.images[1].tick, 2u);
   for (size_t c = 0; c < 2; ++c) EXPECT_EQ(second.images[c].rgb, first.images[c].rgb) << c;
@@ -253,32 +253,32 @@ TEST_F(ThreadedViewTest, ImageIsNotDrawnAgainWhileNothingChanges) {
 
 TEST_F(ThreadedViewTest, ImageIsDrawnAgainWhenToolsSpringsOrNodesChange) {
   ThreadedView view(model_, scene_, context_);
-  const Wants wants = {false, {true}, false};
-  Look look = lookAfterStep(wants);
-  std::vector<uint8_t> last = show(view, look).images.at(0).rgb;
+  const FrameRequest wants = {false, {true}, false};
+  RenderRequest request = lookAfterStep(wants);
+  std::vector<uint8_t> last = show(view, request).images.at(0).rgb;
   const auto expectAnother = [&](const char* what) {
-    const std::vector<uint8_t> now = show(view, look).images.at(0).rgb;
+    const std::vector<uint8_t> now = show(view, request).images.at(0).rgb;
     EXPECT_NE(now, last) << what;
     last = now;
   };
-  look.motions[0].to.position_m.x() += 0.01;
+  request.motions[0].to.position_m.x() += 0.01;
   expectAnother("a tool is elsewhere");
-  look.motions[0].mode = ToolMode::kCut;
+  request.motions[0].mode = ToolMode::kCut;
   expectAnother("a tool does something else");
-  look.motions[0].to.orientation = rotationFromDegrees({0, 40, 0});
+  request.motions[0].to.orientation = rotationFromDegrees({0, 40, 0});
   expectAnother("a tool is turned");
-  look.motions[0].present = false;
+  request.motions[0].present = false;
   expectAnother("a tool is gone");
   tissue_.cut();
   expectAnother("springs are cut");
-  look = lookAfterStep(wants);
+  request = lookAfterStep(wants);
   expectAnother("nodes have moved and a tool is there");
   EXPECT_EQ(view.counters().repeats, 0u);
 }
 
 TEST_F(ThreadedViewTest, EveryImageThatMustComeComesInOrder) {
   ThreadedView view(model_, scene_, context_);
-  Wants wants = {false, {true, true}, true};
+  FrameRequest wants = {false, {true, true}, true};
   Pictures all;
   constexpr size_t kTicks = 30;
   for (size_t t = 0; t < kTicks; ++t) {
@@ -307,7 +307,7 @@ TEST_F(ThreadedViewTest, ResetMakesWoundedSkinWhole) {
   EXPECT_EQ(added(), 0u);
 }
 
-/// Threads of this process by how much they give way [nice].
+/// Returns the niceness of the threads of this process.
 std::map<std::string, int> niceOfThreads() {
   std::map<std::string, int> out;
   for (const auto& entry : std::filesystem::directory_iterator("/proc/self/task")) {
@@ -329,7 +329,7 @@ TEST_F(ThreadedViewTest, DrawingGivesWayToStepping) {
     behind += nice > own ? 1 : 0;
     EXPECT_TRUE(nice > own || thread.rfind("llvmpipe-", 0) != 0) << thread;
   }
-  EXPECT_GE(behind, 1);  // the view's own, whatever draws
+  EXPECT_GE(behind, 1);  // the view's own thread, and those that draw for it
 }
 
 TEST_F(ThreadedViewTest, ShowingMakesNoOpenGlObject) {
@@ -344,7 +344,7 @@ TEST_F(ThreadedViewTest, WhatGoesWrongOnItsThreadIsThrownToTheStepperFromThenOn)
   ThreadedView view(model_, scene_, context_);
   show(view, lookAfterStep(threadedViewEverything()));
   tissue_.broken = true;
-  tissue_.cut();  // so that nodes are uploaded
+  tissue_.cut();  // so nodes are uploaded
   EXPECT_THROW(show(view, lookAfterStep(threadedViewEverything())), GpuError);
   EXPECT_THROW(show(view, lookAfterStep(threadedViewEverything())), GpuError);
   EXPECT_THROW(view.reset(), GpuError);
@@ -358,7 +358,7 @@ TEST_F(ThreadedViewTest, SceneThatCannotBeSeenIsRefusedAndTheContextComesBack) {
   EXPECT_NO_THROW(gpu::checkErrors("after the refusal"));
 }
 
-/// An image that takes a software rasteriser many ticks.
+/// Returns a scene with an image that takes a software rasteriser many ticks.
 Scene slowScene() {
   Scene threadedViewScene = blockScene();
   threadedViewScene.cameras[0].width_px = 1920;
@@ -370,8 +370,8 @@ class SlowView : public ThreadedViewTest {
  protected:
   SlowView() : ThreadedViewTest(slowScene()) {}
 
-  /// Ticks of a millisecond that leave the processor to what draws. @returns how long they took [s]
-  double timeTicks(View& view, int ticks, const Wants& wants) {
+  /// Makes ticks of a millisecond that leave the processor to drawing. @returns their duration [s]
+  double timeTicks(View& view, int ticks, const FrameRequest& wants) {
     const auto begun = std::chrono::steady_clock::now();
     for (int t = 0; t < ticks; ++t) {
       Pictures out;
@@ -415,7 +415,8 @@ TEST_F(SlowView, WantsThatAreOvertakenAreMetByTheNewerState) {
   std::this_thread::sleep_for(milliseconds(2));
   constexpr int kTicks = 4;
   for (int t = 0; t < kTicks; ++t) {
-    view.capture(tissue_, lookAfterStep(t % 2 ? Wants{true, {}, false} : Wants{false, {true}, false}), out);
+    view.capture(tissue_, lookAfterStep(t % 2 ? FrameRequest{true, {}, false} : FrameRequest{false, {true}, false}),
+                 out);
   }
   view.collect(out, true);
   ASSERT_TRUE(out.surface);

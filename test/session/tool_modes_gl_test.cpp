@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What styluses do is changed while the simulation runs: it acts at once, holds end, runs repeat to the bit.
+// Tool modes changed during the simulation: the change acts at once, holds end, runs repeat to the bit.
 #include <gtest/gtest.h>
 
 #include "session/on_backends.h"
@@ -23,7 +23,7 @@ class ToolModes : public OnSceneBackend {
     }
     return scene;
   }
-  /// At the top of the block, button 1 down, drawn upwards.
+  /// Returns a stylus at the top of the block, button 1 down, drawn upwards.
   static StylusSamples pull(int tick) { return leftAt({0, 0, kHalfM + 0.001 * tick}, true); }
 };
 VISCERA_ON_EVERY_BACKEND(ToolModes);
@@ -48,7 +48,7 @@ TEST_P(ToolModes, CutsOnlyWhereTheSceneWasMadeForThem) {
     session.setToolMode(0, ToolSwitch::kButton2, ToolMode::kNone);
     play(session, cut, kCutTicks);
     EXPECT_EQ(session.drain().stats.springs_cut, 0u);
-    session.forgetHands();
+    session.resetInput();
     session.setToolMode(0, ToolSwitch::kButton2, ToolMode::kCutParticles);
     play(session, cut, kCutTicks);
     EXPECT_GT(session.drain().stats.springs_cut, 0u);

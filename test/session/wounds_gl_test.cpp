@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Wounds that tools cut in sessions, on every backend (docs/wounds.md).
+// Wounds that tools cut in sessions, on every backend (docs/surface.md).
 #include <gtest/gtest.h>
 
 #include <array>
@@ -17,13 +17,12 @@ namespace {
 
 using namespace test;
 
-constexpr double kVolume = 1e-3;  // share, of a body that the blade has passed and that springs back to rest
-constexpr float kAlikeM =
-    2e-5f;  // between backends after some hundred substeps in float32, of vertices of a block of 4 cm
-/// Share of the words of triangles in which a card may differ: it fuses multiplications and additions otherwise, so
-/// that where the blade's way touches an edge it may decide otherwise.
+constexpr double kVolume = 1e-3;  // share of a body that the blade has passed and that springs back to rest
+constexpr float kAlikeM = 2e-5f;  // between backends after some hundred substeps, of vertices of a block of 4 cm
+/// Share of the vertex indices of triangles in which a GPU may differ: it fuses multiplications and additions
+/// differently, so it may decide otherwise where the blade's path touches an edge.
 constexpr double kTies = 0.05;
-constexpr int kRestTicks = 30;  // after which the block lies still
+constexpr int kRestTicks = 30;  // after which the block is at rest
 
 Scene cutScene(Backend backend, Structure structure) {
   Scene scene = blockScene();
@@ -40,8 +39,8 @@ SurfaceFrame cutOnce(Session& session) {
   return surfaceAfter(session, {});
 }
 
-/// Edges, welded by place, that have not one triangle on either hand.
-size_t openEdges(const ShownMesh& mesh) {
+/// Returns the number of edges, welded by position, without exactly one triangle on either side.
+size_t openEdges(const VisibleMesh& mesh) {
   using Point = std::array<float, 3>;
   std::map<std::pair<Point, Point>, int> balance;
   const auto at = [&](uint32_t v) {
@@ -59,7 +58,7 @@ size_t openEdges(const ShownMesh& mesh) {
   return open;
 }
 
-double volume(const ShownMesh& mesh) {
+double volume(const VisibleMesh& mesh) {
   double sum = 0;
   const std::vector<uint32_t>& triangles = mesh.topology->triangles;
   for (size_t t = 0; t < triangles.size(); t += 3) {
@@ -71,9 +70,9 @@ double volume(const ShownMesh& mesh) {
   return sum;
 }
 
-bool hasWalls(const ShownTopology& topology) {
-  for (const ShownPatch& patch : topology.patches) {
-    if (patch.kind == ShownKind::kWound && patch.count > 0) return true;
+bool hasWalls(const VisibleTopology& topology) {
+  for (const VisiblePatch& patch : topology.patches) {
+    if (patch.kind == SurfaceKind::kWound && patch.count > 0) return true;
   }
   return false;
 }
@@ -106,8 +105,8 @@ SurfaceFrame cutWithContext(Backend backend) {
   return cutOnce(session);
 }
 
-/// Of the words that say which vertices triangles have.
-size_t differing(const ShownMesh& a, const ShownMesh& b) {
+/// Returns the number of differing vertex indices of triangles.
+size_t differing(const VisibleMesh& a, const VisibleMesh& b) {
   const std::vector<uint32_t>&of_a = a.topology->triangles, &of_b = b.topology->triangles;
   size_t out = std::max(of_a.size(), of_b.size()) - std::min(of_a.size(), of_b.size());
   for (size_t i = 0; i < std::min(of_a.size(), of_b.size()); ++i) out += of_a[i] != of_b[i] ? 1 : 0;
@@ -136,7 +135,7 @@ TEST(WoundInALattice, MakesNoGpuObjectWhileThereIsRoom) {
   Session session(cutScene(Backend::kGpu, Structure::kLattice), context);
   (void)surfaceAfter(session, {});
   const uint64_t made = gpu::objectsCreated();
-  Wants wants;
+  FrameRequest wants;
   wants.surface = true;
   wants.cameras = {true};
   play(session, cut, kCutTicks, wants);

@@ -25,7 +25,7 @@ FeatureSet featuresOf(const Body& body, const SolverConfig& solver = {}, double 
 
 TEST(Features, PlainSceneAsksForNoneOfThem) {
   Body body = test::boxBody({1, 1, 1}, 0.01);
-  body.material.dashpot_ratio = 0;
+  body.material.stiffness_damping_ratio = 0;
   const FeatureSet features = featuresOf(body);
   for (const char* name : {"DASHPOT", "PREDICTED", "LAW", "NO_SPRINGS", "PARTS", "COMPENSATED"})
     EXPECT_FALSE(has(features, name)) << name;
@@ -34,7 +34,7 @@ TEST(Features, PlainSceneAsksForNoneOfThem) {
 
 TEST(Features, SpringsArePredictedWhereTheyHaveDashpotsAndThereAreSome) {
   Body body = test::boxBody({1, 1, 1}, 0.01);
-  body.material.dashpot_ratio = 0.2;
+  body.material.stiffness_damping_ratio = 0.2;
   body.material.law = Law::kSprings;
   EXPECT_TRUE(has(featuresOf(body), "PREDICTED"));
   body.material.law = Law::kNeoHookean;
@@ -68,7 +68,7 @@ TEST(Features, CompensationComesWithShortSubstepsOrWhenAskedFor) {
   SolverConfig asked;
   asked.compensated = true;
   EXPECT_TRUE(has(featuresOf(body, asked), "COMPENSATED"));
-  asked.integrator = Integrator::kPd;  // does not sum so
+  asked.integrator = Integrator::kPd;  // does not use compensated sums
   EXPECT_FALSE(has(featuresOf(body, asked), "COMPENSATED"));
 }
 

@@ -18,13 +18,13 @@ using namespace viscera::test;
 
 namespace {
 
-// Relative to the largest value: float32 rounds at 6e-8; a cell's forces are sums of some hundred products on the way.
+// Relative to the largest value: float32 rounds at 6e-8, and a cell's forces are sums of some hundred products.
 constexpr double kLawFloat32Displacement = 2e-6;
 constexpr double kLawFloat32Velocity = 1e-5;
 constexpr double kLawFloat32Energy = 2e-5;
 constexpr double kLawSpacing_m = 0.01;
 
-/// A ball off the lattice: full cells inside, all kinds of partial ones around.
+/// Returns a ball not aligned with the lattice: full cells inside, all kinds of partial ones around.
 Body lawBall(double nu = 0.3) {
   return ofLaw(momentBody({8, 8, 8}, kLawSpacing_m,
                           [](const Vector3d& p) { return (p - Vector3d(4.1, 3.8, 4.3)).norm() < 3.3; }),
@@ -35,7 +35,7 @@ Body lawBlock(const Vector3i& cells, double nu = 0.3) {
   return ofLaw(boxBody(cells, kLawSpacing_m), nu);
 }
 
-/// Each cell of a layer has 30 % of one part below and 70 % of another above.
+/// Gives each cell of a layer 30 % of one part below and 70 % of another above.
 void shareLayer(Body& body) {
   Lattice& lattice = body.lattice;
   lattice.part_names = {"wall", "valve"};
@@ -54,10 +54,10 @@ void shareLayer(Body& body) {
   }
 }
 
-/// The same with a stress at rest in each cell that is not balanced, and differs from cell to cell.
+/// Returns the body with a stress at rest in each cell that is not balanced and varies between cells.
 Body stressed(Body body) {
   std::mt19937 random(11);
-  std::uniform_real_distribution<float> stress(-0.3f, 0.6f);  // over mu, as strains of a third give
+  std::uniform_real_distribution<float> stress(-0.3f, 0.6f);  // over mu, as from strains of a third
   body.prestress.resize(body.lattice.nodes.size());
   for (std::array<float, 6>& cell : body.prestress)
     std::generate(cell.begin(), cell.end(), [&] { return stress(random); });
@@ -98,7 +98,7 @@ TEST_P(NeoHookean, PartialCellsMatchTheReferenceForAnyPoissonRatio) {
   }
 }
 
-/// Up to cells that are turned inside out.
+/// Up to inverted cells.
 TEST_P(NeoHookean, LargeStrainsMatchTheReference) {
   for (const double size : {0.2, 0.5, 0.9}) {
     SCOPED_TRACE(size);
@@ -107,7 +107,7 @@ TEST_P(NeoHookean, LargeStrainsMatchTheReference) {
   }
 }
 
-/// Squeezed along an axis, and mirrored; full cells and partial ones.
+/// Compressed along an axis, and mirrored; full cells and partial ones.
 TEST_P(NeoHookean, CrushedCellsMatchTheReference) {
   for (const Body& body : {lawBlock({4, 4, 4}), lawBall()}) {
     const Model model = modelOf({body});
@@ -130,7 +130,7 @@ TEST_P(NeoHookean, CrushedCellsMatchTheReference) {
   }
 }
 
-/// From strains at which it hardly shows to those beyond kMostExponent.
+/// From strains at which it hardly matters to those beyond kMostExponent.
 TEST_P(NeoHookean, StiffeningMatchesTheReference) {
   for (const double size : {0.05, 0.2, 0.5}) {
     SCOPED_TRACE(size);
@@ -160,9 +160,9 @@ TEST_P(NeoHookean, CellsThatPartsShareMatchTheReference) {
   }
 }
 
-/// The kernels take three steps of Newton's method for the jump between the layers, the reference as many as it needs.
+/// The kernels take three Newton steps for the jump between the layers, the reference as many as it needs.
 TEST_P(NeoHookean, LayersAtLargeStrainsMatchTheReference) {
-  // Of a state after one substep: what three steps leave of the jump is largest where cells are nearly flat.
+  // After one substep: the remaining error of the jump after three steps is largest where cells are nearly flat.
   constexpr double kJumpLeft = 1e-4;
   const Vector3d gravity(0.3, -0.2, -9.81);
   Body body = lawBall();
@@ -184,7 +184,7 @@ TEST_P(NeoHookean, BodiesOfBothLawsMatchTheReference) {
 
 TEST_P(NeoHookean, DampingMatchesTheReference) {
   Body body = lawBall();
-  body.material.dashpot_ratio = 0.2;
+  body.material.stiffness_damping_ratio = 0.2;
   expectLikeReference(body);
   expectLikeReference(body, 0.3 * kLawSpacing_m, 1);
 }
@@ -197,11 +197,11 @@ TEST_P(NeoHookean, StressAtRestMatchesTheReference) {
   }
 }
 
-/// Of a model, by a blade that sweeps half way through its ball.
+/// Compares a cut with the reference: the blade sweeps half way through the ball.
 void NeoHookean::expectCutLikeReference(const Body& body) {
   constexpr int kSubsteps = 10;
   Body ball = body;
-  ball.material.dashpot_ratio = 0.2;
+  ball.material.stiffness_damping_ratio = 0.2;
   const Model model = modelOf({ball});
   std::vector<StylusConfig> styluses(2);
   styluses[0].cut.blade_length_m = 0.2;
@@ -261,8 +261,8 @@ TEST_P(NeoHookean, TheirEnergyAndStiffeningAreMeasured) {
   }
 }
 
-/// Squeezed to a half along an axis, sides held: waves along it are 1/2 (1 + 1/J^2) of W'' and the isochoric part, by
-/// hand for nu = 0.3: K/mu = 13/6.
+/// Compressed to one half along an axis, sides fixed: waves along it have the modulus 1/2 (1 + 1/J^2) of W'' and the
+/// isochoric part, by hand for nu = 0.3: K/mu = 13/6.
 TEST_P(NeoHookean, StiffeningIsThatOfPlaneWaves) {
   const Model model = modelOf({lawBlock({4, 4, 4})});
   const auto solver = make(model, sceneFor(model, 1));
@@ -287,7 +287,7 @@ TEST_P(NeoHookean, NothingIsLeftOfForcesBeforeAStateWithCuts) {
   const Lattice& lattice = model.bodies[0].lattice;
   const Scene scene = sceneFor(model, 10);
   const HostState whole = randomState(model, 0.05 * kLawSpacing_m, 0.1, 3);
-  // Nodes at x = 4 begin a brick, and keep the springs to the one before them only.
+  // Nodes at x = 4 begin a brick, and keep only the springs to the nodes before them.
   HostState cut = randomState(model, 0.05 * kLawSpacing_m, 0.1, 4);
   for (const uint32_t slot : lattice.active_slots) {
     const int x = lattice.nodeAt(slot).x();

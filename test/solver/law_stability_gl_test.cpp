@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Cells of the neo-Hookean law from starts that no tissue survives: they come to rest right side out.
+// Cells of the neo-Hookean law from extreme initial states: they come to rest without inverted cells.
 #include <functional>
 
 #include "support/random_state.h"
@@ -17,7 +17,7 @@ constexpr int kSubstepsAtRest = 15;  ///< of a tick, as in a session with 4 mm a
 
 enum class Shape { kCell, kBlock, kBall, kThinPlate, kPlate, kBowl };
 
-/// Walls of 0.5, 1 and 0.8 cells that are askew to the lattice.
+/// Returns walls of 0.5, 1 and 0.8 cells that are oblique to the lattice.
 Body wallBody(Shape shape) {
   if (shape == Shape::kBowl)
     return momentBody({11, 10, 6}, kStartSpacing_m, [](const Vector3d& p) {
@@ -40,19 +40,19 @@ Body startBody(Shape shape, double nu) {
     body.material.walls = Walls::kRows;
   }
   body = ofLaw(body, nu);
-  body.material.dashpot_ratio = 0.2;
-  body.material.drag_per_s = 4;
+  body.material.stiffness_damping_ratio = 0.2;
+  body.material.mass_damping_per_s = 4;
   return body;
 }
 
 struct Ended {
   uint64_t trips;
-  double energy, largest;  ///< over that at the start: of strain at the end, of all at most
+  double energy, largest;  ///< over that at the start: strain energy at the end, and the largest total
   uint32_t inverted;
 };
-/// Of the energy at the start, after a second of drag 4/s and dashpots, or three of drag 200/s.
+/// Of the energy at the start, after a second with drag 4/s and dashpots, or three seconds with drag 200/s.
 constexpr double kAtRest = 1e-3;
-/// An explicit step keeps no energy exactly.
+/// An explicit step does not conserve energy exactly.
 constexpr double kGrows = 1.1;
 
 class LawStarts : public OnBackend {
@@ -70,7 +70,7 @@ class LawStarts : public OnBackend {
     const Model model = modelOf({body});
     Scene scene = sceneFor(model, kSubstepsAtRest);
     scene.solver.dt_fraction = SolverConfig{}.dt_fraction;
-    scene.solver.governor = true;
+    scene.solver.stability_monitor = true;
     scene.solver.tick_hz = 1 / (kSubstepsAtRest * 1.2 * safeTimeStep(model));
     const auto solver = make(model, scene);
     HostState start = restState(model);
@@ -108,7 +108,7 @@ TEST_P(LawStarts, RandomOnesComeToRest) {
           for (const uint32_t slot : lattice.active_slots)
             state.displacement_m[slot] = vec4(randomVector(random, 0.3 * kStartSpacing_m));
         });
-        // Slivers of cells may be so light that the governor takes them back.
+        // Slivers of cells may be so light that the stability monitor rolls them back.
         const bool may_trip = shape == Shape::kBall;
         EXPECT_TRUE(may_trip || ended.trips == 0) << ended.trips;
         expectAtRest(ended);
@@ -117,7 +117,7 @@ TEST_P(LawStarts, RandomOnesComeToRest) {
   }
 }
 
-/// Of two materials, 10 : 1, whose border runs askew through the cells.
+/// Of two materials, 10 : 1, with a border oblique to the cells.
 TEST_P(LawStarts, RandomOnesOfTwoMaterialsComeToRest) {
   for (const Shape shape : {Shape::kCell, Shape::kBlock, Shape::kBall}) {
     for (const double nu : {0.3, 0.45}) {
@@ -164,7 +164,7 @@ TEST_P(LawStarts, MirroredBlocksTurnBack) {
   for (const Shape shape : {Shape::kCell, Shape::kBlock}) {
     for (const double nu : {0.3, 0.45}) {
       Body body = startBody(shape, nu);
-      body.material.drag_per_s = 200;
+      body.material.mass_damping_per_s = 200;
       for (uint32_t seed = 0; seed < seeds(); ++seed) {
         SCOPED_TRACE(::testing::Message() << static_cast<int>(shape) << " nu " << nu << " seed " << seed);
         const Ended ended = run(body, 3.0, [&](const Lattice& lattice, HostState& state) {

@@ -13,7 +13,8 @@ using namespace viscera::test;
 
 namespace {
 
-// Relative to the largest value: float32 rounds at 6e-8 and some twenty roundings per substep add up over ten substeps.
+// Relative to the largest value: float32 rounds at 6e-8, and some twenty roundings per substep add up over ten
+// substeps.
 constexpr double kFloat32Displacement = 1e-6;
 constexpr double kFloat32Velocity = 5e-6;
 constexpr int kSubsteps = 10;
@@ -27,7 +28,7 @@ class Integrate : public OnBackend {
     expectSameTick(*solver, reference, randomState(model, 0.05 * model.bodies[0].lattice.spacing_m, 0.1, 7),
                    kFloat32Displacement, kFloat32Velocity);
   }
-  /// One substep from a state far from rest.
+  /// Makes one substep from a state far from rest and compares it with the reference.
   void expectSameSubstep(const Model& model, const HostState& start) {
     const auto solver = make(model, sceneFor(model, 1));
     solver->writeState(start);
@@ -48,7 +49,7 @@ TEST_P(Integrate, MatchesReferenceAtEverySize) {
   for (size_t size : kSizes) {
     SCOPED_TRACE(size);
     Body body = blobBody(size, 0.01, 3);
-    body.material.dashpot_ratio = 0;
+    body.material.stiffness_damping_ratio = 0;
     expectLikeReference(modelOf({body}), Vector3d(0.3, -0.2, -9.81));
   }
 }
@@ -57,24 +58,24 @@ TEST_P(Integrate, MatchesReferenceWithDashpotAndDrag) {
   for (size_t size : kSizes) {
     SCOPED_TRACE(size);
     Body body = blobBody(size, 0.01, 4);
-    body.material.dashpot_ratio = 0.2;
-    body.material.drag_per_s = 50;
+    body.material.stiffness_damping_ratio = 0.2;
+    body.material.mass_damping_per_s = 50;
     expectLikeReference(modelOf({body}), Vector3d::Zero());
   }
 }
 
-/// A free cell that breathes: by symmetry a mode of its own, u = e (x - middle). Its energy falls by tau omega^2 a
-/// second, tau of the dashpots: c = tau k.
+/// A free cell that breathes: by symmetry u = e (x - middle) is a mode. Its energy decreases by tau omega^2 per second,
+/// with tau of the dashpots: c = tau k.
 TEST_P(Integrate, ADashpotTakesFromAModeWhatItsFrequencySays) {
   constexpr int kTicks = 600;
   // The velocity is half a substep old, at most z/2 = 0.02 of the energy at either end, of which more than e^2 is lost.
   constexpr double kLogarithm = 0.04;
   Body body = boxBody({1, 1, 1}, 0.01);
-  body.material.drag_per_s = 0;
-  body.material.dashpot_ratio = 0.2;
+  body.material.mass_damping_per_s = 0;
+  body.material.stiffness_damping_ratio = 0.2;
   const Model model = modelOf({body});
   Scene scene = sceneFor(model, kSubsteps);
-  scene.solver.tick_hz *= 200;  // substeps so short that the time between them does not count
+  scene.solver.tick_hz *= 200;  // substeps so short that the time between them does not matter
   const auto solver = make(model, scene);
   HostState state = restState(model);
   const Vector3d middle = Vector3d::Constant(0.005) + body.lattice.origin_m;
@@ -94,15 +95,15 @@ TEST_P(Integrate, ADashpotTakesFromAModeWhatItsFrequencySays) {
   EXPECT_NEAR(std::log(before / reference.energy()) / lost, 1, kLogarithm);
 }
 
-/// Springs that pull where their ends will be are central there, not where they are: a free block that turns at omega
-/// loses tau omega^2 of its angular momentum a second. That is all that is lost, and of momentum nothing.
+/// Springs that act at the predicted positions of their ends are central there, not at the current ones. A free block
+/// that rotates at omega loses tau omega^2 of its angular momentum per second, and nothing else. Momentum is conserved.
 TEST_P(Integrate, PredictedSpringsKeepMomentumAndSlowATurnBySoMuch) {
   constexpr double kTurn_per_s = 10;
   constexpr int kTicks = 100;
   constexpr double kRounding = 1e-5;  // of float32 sums over the block
   Body body = boxBody({3, 4, 3}, 0.01);
-  body.material.drag_per_s = 0;
-  body.material.dashpot_ratio = 0.2;
+  body.material.mass_damping_per_s = 0;
+  body.material.stiffness_damping_ratio = 0.2;
   const Model model = modelOf({body});
   const auto solver = make(model, sceneFor(model, kSubsteps));
   ReferenceSolver reference(model, Vector3d::Zero(), solver->dt_s());
@@ -163,7 +164,7 @@ TEST_P(Integrate, MatchesReferenceWithPartsAndTheirInterface) {
   }
 }
 
-/// A body that moves without strain: u is a sum of equal increments and nothing else.
+/// A body that moves without strain: u is a sum of equal increments.
 TEST_P(Integrate, ShortSubstepsLoseNoDigitsOfU) {
   constexpr int kTicks = 20, kShortSubsteps = 250;
   // Two roundings of float32 in dt and in dt v, which every increment shares, and one of the sum. Without compensation
@@ -171,7 +172,7 @@ TEST_P(Integrate, ShortSubstepsLoseNoDigitsOfU) {
   constexpr double kSharedRoundings = 3.0 / (1 << 24);
   Body body = boxBody({2, 2, 2}, 0.01);
   body.material.young_modulus_pa = 50e6;
-  body.material.drag_per_s = 0;
+  body.material.mass_damping_per_s = 0;
   const Model model = modelOf({body});
   const auto solver = make(model, sceneFor(model, kShortSubsteps));
   ASSERT_LT(solver->dt_s(), kShortSubstep_s);

@@ -13,13 +13,13 @@ namespace {
 
 // Relative to the largest value.
 constexpr double kForce = 1e-6;
-/// OpenGL lets a division be off by 2.5 and a root by some 4 units in the last place (6e-8), and GPUs take some of
-/// that: an H200 was off by 1.2e-6 where long springs of a node of a random graph nearly cancel.
+/// OpenGL permits errors of 2.5 units in the last place (6e-8) for a division and some 4 for a root, and GPUs use part
+/// of that. An H200 was off by 1.2e-6 where long springs of a node of a random graph nearly cancel.
 constexpr double kForceOnGpus = 3e-6;
 constexpr double kDisplacement = 1e-6;    // as for lattices (leapfrog_gl_test.cpp): ten substeps of twenty roundings
-constexpr double kVelocity = 5e-6;        // likewise
+constexpr double kVelocity = 5e-6;        // as kDisplacement
 constexpr double kSum = 1e-6;             // |sum F| / sum |F|: roundings of single forces
-constexpr double kCompensatedSum = 5e-7;  // four roundings per substep that nothing sums up
+constexpr double kCompensatedSum = 5e-7;  // four roundings per substep without compensation
 constexpr int kNetworkForcesSubsteps = 10;
 
 class NetworkForces : public OnBackend {
@@ -55,7 +55,7 @@ TEST_P(NetworkForces, AreThoseOfTheReferenceOnRandomGraphsOfEverySize) {
   }
 }
 
-/// Springs at rest: nothing is left of a force but what 2 d.w + w.w gives, whose rounding is that of w.
+/// Springs at rest: a force consists of 2 d.w + w.w alone, with the rounding of w.
 TEST_P(NetworkForces, OfSmallStrainsHaveAllTheirDigits) {
   const Model model = modelOf({undamped(graphBody(300, 900, 4))});
   for (double size_m : {1e-3, 1e-5, 1e-7}) {
@@ -107,7 +107,7 @@ TEST_P(NetworkForces, OfAPairAreAntisymmetricToTheBitAndAllOfThemSumToNothing) {
   EXPECT_LT(sum.norm() / sizes, kSum);
 }
 
-/// A lattice beside networks: none feels another, whatever the kernels have to tell apart.
+/// A lattice together with networks: they do not affect each other, although the kernels must distinguish them.
 TEST_P(NetworkForces, OfBodiesOfEveryKindAtOnceAreThoseOfTheReference) {
   Model model = mixedModel();
   for (Body& body : model.bodies) body = undamped(body);
@@ -138,13 +138,13 @@ TEST_P(NetworkForces, ResetRestoresTheHash) {
   expectResetRestoresTheHash(*solver, model, 5);
 }
 
-/// Energies, largest stretch, and the stable substep that is left (physics.md 2, 3).
+/// Energies, largest stretch, and the remaining stable substep (physics.md 2, 3).
 TEST_P(NetworkForces, AreMeasuredLikeTheReferences) {
   constexpr double kSums = 1e-5;  // float32 sums over nodes
   const std::vector<Model> models = {modelOf({graphBody(300, 900, 6, strained())}), mixedModel()};
   for (const Model& model : models) {
     Scene scene = sceneFor(model, 1);
-    scene.solver.governor = true;
+    scene.solver.stability_monitor = true;
     const auto solver = make(model, scene);
     const HostState start = scatteredState(model, 1e-3, 0.5, 8);
     solver->writeState(start);
@@ -174,7 +174,7 @@ TEST_P(NetworkForces, AreMeasuredLikeTheReferences) {
 TEST_P(NetworkForces, ShortenedSpringsAreCountedAsCollapsed) {
   const Body body = undamped(clothBody(5, 5, 0.01));
   const Model model = modelOf({body});
-  const auto solver = make(model, sceneWith(Integrator::kLeapfrog, model, 1, 0.05));  // what is measured is the end
+  const auto solver = make(model, sceneWith(Integrator::kLeapfrog, model, 1, 0.05));  // its end is measured
   HostState state = restState(model);
   for (uint32_t slot : body.lattice.active_slots) {  // the whole sheet to a fifth of its size
     state.displacement_m[slot] = vec4(-0.8 * restPosition(body, slot));

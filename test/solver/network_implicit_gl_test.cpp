@@ -8,13 +8,13 @@ using namespace viscera::test;
 
 namespace {
 
-// Relative to the largest value, with iterations enough that more change nothing: float32 rounding of increments and of
-// their sum, as for lattices (pd_gl_test.cpp).
+// Relative to the largest value, with enough iterations to converge: float32 rounding of increments and of their sum,
+// as for lattices (pd_gl_test.cpp).
 constexpr double kConverged = 2e-6;
 constexpr int kIterations = 200;
 constexpr int kNetworkImplicitSubsteps = 3;
 // Roundings of a position per substep of verlet_paper, each up to 2^-24 of it: as for lattices
-// (verlet_paper_gl_test.cpp), and one more for every hundred links of a hub.
+// (verlet_paper_gl_test.cpp), plus one for every hundred links of a hub.
 constexpr double kRounding = 1.0 / (1 << 24);
 constexpr double kRoundingsPerSubstep = 6;
 
@@ -32,7 +32,7 @@ class NetworkIntegrators : public OnBackend {
 
 INSTANTIATE_TEST_SUITE_P(Backends, NetworkIntegrators, ::testing::ValuesIn(backendKinds()), backendSuffix);
 
-/// Pieces hang together by single springs; valences up to 200 beside 1.
+/// Returns a graph: pieces connected by single springs; valences from 1 to 200.
 Body knot(size_t nodes, double prestrain) {
   GraphOptions options;
   options.prestrain = prestrain;
@@ -64,7 +64,7 @@ TEST_P(NetworkIntegrators, PdKeepsEnergyBelowItsStartFromWildStarts) {
   for (double fraction : {1.0, 10.0, 100.0}) {
     SCOPED_TRACE(fraction);
     const auto solver = make(model, sceneWith(Integrator::kPd, model, 1, fraction, 20));
-    const HostState start = scatteredState(model, 0.1, 10, 5);  // ten times the cloth's springs
+    const HostState start = scatteredState(model, 0.1, 10, 5);  // ten times the length of the cloth's springs
     solver->writeState(start);
     const double start_j = energyOf(model, start);
     for (int t = 0; t < 8; ++t) {

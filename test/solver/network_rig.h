@@ -12,7 +12,7 @@
 
 namespace viscera::test {
 
-/// The nodes of all bodies displaced and moving at random, but for those that are fixed.
+/// Returns a state with the nodes of all bodies displaced and moving at random, except fixed ones.
 inline HostState scatteredState(const Model& model, double size_m, double speed_m_per_s, uint32_t seed) {
   std::mt19937 random(seed);
   HostState state = restState(model);
@@ -28,29 +28,29 @@ inline HostState scatteredState(const Model& model, double size_m, double speed_
 }
 
 inline Body undamped(Body body) {
-  body.material.drag_per_s = body.material.dashpot_ratio = 0;
+  body.material.mass_damping_per_s = body.material.stiffness_damping_ratio = 0;
   return body;
 }
 
-/// The body with the springs of its lattice as explicit connections (VR05 2.5.1).
+/// Returns the body with the springs of its lattice as explicit connections (VR05 2.5.1).
 inline Body withLinks(Body body, double bending_ratio = 0) {
   body.network = latticeNetwork(body, bending_ratio);
   return body;
 }
 
-/// A lattice, a cloth, a graph and a lattice of links, all of which differ in everything.
+/// Returns a lattice, a cloth, a graph and a lattice of links that differ in all parameters.
 inline Model mixedModel() {
   const Body box = boxBody({4, 3, 5}, 0.01);
   Body links = withLinks(box);
-  links.material.drag_per_s = 20;
+  links.material.mass_damping_per_s = 20;
   GraphOptions options;
   options.prestrain = 0.05;
   options.fixed_share = 0.1;
   return modelOf({box, clothBody(9, 8, 0.01), graphBody(130, 400, 5, options), links});
 }
 
-/// Forces [N] on every node in a state at rest, from the velocity that leapfrog's first half kick gives; without drag
-/// and gravity.
+/// Returns the forces [N] on every node in a state at rest, from the velocity after leapfrog's first half kick; without
+/// drag and gravity.
 inline std::vector<Vector3d> forcesOf(const std::string& backend, const Model& model, const HostState& state) {
   const auto solver = makeBackend(backend, model, sceneFor(model, 1));
   solver->writeState(state);
@@ -64,7 +64,7 @@ inline std::vector<Vector3d> forcesOf(const std::string& backend, const Model& m
   return out;
 }
 
-/// Largest difference over the largest force.
+/// Returns the largest difference over the largest force.
 inline double forceDifference(const std::vector<Vector3d>& a, const std::vector<Vector3d>& b) {
   double difference = 0, largest = 0;
   for (size_t slot = 0; slot < a.size(); ++slot) {
@@ -74,7 +74,7 @@ inline double forceDifference(const std::vector<Vector3d>& a, const std::vector<
   return largest > 0 ? difference / largest : difference;
 }
 
-/// Forces of the reference on nodes that may move, zero on the others.
+/// Returns the reference's forces on nodes that may move, zero on the others.
 inline std::vector<Vector3d> trueForces(const Model& model, const HostState& state) {
   ReferenceSolver reference(model, Vector3d::Zero(), 1);
   load(reference, state);

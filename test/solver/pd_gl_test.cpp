@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include "solver/cpu/state/cpu_stepper.h"
 #include "solver/cpu/steps/cpu_device.h"
-#include "solver/cpu/store/cpu_stepper.h"
 #include "solver/device/pd.h"
 #include "solver/gpu/steps/gpu_device.h"
 #include "support/features.h"
@@ -12,8 +12,8 @@ using namespace viscera::test;
 
 namespace {
 
-// Relative to the largest value, after kSubsteps of 3 dt_safe with iterations enough that more change nothing: float32
-// rounding of increments and of their sum.
+// Relative to the largest value, after kSubsteps of 3 dt_safe with enough iterations to converge: float32 rounding of
+// increments and of their sum.
 constexpr double kPdConverged = 2e-6;
 constexpr int kPdIterations = 160;
 constexpr int kPdSubsteps = 3;
@@ -28,18 +28,18 @@ class Pd : public OnBackend {
   }
 };
 
-/// The iteration by itself, without a solver around it.
+/// The iteration alone, without a solver around it.
 class PdAlone {
  public:
   struct Run {
     HostState end;
-    std::vector<float> changes;  ///< as PdStepper has them
+    std::vector<float> changes;  ///< as in PdStepper
     bool gave_up;
   };
   virtual ~PdAlone() = default;
-  /// One substep from a start.
+  /// Makes one substep from a state.
   virtual Run run(const HostState& start, const PdOptions& options) = 0;
-  /// The governor's recovery from a start. @return states after each substep
+  /// Makes the stability monitor's recovery from a state. @return states after each substep
   virtual std::vector<HostState> recover(const HostState& start, int iterations, int substeps) = 0;
   virtual double spectralRadius() = 0;
 
@@ -134,10 +134,11 @@ INSTANTIATE_TEST_SUITE_P(Backends, Pd, ::testing::ValuesIn(backendKinds()), back
 
 TEST_P(Pd, MatchesReferenceAtEverySize) {
   for (size_t size : kSizes) {
-    if (size > 100) continue;  // a random tree of 1234 nodes hangs together by single springs: thousands of iterations
+    if (size > 100)
+      continue;  // a random tree of 1234 nodes is connected by single springs: it would take thousands of iterations
     SCOPED_TRACE(size);
     Body body = blobBody(size, 0.01, 3);
-    body.material.drag_per_s = 50;
+    body.material.mass_damping_per_s = 50;
     expectLikeReference(modelOf({body}), Vector3d(0.3, -0.2, -9.81));
   }
 }
@@ -154,7 +155,7 @@ TEST_P(Pd, EnergyStaysBelowItsStartWhateverTheStart) {
   for (const double fraction : {0.5, 1.0, 10.0, 100.0}) expectEnergyBound(GetParam(), Integrator::kPd, fraction);
 }
 
-/// One sweep is far from a solution: what it leaves of the velocities has more energy than the start, and is not taken.
+/// One sweep is far from a solution: its velocities have more energy than the start, and are rejected.
 TEST_P(Pd, EnergyStaysBelowItsStartWithTooFewIterations) {
   expectEnergyBound(GetParam(), Integrator::kPd, 0.2, 1);
 }
@@ -179,7 +180,7 @@ TEST_P(Pd, RecoveryKeepsTheEnergyBound) {
   constexpr double kAllowed = 0.01;                          // of the start: the stability suite's limit
   constexpr double kNothing_j = 1e-9;                        // as in expectEnergyBound()
   Body body = boxBody({3, 3, 3}, 0.01);
-  body.material.drag_per_s = 0;
+  body.material.mass_damping_per_s = 0;
   const Model model = modelOf({body});
   for (const double fraction : {1.0, 10.0, 100.0}) {
     const auto alone = pdAlone(GetParam(), model, fraction);
@@ -211,9 +212,9 @@ TEST_P(Pd, AccelerationReachesAnErrorInFewerIterations) {
 
 TEST_P(Pd, SpectralRadiusIsThatOfTheLatticesStiffestNode) {
   Body body = boxBody({4, 4, 4}, 0.01);
-  body.material.dashpot_ratio = 0;
+  body.material.stiffness_damping_ratio = 0;
   const Model model = modelOf({body});
-  // dt_safe^2 = 2 / max(sum of k / m), so m/dt^2 is (2 / fraction^2) / 2 of sum of k there.
+  // dt_safe^2 = 2 / max(sum of k / m), so m/dt^2 is (2 / fraction^2) / 2 of the sum of k there.
   const double sum_over_inertia = 2 * 3.0 * 3.0;
   EXPECT_NEAR(pdAlone(GetParam(), model, 3)->spectralRadius(), sum_over_inertia / (1 + sum_over_inertia),
               1e-6);  // float32 rates
@@ -223,18 +224,18 @@ TEST_P(Pd, AccelerationThatGoesWrongIsGivenUpAndStartsAnew) {
   const Model model = modelOf({boxBody({4, 4, 4}, 0.01)});
   const HostState start = randomState(model, 5e-4, 0.1, 7);
   const auto alone = pdAlone(GetParam(), model, 3);
-  const PdAlone::Run wrong = alone->run(start, {200, true, 1.05});  // beyond 1: weights that no spectrum allows
+  const PdAlone::Run wrong = alone->run(start, {200, true, 1.05});  // beyond 1: weights that no spectrum permits
   const PdAlone::Run plain = alone->run(start, {200, false});
   EXPECT_TRUE(wrong.gave_up);
   EXPECT_FALSE(plain.gave_up);
-  for (uint32_t slot : model.bodies[0].lattice.active_slots) {  // it lost the few sweeps before it gave up, no more
+  for (uint32_t slot : model.bodies[0].lattice.active_slots) {  // it lost only the few sweeps before it was abandoned
     EXPECT_LT((xyz(wrong.end.displacement_m[slot]) - xyz(plain.end.displacement_m[slot])).norm(), 1e-3 * 5e-4);
   }
 }
 
-/// What the iteration that gave up says of its change must not be nothing.
+/// The recorded change of the abandoned iteration must not be zero.
 TEST_P(Pd, StartsAnewAlsoWhereTheFirstNodeIsFixed) {
-  constexpr size_t kWatched = 20;  // iterations, of which an early one gives up
+  constexpr size_t kWatched = 20;  // iterations; an early one is abandoned
   Body body = boxBody({4, 4, 4}, 0.01);
   body.lattice.nodes[body.lattice.active_slots[0]].lo |= layout::kFixedBit;
   const Model model = modelOf({body});

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Tissue with a prestress hangs in balance from the first tick on, whatever steps it.
+// Tissue with a prestress is in equilibrium from the first tick on, with any integrator.
 #include <gtest/gtest.h>
 
 #include "math/float_bits.h"
@@ -12,9 +12,9 @@ namespace {
 using namespace test;
 
 constexpr double kSpacing_m = 0.005;
-constexpr double kStill = 1e-4;  // of the spacing: what float32 forces of springs that pull by 5 % come to
+constexpr double kStill = 1e-4;  // of the spacing: displacement due to float32 forces of springs strained by 5 %
 
-/// A sheet, and where leapfrog steps a slab, held on two sides each, with strains that differ along their axes.
+/// Returns a sheet and, with leapfrog, a slab, each fixed on two sides, with strains that differ along their axes.
 Scene prestressedScene(Integrator integrator) {
   const std::string held =
       "fixed: [{shape: plane, point_m: [-0.018, 0, 0], normal: [1, 0, 0]}, "
@@ -51,7 +51,7 @@ TEST_P(Prestressed, TissueStaysWhereItIsUntilItIsCut) {
       farthest_m = std::max(farthest_m, xyz(state.displacement_m[model.slotOffset(b) + slot]).norm());
   EXPECT_LT(farthest_m, kStill * kSpacing_m);
   const layout::TickStats stats = lastStats(*solver);
-  EXPECT_GT(floatFromBits(stats.max_stretch_bits), 0.02F);  // and all the same is strained
+  EXPECT_GT(floatFromBits(stats.max_stretch_bits), 0.02F);  // and it is strained nevertheless
   EXPECT_EQ(solver->health().trips, 0U);
 }
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Section `ticks` of a saved state: every number is one that ticks of this scene can have, or is refused by name.
+// Section `ticks` of a saved state: every number must be possible for ticks of this scene, or it is refused by name.
 #include <cstring>
 
 #include "math/archive.h"
@@ -13,11 +13,11 @@ using namespace viscera::test;
 
 namespace {
 
-/// A value in place of what lies somewhere in the section.
+/// A replacement value at an offset in the section.
 struct Spoilt {
   size_t at;
   std::vector<char> bytes;
-  const char* named;  ///< in the error
+  const char* named;  ///< name in the error
 };
 
 template <class T>
@@ -27,7 +27,7 @@ Spoilt spoilt(size_t at, T value, const char* named) {
   return out;
 }
 
-/// As Ticks::persist() writes them.
+/// Lists the values in the layout of TissueStepper::persist().
 std::vector<Spoilt> spoiltTicks() {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
   constexpr size_t kSafe = 0, kLimit = 8, kStretch = 16, kStiffening = 24, kCalm = 40, kStrained = 44, kLast = 60,
@@ -51,7 +51,7 @@ std::vector<Spoilt> spoiltTicks() {
 TEST(SavedTicks, NumbersThatNoTickCanHaveAreRefusedByName) {
   const Model model = modelOf({boxBody({3, 3, 3}, 0.01)});
   Scene scene = sceneWith(Integrator::kLeapfrog, model, 0, 0.5);
-  scene.solver.governor = true;
+  scene.solver.stability_monitor = true;
   scene.obstacles.emplace_back();
   scene.obstacles[0].position_m = Vector3d(0, 0, 0.2);
   const auto saving = makeCpu(simdTargets().front(), model, scene, 1),

@@ -68,7 +68,7 @@ TYPED_TEST(SleepingOn, ProbeWakesWhatItReachesAndWavesWakeTheRest) {
   EXPECT_GT(at_once, 0u);
   EXPECT_LT(at_once, solver->bricks());
   EXPECT_GT(this->difference(solver->readState(), restState(this->model_)),
-            5e-4);  // the corner gives way by some of the 2 mm
+            5e-4);  // the corner yields by part of the 2 mm
   size_t most = at_once;
   for (int t = 0; t < 10; ++t) {
     solver->step(probeAtCorner());
@@ -80,7 +80,7 @@ TYPED_TEST(SleepingOn, ProbeWakesWhatItReachesAndWavesWakeTheRest) {
 TYPED_TEST(SleepingOn, ProbedCornerMovesAsWithoutSleep) {
   for (const double speed_m_per_s : {kSleepSpeed_m_per_s, 100 * kSleepSpeed_m_per_s}) {
     SCOPED_TRACE(speed_m_per_s);
-    // What bricks that sleep leave out is slower than that, and the drag of 60 1/s stops it within 1/60 s.
+    // Motion that sleeping bricks omit is slower than that, and the drag of 60 1/s stops it within 1/60 s.
     const double left_out_m = speed_m_per_s / kSleepDrag_per_s;
     const auto sleeper = this->make({speed_m_per_s}), watcher = this->make({0});
     ASSERT_LT(settle(*sleeper), 50);
@@ -108,8 +108,8 @@ TYPED_TEST(SleepingOn, SleepsAgainAfterItWasTouched) {
 }
 
 TYPED_TEST(SleepingOn, HangingBodyThatSettledLiesWhereItWouldWithoutSleep) {
-  // The slowest mode comes to rest as exp(-30 t): once it has been slower than the sleep speed for as long as it takes
-  // to fall asleep, it would have moved by this much more (20 nm; measured: 3 nm).
+  // The slowest mode decays as exp(-30 t). Once it has been slower than the sleep speed for the time to fall asleep, it
+  // would have moved by this much more (20 nm; measured: 3 nm).
   const double settled_m =
       kSleepSpeed_m_per_s * std::exp(-0.5 * kSleepDrag_per_s * Sleep::kQuiet_s) / (0.5 * kSleepDrag_per_s);
   const auto sleeper = this->make({kSleepSpeed_m_per_s, 9.81}), watcher = this->make({0, 9.81});
@@ -133,7 +133,7 @@ TYPED_TEST(SleepingOn, GripWakesWhatItHoldsAndTheTissueFollows) {
   EXPECT_LT(solver->awakeBricks(), solver->bricks());
   const uint32_t corner = static_cast<uint32_t>(this->model_.bodies[0].lattice.slotAt({0, 0, 12}));
   EXPECT_NEAR(solver->readState().displacement_m[corner].x, -0.002, 1e-8);  // m: float32 at 0.06 m
-  // Held for long, it stays awake; let go, it goes back and sleeps.
+  // Held for long, it stays awake; once released, it returns and sleeps.
   motions = tool(ToolMode::kGrab, motions[0].to.position_m, motions[0].to.position_m);
   for (int t = 0; t < 200; ++t) solver->step(motions);
   EXPECT_GT(solver->awakeBricks(), 0u);
@@ -148,7 +148,7 @@ TYPED_TEST(SleepingOn, CutWakesAndWhatItCarriedFalls) {
   const auto solver = this->make({kSleepSpeed_m_per_s, 9.81});
   ASSERT_LT(settle(*solver), 1000);
   const HostState before = solver->readState();
-  // Along x through the whole width, blade from above, 1 cm of it in the cube: a flap to either side.
+  // Along x through the whole width, blade from above, 1 cm of it in the cube: a flap on either side.
   ToolMotions motions = tool(ToolMode::kCut, {-0.02, 0.0275, 0.14}, {0.08, 0.0275, 0.14});
   solver->step(motions);
   const layout::TickStats stats = lastStats(*solver);

@@ -19,15 +19,15 @@ using namespace viscera::test;
 namespace {
 
 constexpr double kStableStepSpacing_m = 0.01;
-constexpr double kNotLonger = 1e-3;  // of the true limit: float32 forces, and their part that is not linear
-constexpr double kShorter = 0.02;    // of it: what twenty products of Lanczos' method leave, on the safe side
-constexpr double kStableStepEnergyBound = 1.01;  // of the start's, at the end of any tick
+constexpr double kNotLonger = 1e-3;              // of the true limit: float32 forces, and their nonlinear part
+constexpr double kShorter = 0.02;                // of it: error of twenty products of Lanczos' method, on the safe side
+constexpr double kStableStepEnergyBound = 1.01;  // of the initial energy, at the end of any tick
 
 Body block(int cells = 4) {
   return boxBody(Vector3i::Constant(cells), kStableStepSpacing_m);
 }
 
-/// 2 / omega_max of tissue at rest, by the reference's stiffness matrix.
+/// Returns 2 / omega_max of tissue at rest, from the reference's stiffness matrix.
 double trueLimit_s(const Model& model) {
   const ReferenceSolver reference(model, Vector3d::Zero(), 1e-4);
   const Eigen::MatrixXd stiffness = reference.stiffnessMatrix();
@@ -50,7 +50,7 @@ Scene usual() {
   return scene;
 }
 
-/// A state in which the tissue is stretched along x by this share.
+/// Returns a state with the tissue stretched along x by this share.
 HostState stretched(const Model& model, float share) {
   HostState state = restState(model);
   const Lattice& lattice = model.bodies[0].lattice;
@@ -61,7 +61,7 @@ HostState stretched(const Model& model, float share) {
   return state;
 }
 
-uint64_t substepsOfATick(Ticks& solver) {
+uint64_t substepsOfATick(TissueStepper& solver) {
   const uint64_t before = solver.substepsDone();
   solver.step({});
   return solver.substepsDone() - before;
@@ -90,11 +90,11 @@ TEST_P(MeasuredLimit, IsThatOfTheFastestMode) {
 }
 
 TEST_P(MeasuredLimit, MakesSubstepsLongerByHalfAndMore) {
-  constexpr double kGain = 1.6;  // issue 15's
+  constexpr double kGain = 1.6;  // as required by issue 15
   for (const Body& body : {block(8), ofLaw(block(8), 0.25), ofLaw(block(8), 0.49)}) {
     const Model model = modelOf({body});
     Scene scene = usual();
-    scene.solver.tick_hz = 1;  // many substeps: that they are whole does not count
+    scene.solver.tick_hz = 1;  // many substeps, so their rounding to integers does not matter
     scene.solver.max_substeps = 1000000;
     const double measured_s = make(model, scene)->dt_s();
     scene.solver.measured_limit = false;
@@ -132,7 +132,7 @@ TEST_P(MeasuredLimit, IsNotTakenWhereSomethingElseDecides) {
   for (const int what : {0, 1, 2, 3}) {
     Scene scene = usual();
     if (what == 0) scene.solver.measured_limit = false;
-    if (what == 1) scene.solver.governor = false;
+    if (what == 1) scene.solver.stability_monitor = false;
     if (what == 2) scene.solver.substeps = 100;
     if (what == 3) scene.solver.integrator = Integrator::kPd;
     const auto solver = make(model, scene);
@@ -153,7 +153,7 @@ TEST_P(MeasuredLimit, SubstepsAreShorterWhereTissueIsStrained) {
   EXPECT_NEAR(factor, strainFactor(0.4), 2.0 / static_cast<double>(calm));  // of 0.45, rounded down; whole substeps
 }
 
-/// Nodes at random places, with the dashpot that a scene has by default.
+/// Nodes at random positions, with the default dashpot.
 TEST_P(MeasuredLimit, IsStable) {
   for (const Body& body : {block(), ofLaw(block(), 0.49)}) {
     SCOPED_TRACE(static_cast<int>(body.material.law));

@@ -17,13 +17,13 @@ using namespace viscera::test;
 namespace {
 
 constexpr double kSubstepsSpacing_m = 0.01;
-constexpr double kSubstepsRounding = 1e-6;  // of a substep: k and m are float32 where dt_safe is taken from them
+constexpr double kSubstepsRounding = 1e-6;  // of a substep: dt_safe is computed from float32 k and m
 
 Model stepped(Weights weights = Weights::kCell) {
   return modelOf({boxBody({3, 3, 3}, kSubstepsSpacing_m, weights)});
 }
 
-/// A tick that takes this many substeps of dt_safe [1].
+/// Returns a configuration with a tick of this many substeps of dt_safe [1].
 SolverConfig configFor(double dt_safe_s, double substeps_of_dt_safe, Integrator integrator) {
   SolverConfig config;
   config.integrator = integrator;
@@ -48,7 +48,7 @@ TEST(StableSubstep, IsThatOfTheStiffestNodeAndNotOfTheFastestModeAtRest) {
 
 TEST(Substeps, ExplicitIntegratorsRefuseMoreThanTheStableSubstepAndSayWhatWouldDo) {
   Model model = stepped();
-  model.bodies[0].material.dashpot_ratio = 0;
+  model.bodies[0].material.stiffness_damping_ratio = 0;
   const double dt_safe_s = safeTimeStep(model);
   for (const Integrator integrator : kExplicit) {
     SolverConfig config = configFor(dt_safe_s, 9.5, integrator);
@@ -62,13 +62,13 @@ TEST(Substeps, ExplicitIntegratorsRefuseMoreThanTheStableSubstepAndSayWhatWouldD
 
 TEST(Substeps, DashpotsLowerTheLimitOfLeapfrogAlone) {
   Model model = stepped();
-  model.bodies[0].material.dashpot_ratio = 0.2;
+  model.bodies[0].material.stiffness_damping_ratio = 0.2;
   const double dt_safe_s = safeTimeStep(model), limit = stableFraction(Integrator::kLeapfrog, 0.2);
   EXPECT_NEAR(limit * limit + 2 * 0.2 * limit, 1, 1e-12);  // physics.md 2: where f^2 + 2 xi f reaches 1
   SolverConfig config = configFor(dt_safe_s, 9, Integrator::kLeapfrog);
   config.substeps = 10;  // 0.9 dt_safe
   EXPECT_TRUE(says(messageOf<SceneError>([&] { planSubsteps(model, config, dt_safe_s, false); }), {"at least 11"}));
-  config.integrator = Integrator::kVerletPaper;  // knows no dashpot
+  config.integrator = Integrator::kVerletPaper;  // ignores dashpots
   EXPECT_EQ(planSubsteps(model, config, dt_safe_s, false).calm, 10);
 }
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What a backend that lags behind the host, as a GPU does, must not change (src/solver/ticks/ticks.h).
-#include "solver/ticks/ticks.h"
+// What a backend that lags behind the host, as a GPU does, must not change (src/solver/ticks/tissue_stepper.h).
+#include "solver/ticks/tissue_stepper.h"
 
 #include <deque>
 
@@ -15,10 +15,10 @@ namespace {
 
 constexpr double kTicksSpacing_m = 0.01;
 
-/// Looks that it takes until measurements are seen to have come; more than any test takes: only who waits gets them.
+/// Calls until measurements arrive; more than any test makes: only a waiting call receives them.
 constexpr int kNever = 1000000;
 
-/// The CPU backend with the governor's lag of a GPU: measurements come some looks after they were asked for.
+/// The CPU backend with the monitor's lag of a GPU: measurements arrive some calls after their request.
 class LateBackend : public CpuBackend {
  public:
   LateBackend(const Model& model, const Scene& scene, const TickPlan& plan, int looks)
@@ -59,10 +59,10 @@ class LateBackend : public CpuBackend {
   int looks_, waits_ = 0;
 };
 
-class LateSolver : public Ticks {
+class LateSolver : public TissueStepper {
  public:
   LateSolver(const Model& model, const Scene& scene, const TickPlan& plan, int looks)
-      : Ticks(model, scene, plan, std::make_unique<LateBackend>(model, scene, plan, looks)) {}
+      : TissueStepper(model, scene, plan, std::make_unique<LateBackend>(model, scene, plan, looks)) {}
 
   int waits() const { return late().waits(); }
   int under_way() const { return late().under_way(); }
@@ -76,7 +76,7 @@ class LaggingBackend : public ::testing::Test {
   /// @param fraction  of the stable substep
   LateSolver make(double fraction, int looks) const {
     Scene scene = sceneWith(Integrator::kLeapfrog, model_, 10, fraction);
-    scene.solver.governor = true;
+    scene.solver.stability_monitor = true;
     scene.solver.threads = 1;
     scene.solver.recovery_s = 5 / scene.solver.tick_hz;
     scene.styluses = {StylusConfig{}};
@@ -91,7 +91,7 @@ class LaggingBackend : public ::testing::Test {
   const HostState wild_ = randomState(model_, 0.3 * kTicksSpacing_m, 0.1, 5);
 };
 
-/// What is told of a tick, as text.
+/// Returns the published measurements of a tick as text.
 std::string told(const layout::TickStats& stats) {
   return std::to_string(stats.kinetic_j) + ' ' + std::to_string(stats.elastic_j) + ' ' +
          std::to_string(stats.impulse[0].z) + ' ' + std::to_string(stats.max_speed_bits);
@@ -119,7 +119,7 @@ TEST_F(LaggingBackend, MeasurementsThatHaveComeAreNotWaitedFor) {
 TEST_F(LaggingBackend, ResultsAreTheSameHoweverLateMeasurementsCome) {
   std::vector<std::string> first;
   for (int looks : {0, 1, 2, kNever}) {
-    for (double fraction : {0.5, 10.0}) {  // calm; explodes until the governor recovers it, again and again
+    for (double fraction : {0.5, 10.0}) {  // calm; explodes until the stability monitor recovers it, repeatedly
       SCOPED_TRACE(testing::Message() << looks << " looks, fraction " << fraction);
       LateSolver solver = make(fraction, looks);
       solver.writeState(wild_);

@@ -9,15 +9,15 @@ using namespace viscera::test;
 namespace {
 
 constexpr int kVerletPaperSubsteps = 10;
-// A rounding of a position is up to 2^-24 of it; a substep makes about four (2 x, - x_prev, + dt^2 a, and those of the
-// neighbours that come back as force). x+ = 2 x - x_prev carries each on as a velocity: over n substeps
-// n (n + 1)/2 of them at worst.
+// A rounding of a position is up to 2^-24 of it. A substep makes about four: of 2 x, - x_prev, + dt^2 a, and those of
+// the neighbours that return as forces. x+ = 2 x - x_prev carries each on as a velocity: over n substeps n (n + 1)/2 of
+// them at worst.
 constexpr double kVerletPaperRounding = 1.0 / (1 << 24);
 constexpr double kVerletPaperRoundingsPerSubstep = 4;
 
 class VerletPaper : public OnBackend {
  protected:
-  /// Largest error against float64 after kSubsteps [m].
+  /// Returns the largest error against float64 after kSubsteps [m].
   double expectLikeReference(const Model& model, const Vector3d& gravity) {
     const auto solver =
         make(model, sceneWith(Integrator::kVerletPaper, model, kVerletPaperSubsteps, 0.5, 1, {}, gravity));
@@ -39,7 +39,7 @@ TEST_P(VerletPaper, MatchesReferenceAtEverySize) {
   for (size_t size : kSizes) {
     SCOPED_TRACE(size);
     Body body = blobBody(size, 0.01, 3);
-    body.material.drag_per_s = 50;
+    body.material.mass_damping_per_s = 50;
     expectLikeReference(modelOf({body}), Vector3d(0.3, -0.2, -9.81));
   }
 }
@@ -61,8 +61,8 @@ TEST_P(VerletPaper, PaysForItsAbsolutePositions) {
 
 TEST_P(VerletPaper, DashpotsAreUnknownToIt) {
   Body body = boxBody({4, 4, 4}, 0.01);
-  const auto hash = [&](double dashpot_ratio) {
-    body.material.dashpot_ratio = dashpot_ratio;
+  const auto hash = [&](double stiffness_damping_ratio) {
+    body.material.stiffness_damping_ratio = stiffness_damping_ratio;
     const Model model = modelOf({body});
     const auto solver = make(model, sceneWith(Integrator::kVerletPaper, model, kVerletPaperSubsteps, 0.5));
     solver->writeState(randomState(model, 1e-3, 0.5, 11));
@@ -72,7 +72,7 @@ TEST_P(VerletPaper, DashpotsAreUnknownToIt) {
   EXPECT_EQ(hash(0.2), hash(0));
 }
 
-/// A released node's speed is clamped: from there it must go on, not from where x_prev was.
+/// A released node's speed is clamped: it must continue from that, not from the old x_prev.
 TEST_P(VerletPaper, GrabbedNodesFollowTheToolAndAreLetGoAtTheReleaseSpeed) {
   const Model model = modelOf({boxBody({4, 4, 4}, 0.01)});
   StylusConfig config;
@@ -87,13 +87,13 @@ TEST_P(VerletPaper, GrabbedNodesFollowTheToolAndAreLetGoAtTheReleaseSpeed) {
     motions[0].hold_begins = t == 0;
     solver->step(motions);
     motions[0].hold_begins = false;
-    // 0.01 m of spacing and of grab offset at most, rounded a few times.
+    // At most 0.01 m of spacing and of grab offset, rounded a few times.
     EXPECT_NEAR(solver->readState().displacement_m[corner].x, -(t + 1) * way_m, 4 * kVerletPaperRounding * 0.01);
   }
   motions[0].mode = ToolMode::kNone;
   motions[0].hold_ended = ToolMode::kGrab;
   solver->step(motions);
-  // The springs pull it back, so it moves on by less than the release speed carries it.
+  // The springs pull it back, so it moves by less than the release speed times the substep.
   const double moved_m = -3 * way_m - solver->readState().displacement_m[corner].x;
   EXPECT_LT(moved_m, config.grab.release_speed_m_per_s * solver->dt_s());
 }
@@ -109,7 +109,7 @@ TEST_P(VerletPaper, GoesOnFromAStateThatWasSaved) {
   saved->step({});
   loaded->step({});
   const HostState a = saved->readState(), b = loaded->readState();
-  // x is rounded once more on its way through u: as one more substep's roundings at the bottom of kSubsteps.
+  // x is rounded once more by the conversion to u and back: like one more substep's roundings.
   const double rounding_m = kVerletPaperRoundingsPerSubstep * kVerletPaperRounding * 0.04;
   for (uint32_t slot : model.bodies[0].lattice.active_slots) {
     EXPECT_LT((xyz(a.displacement_m[slot]) - xyz(b.displacement_m[slot])).norm(), rounding_m * kVerletPaperSubsteps);

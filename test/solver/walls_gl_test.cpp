@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Cells in thin walls, whose second derivatives come from rows of nodes, against the float64 reference.
+// Cells in thin walls, with second derivatives from rows of nodes, against the float64 reference.
 #include <algorithm>
 
 #include "math/float_bits.h"
@@ -16,19 +16,19 @@ using namespace viscera::test;
 
 namespace {
 
-// Relative to the largest value, as of cells of the law (law_gl_test.cpp).
+// Relative to the largest value, as for cells of the law (law_gl_test.cpp).
 constexpr double kWallFloat32Displacement = 2e-6;
 constexpr double kWallFloat32Velocity = 1e-5;
 constexpr double kWallFloat32Energy = 2e-5;
 constexpr double kWallSpacing_m = 0.01;
-constexpr double kWallThickness = 0.75;  // cells
+constexpr double kWallThickness = 0.75;  // in cells
 
 Body byRows(Body body) {
   body.material.walls = Walls::kRows;
   return body;
 }
 
-/// A plate that is askew to all axes.
+/// Returns a plate that is oblique to all axes.
 Body askewPlate(double nu = 0.3, const Vector3i& cells = {9, 8, 7}, double spacing_m = kWallSpacing_m) {
   const Vector3d normal = Vector3d(0.5, 0.3, 1).normalized(), middle = 0.5 * cells.cast<double>();
   return byRows(
@@ -37,7 +37,7 @@ Body askewPlate(double nu = 0.3, const Vector3i& cells = {9, 8, 7}, double spaci
             nu));
 }
 
-/// A bowl, open above.
+/// Returns a bowl that is open above.
 Body thinBowl(double nu = 0.3) {
   const auto inside = [](const Vector3d& p) {
     const Vector3d from_middle = p - Vector3d(5.1, 4.9, 5.2);
@@ -46,7 +46,7 @@ Body thinBowl(double nu = 0.3) {
   return byRows(ofLaw(momentBody({10, 10, 8}, kWallSpacing_m, inside), nu));
 }
 
-/// Each cell is of two materials, one to either side of a plane through its centroid.
+/// Divides each cell into two materials by a plane through its centroid.
 void makeWallLayers(Body& body) {
   Lattice& lattice = body.lattice;
   lattice.part_names = {"wall", "coat"};
@@ -99,7 +99,7 @@ TEST_P(ThinWalls, BowlsMatchTheReference) {
   expectLikeReference(thinBowl(), 0.2);
 }
 
-/// Up to cells that are turned inside out.
+/// Includes inverted cells.
 TEST_P(ThinWalls, LargeStrainsMatchTheReference) {
   for (const double size : {0.5, 0.9}) {
     SCOPED_TRACE(size);
@@ -109,7 +109,7 @@ TEST_P(ThinWalls, LargeStrainsMatchTheReference) {
 
 TEST_P(ThinWalls, DampingMatchesTheReference) {
   Body body = askewPlate();
-  body.material.dashpot_ratio = 0.2;
+  body.material.stiffness_damping_ratio = 0.2;
   expectLikeReference(body, 0.02, 10);
   expectLikeReference(body, 0.2);
 }
@@ -135,9 +135,9 @@ TEST_P(ThinWalls, AmongOtherBodiesMatchTheReference) {
 
 TEST_P(ThinWalls, TheirEnergyAndStiffeningAreMeasured) {
   for (const double size : {0.02, 0.2}) {
-    for (const double dashpot_ratio : {0.0, 0.2}) {
+    for (const double stiffness_damping_ratio : {0.0, 0.2}) {
       Body body = thinBowl();
-      body.material.dashpot_ratio = dashpot_ratio;
+      body.material.stiffness_damping_ratio = stiffness_damping_ratio;
       const Model model = modelOf({body});
       const auto solver = make(model, sceneFor(model, 1));
       const HostState start = randomState(model, size * kWallSpacing_m, 0, 3);
@@ -155,11 +155,12 @@ TEST_P(ThinWalls, TheirEnergyAndStiffeningAreMeasured) {
   }
 }
 
-/// A blade that points down sweeps half way through a bowl: cells lose springs, and rows of whole ones end there.
+/// A blade that points down sweeps half of the distance through a bowl: cells lose springs, and rows of intact ones end
+/// there.
 TEST_P(ThinWalls, RowsThatABladeCutsMatchTheReference) {
   constexpr int kSubsteps = 10;
   Body body = thinBowl();
-  body.material.dashpot_ratio = 0.2;
+  body.material.stiffness_damping_ratio = 0.2;
   const Model model = modelOf({body});
   std::vector<StylusConfig> styluses(2);
   styluses[0].cut.blade_length_m = 0.2;
@@ -182,18 +183,18 @@ TEST_P(ThinWalls, RowsThatABladeCutsMatchTheReference) {
 
 namespace {
 
-/// Of several bricks, held at one end.
+/// Returns a plate of several bricks, held at one end.
 Body sleepyPlate() {
   Body body = askewPlate(0.3, {23, 8, 15}, kSleepSpacing_m);
-  body.material.drag_per_s = kSleepDrag_per_s;
-  body.material.dashpot_ratio = 0.2;
+  body.material.mass_damping_per_s = kSleepDrag_per_s;
+  body.material.stiffness_damping_ratio = 0.2;
   for (const uint32_t slot : body.lattice.active_slots) {
     if (body.lattice.nodeAt(slot).x() == 0) body.lattice.nodes[slot].lo |= layout::kFixedBit;
   }
   return body;
 }
 
-/// Stands still in the free end.
+/// Returns a probe at rest in the free end.
 ToolMotions probeAtEnd(const Model& model) {
   const Lattice& lattice = model.bodies[0].lattice;
   const auto farther = [&](uint32_t a, uint32_t b) { return lattice.nodeAt(a).sum() < lattice.nodeAt(b).sum(); };
@@ -201,12 +202,13 @@ ToolMotions probeAtEnd(const Model& model) {
   return probeAt(lattice.restPosition(end) + Vector3d(0.003, 0, 0.003));
 }
 
-/// What sleeps beside bricks that a probe has woken misses nothing: forces of cells and rows there are up to date.
+/// Expects sleeping bricks next to bricks that a probe has woken to miss nothing: forces of cells and rows there are up
+/// to date.
 template <class Sleeper>
 void expectToMoveAsWithoutSleep() {
   const Model model = modelOf({sleepyPlate()});
   ASSERT_FALSE(wallCells(model.bodies[0]).empty());
-  // What bricks that sleep leave out is slower than that, and the drag of 60 1/s stops it within 1/60 s.
+  // Motion that sleeping bricks skip is slower than the sleep speed, and the drag of 60 1/s stops it within 1/60 s.
   const double left_out_m = kSleepSpeed_m_per_s / kSleepDrag_per_s;
   Sleeper sleeper(model, sleepyScene(model)), watcher(model, sleepyScene(model, {0}));
   ASSERT_LT(settle(sleeper), 50);
@@ -224,7 +226,7 @@ void expectToMoveAsWithoutSleep() {
   EXPECT_LT(farthest_m, left_out_m);
 }
 
-/// Where all are awake, lists of cells change nothing, to the bit.
+/// Expects lists of cells to change no bit if all bricks are awake.
 template <class Sleeper>
 void expectToMoveAsWithoutSleepToTheBit() {
   const Model model = modelOf({sleepyPlate()});

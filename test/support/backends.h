@@ -17,14 +17,14 @@
 
 namespace viscera::test {
 
-/// "gpu", then the CPU with each instruction set that this processor has, best first: "cpu AVX3", "cpu SSE4" ...
+/// Returns "gpu", then the CPU with each instruction set of this processor, best first: "cpu AVX3", "cpu SSE4" ...
 inline std::vector<std::string> backendNames() {
   std::vector<std::string> out = {"gpu"};
   for (const std::string& target : simdTargets()) out.push_back("cpu " + target);
   return out;
 }
 
-/// "gpu" and the CPU with its best instruction set: for what is not compiled for several.
+/// Returns "gpu" and the CPU with its best instruction set, for tests that do not need several.
 inline std::vector<std::string> backendKinds() {
   std::vector<std::string> out = backendNames();
   out.resize(2);
@@ -37,10 +37,10 @@ inline std::unique_ptr<CpuSolver> makeCpu(const std::string& simd, const Model& 
   return std::make_unique<CpuSolver>(model, scene, CpuSolverOptions{options, simd});
 }
 
-/// @param name  one of backendNames(); "gpu" needs a context   @param model  must outlive the solver
-inline std::unique_ptr<Ticks> makeBackend(const std::string& name, const Model& model, const Scene& scene,
-                                          const SolverOptions& options = {}) {
-  constexpr size_t kPrefix = 4;  // of "cpu "
+/// Makes a backend. @param name  one of backendNames(); "gpu" needs a context   @param model  must outlive the solver
+inline std::unique_ptr<TissueStepper> makeBackend(const std::string& name, const Model& model, const Scene& scene,
+                                                  const SolverOptions& options = {}) {
+  constexpr size_t kPrefix = 4;  // length of "cpu "
   if (name != "gpu") return makeCpu(name.substr(kPrefix), model, scene, 2, options);
   return std::make_unique<GpuSolver>(model, scene, GpuSolverOptions{options, layout::kGroupSize});
 }
@@ -53,7 +53,7 @@ class OnBackend : public ::testing::TestWithParam<std::string> {
     context_.emplace();
     gpu::checkDispatches(true);
   }
-  std::unique_ptr<Ticks> make(const Model& model, const Scene& scene, const SolverOptions& options = {}) const {
+  std::unique_ptr<TissueStepper> make(const Model& model, const Scene& scene, const SolverOptions& options = {}) const {
     return makeBackend(GetParam(), model, scene, options);
   }
 
@@ -61,7 +61,7 @@ class OnBackend : public ::testing::TestWithParam<std::string> {
   std::optional<gpu::Context> context_;
 };
 
-/// As the last part of a test's name.
+/// Returns the name of the backend as the last part of a test's name.
 inline std::string backendSuffix(const ::testing::TestParamInfo<std::string>& info) {
   std::string out = info.param;
   out.erase(std::remove(out.begin(), out.end(), ' '), out.end());

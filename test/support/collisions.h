@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "solver/cpu/steps/surroundings.h"
-#include "solver/gpu/contact/surroundings_pass.h"
+#include "solver/cpu/steps/environment.h"
+#include "solver/gpu/contact/environment_pass.h"
 #include "solver/reference/collision.h"
 #include "solver/tissue/substeps.h"
 #include "support/backends.h"
 
 namespace viscera::test {
 
-/// Pairs that a backend's search finds in a state. @param backend  "gpu", which needs a context, or another
+/// Returns the pairs that a backend's search finds in a state. @param backend  "gpu", which needs a context, or another
 inline std::vector<CollisionPair> pairsOf(const std::string& backend, const Model& model, const Scene& scene,
                                           const HostState& state, uint32_t group_size = layout::kGroupSize) {
   const double dt_s = safeTimeStep(model);
@@ -23,14 +23,14 @@ inline std::vector<CollisionPair> pairsOf(const std::string& backend, const Mode
     LatticeBuffers buffers(model, params, features);
     buffers.state.displacement[buffers.state.current].write(state.displacement_m);
     buffers.store.nodes.write(state.nodes);
-    const SurroundingsPass pass(model, scene, features, buffers);
+    const EnvironmentPass pass(model, scene, features, buffers);
     return pass.findPairs(buffers);
   }
   CpuLattice lattice(model, params, featuresOf(model, scene, 1));
   lattice.write(state);
   const Serial serial;
-  CpuSurroundings surroundings(model, scene, lattice, serial);
-  return surroundings.findPairs(lattice);
+  CpuEnvironment environment(model, scene, lattice, serial);
+  return environment.findPairs(lattice);
 }
 
 }  // namespace viscera::test

@@ -11,7 +11,7 @@
 
 namespace viscera::test {
 
-/// Makes the program write and read numbers as in German while it lives: 1.234,5, in C++ streams and in C.
+/// Makes the program write and read numbers in the German format, 1.234,5, in C++ streams and in C, while it lives.
 class CommaLocale {
  public:
   CommaLocale() : before_(std::locale::global(std::locale(std::locale::classic(), new Punctuation))) {
@@ -30,7 +30,7 @@ class CommaLocale {
   CommaLocale(const CommaLocale&) = delete;
   CommaLocale& operator=(const CommaLocale&) = delete;
 
-  /// Returns whether C has it too: the system has the sources of de_DE, which are in the Debian package locales.
+  /// Returns whether C has the locale too: the sources of de_DE, from the Debian package locales, are installed.
   bool hasC() const { return has_c_; }
 
  private:

@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Counts what operator new is asked for. Replaces it for the whole program: included by one file of a test program,
-// which is to be built with -O2 (test/CMakeLists.txt).
+// Counts calls of operator new. Replaces it for the whole program: included by one file of a test program, which must
+// be built with -O2 (test/CMakeLists.txt).
 #pragma once
 
 #include <atomic>
@@ -11,7 +11,7 @@
 
 namespace {
 
-/// What operator new was asked for since the program began, by all threads.
+/// Number of calls of operator new since the program began, by all threads.
 std::atomic<uint64_t> allocations{0};
 
 void* counted(std::size_t bytes, std::size_t alignment) {
@@ -23,7 +23,7 @@ void* counted(std::size_t bytes, std::size_t alignment) {
 
 }  // namespace
 
-// The counting versions, for the whole test program. Not inlined: the compiler would see one half of a pair.
+// The counting versions, for the whole test program. Not inlined, or the compiler would see one half of a pair.
 [[gnu::noinline]] void* operator new(std::size_t bytes) {
   return counted(bytes, alignof(std::max_align_t));
 }

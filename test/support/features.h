@@ -7,7 +7,7 @@
 
 namespace viscera::test {
 
-/// What a scene of leapfrog has with a model, and no more. @param tools  a stylus too
+/// Returns the features that a scene of leapfrog needs for a model, and no more. @param tools  with a stylus
 inline FeatureSet featuresFor(const Model& model, bool tools) {
   Scene scene;
   if (tools) scene.styluses.emplace_back();

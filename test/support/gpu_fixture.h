@@ -18,14 +18,14 @@
 
 namespace viscera::test {
 
-/// Gives every test an EGL context; a machine without one fails, it does not skip.
+/// Gives every test an EGL context. A machine without one fails the test; it does not skip it.
 class GpuTest : public ::testing::Test {
  protected:
   GpuTest() { gpu::checkDispatches(true); }
   gpu::Context context_;
 };
 
-/// Scene whose tick is `substeps` substeps of half the largest stable one.
+/// Returns a scene with ticks of `substeps` substeps of half the largest stable one.
 inline Scene sceneFor(const Model& model, int substeps, std::vector<StylusConfig> styluses = {},
                       const Vector3d& gravity = Vector3d::Zero()) {
   Scene scene;
@@ -33,7 +33,7 @@ inline Scene sceneFor(const Model& model, int substeps, std::vector<StylusConfig
   scene.environment.gravity_m_per_s2 = gravity;
   scene.solver.dt_fraction = scene.solver.dt_fraction_strained = 0.5;
   scene.solver.sleep_distance_m = 1e6;
-  scene.solver.governor = false;  // kernels are under test: nothing else may step in
+  scene.solver.stability_monitor = false;  // kernels are tested: nothing else may act
   scene.solver.sleep_speed_m_per_s = 0;
   const double dt_safe_s = safeTimeStep(model);
   const double dt_s = std::isfinite(dt_safe_s) ? 0.5 * dt_safe_s : 1e-3;
@@ -41,7 +41,7 @@ inline Scene sceneFor(const Model& model, int substeps, std::vector<StylusConfig
   return scene;
 }
 
-/// The first stylus as a probe that stands at a place.
+/// Returns motions with the first stylus as a probe at rest.
 inline ToolMotions probeAt(const Vector3d& tip_m) {
   ToolMotions out;
   out[0].mode = ToolMode::kProbe;
@@ -73,7 +73,7 @@ inline Vector3d randomVector(std::mt19937& random, double size) {
   return {uniform(random), uniform(random), uniform(random)};
 }
 
-/// Puts the state of the host into the reference.
+/// Loads the state of the host into the reference.
 inline void load(ReferenceSolver& reference, const HostState& state) {
   for (uint32_t slot : reference.active) {
     reference.u_m[slot] = xyz(state.displacement_m[slot]);
@@ -84,7 +84,7 @@ inline void load(ReferenceSolver& reference, const HostState& state) {
   std::fill(reference.cut_sides.begin(), reference.cut_sides.end(), Vector3d::Zero());
 }
 
-/// Largest nodal error over the largest value of the reference.
+/// Returns the largest nodal error over the largest value of the reference.
 inline double relativeError(const std::vector<layout::vec4>& values, const std::vector<Vector3d>& truth,
                             const std::vector<uint32_t>& active) {
   double error = 0, size = 0;

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Blocks that hang from one face.
+// Blocks that are fixed at one face.
 #pragma once
 
 #include <optional>
@@ -12,14 +12,14 @@ namespace viscera::test {
 
 inline const Vector3d kGravity(0, 0, -9.81);
 
-/// A block of 10 cm, held at one face; of springs, or of the neo-Hookean law where a Poisson's ratio is given.
+/// Returns a block of 10 cm, fixed at one face; of springs, or of the neo-Hookean law if a Poisson's ratio is given.
 inline Body block(int cells, double young_modulus_pa, std::optional<double> nu = {}) {
   Body body = boxBody(Vector3i::Constant(cells), 0.1 / cells);
   if (nu) body = ofLaw(body, *nu);
   body.material.young_modulus_pa = young_modulus_pa;
   body.material.density_kg_per_m3 = 1060;
-  body.material.drag_per_s = 0;
-  body.material.dashpot_ratio = 0;
+  body.material.mass_damping_per_s = 0;
+  body.material.stiffness_damping_ratio = 0;
   for (const uint32_t slot : body.lattice.active_slots) {
     if (body.lattice.nodeAt(slot).x() == 0) body.lattice.nodes[slot].lo |= layout::kFixedBit;
   }
@@ -31,7 +31,7 @@ inline Scene sceneOf(Integrator integrator, std::vector<StylusConfig> styluses =
   scene.styluses = std::move(styluses);
   scene.environment.gravity_m_per_s2 = kGravity;
   scene.solver.integrator = integrator;
-  scene.solver.governor = false;
+  scene.solver.stability_monitor = false;
   scene.solver.sleep_speed_m_per_s = 0;
   return scene;
 }

@@ -9,7 +9,7 @@
 
 namespace viscera::test {
 
-/// A box that is held at one end, with a stiffer and heavier part at the other.
+/// Returns a box that is fixed at one end, with a stiffer and heavier part at the other.
 inline Body twoPartBody() {
   Body body = boxBody({5, 4, 4}, 0.01);
   body.lattice.part_names = {"wall", "valve"};
@@ -22,12 +22,12 @@ inline Body twoPartBody() {
   return body;
 }
 
-/// Starts that no gentle simulation meets.
+/// Initial states that no gentle simulation reaches.
 enum class Abuse { kRandomPlaces, kRandomVelocities, kBoth, kOnePoint, kMirrored };
 constexpr Abuse kAbuses[] = {Abuse::kRandomPlaces, Abuse::kRandomVelocities, Abuse::kBoth, Abuse::kOnePoint,
                              Abuse::kMirrored};
 
-/// Places to +-10 h, velocities to 100 m/s.
+/// Returns a state with positions up to +-10 h and velocities up to 100 m/s.
 inline HostState abusedState(const Model& model, Abuse abuse) {
   const Lattice& lattice = model.bodies[0].lattice;
   const bool places = abuse == Abuse::kRandomPlaces || abuse == Abuse::kBoth;
@@ -47,7 +47,7 @@ inline void expectEnergyBound(const std::string& backend, Integrator integrator,
   constexpr double kAllowed = 0.01;    // of the start: the stability suite's limit
   constexpr double kNothing_j = 1e-9;  // float32 rounding of a body at rest: 1e-7 h in every spring is 1e-14 J
   Body body = boxBody({3, 3, 3}, 0.01);
-  body.material.drag_per_s = 0;
+  body.material.mass_damping_per_s = 0;
   const Model model = modelOf({body});
   const auto solver = makeBackend(backend, model, sceneWith(integrator, model, 1, fraction, iterations));
   for (const Abuse abuse : kAbuses) {
@@ -61,14 +61,14 @@ inline void expectEnergyBound(const std::string& backend, Integrator integrator,
       ASSERT_TRUE(isFinite(state)) << "tick " << t;
       ASSERT_LE(energyOf(model, state), start_j + kAllowed * std::abs(start_j) + kNothing_j) << "tick " << t;
     }
-    // A bound that is kept by standing still would be worth nothing. (A mirrored box is at rest.)
+    // A bound kept by not moving would prove nothing. (A mirrored box is at rest.)
     if (abuse != Abuse::kMirrored && fraction >= 1) {
       EXPECT_LT(energyOf(model, solver->readState()), 0.5 * start_j);
     }
   }
 }
 
-/// A stylus that takes hold of the body's corner and pulls it out, and one that probes the opposite side.
+/// A stylus that grips the body's corner and pulls it out, and one that probes the opposite side.
 struct PullAndProbe {
   PullAndProbe() {
     StylusConfig grab, probe;
@@ -76,7 +76,7 @@ struct PullAndProbe {
     probe.probe.radius_m = 0.012;
     styluses = {grab, probe};
   }
-  /// Motions of a tick, held corner at (0, 0, 0), probe above the face at `height_m`.
+  /// Returns the motions of a tick, with the held corner at (0, 0, 0) and the probe above the face at `height_m`.
   ToolMotions motions(int tick, double height_m) const {
     const auto at = [](double x, double y, double z) {
       Pose pose;
@@ -97,7 +97,7 @@ struct PullAndProbe {
   std::vector<StylusConfig> styluses;
 };
 
-/// Ticks of pulling and probing against the reference's implicit Euler: displacements and what the tools gave.
+/// Compares ticks of pulling and probing with the reference's implicit Euler: displacements and impulses of the tools.
 /// @param tolerance  relative to the largest value
 inline void expectToolsLikeReference(const std::string& backend, Integrator integrator, int iterations,
                                      double tolerance) {
@@ -133,7 +133,7 @@ inline void expectToolsLikeReference(const std::string& backend, Integrator inte
   }
 }
 
-/// The same bits for every group size, and every time.
+/// Expects the same bits for every group size, and in every run.
 inline void expectSameHashForEveryGroupSize(const Model& model, const Scene& scene, const HostState& start,
                                             const std::vector<ToolMotions>& ticks) {
   uint64_t first = 0;
@@ -147,7 +147,7 @@ inline void expectSameHashForEveryGroupSize(const Model& model, const Scene& sce
   }
 }
 
-/// As above for an implicit integrator, with everything compiled in.
+/// Expects the same for an implicit integrator, with all features compiled in.
 inline void expectSameHashForEveryGroupSize(Integrator integrator) {
   const PullAndProbe tools;
   const Model model = modelOf({boxBody({6, 5, 7}, 0.01)});

@@ -10,7 +10,7 @@
 
 namespace viscera::test {
 
-/// A body of a box of whole cells, its lower corner at the origin.
+/// Returns a body of a box of whole cells, its lower corner at the origin.
 inline Body boxBody(const Vector3i& cells, double spacing_m, Weights weights = Weights::kCell) {
   Body body;
   body.name = "box";
@@ -23,15 +23,16 @@ inline Body boxBody(const Vector3i& cells, double spacing_m, Weights weights = W
   return body;
 }
 
-/// The body with cells of the neo-Hookean law.
+/// Returns the body with cells of the neo-Hookean law.
 inline Body ofLaw(Body body, double poisson_ratio = 0.3) {
   body.material.law = Law::kNeoHookean;
   body.material.poisson_ratio = poisson_ratio;
   return body;
 }
 
-/// Cells of a grid of which the part is tissue where `inside(point in cells)` holds, sampled at kSamples points an
-/// edge; cells with less than a hundredth are left out. They obey the neo-Hookean law, as all that are tissue in part.
+/// Returns a body with the cells of a grid that are partly tissue where `inside(point in cells)` holds, sampled at
+/// kSamples points per edge. Cells with less than a hundredth are left out. They obey the neo-Hookean law, as all
+/// partially filled cells do.
 template <class Inside>
 Body momentBody(const Vector3i& cells, double spacing_m, Inside inside) {
   constexpr int kSamples = 6;
@@ -67,8 +68,8 @@ Body momentBody(const Vector3i& cells, double spacing_m, Inside inside) {
   return body;
 }
 
-/// A lattice of exactly `count` nodes: a random tree of touching nodes with random counts on every spring between two
-/// of them, the same from both ends. A solid's cells cannot give sizes such as 1 or 63.
+/// Returns a lattice of exactly `count` nodes: a random tree of adjacent nodes with random counts on every spring
+/// between two of them, the same from both ends. A solid's cells cannot give sizes such as 1 or 63.
 inline Body blobBody(size_t count, double spacing_m, uint32_t seed) {
   std::mt19937 random(seed);
   const int extent = std::max(4, static_cast<int>(2 * std::cbrt(static_cast<double>(count))));
@@ -103,7 +104,8 @@ inline Body blobBody(size_t count, double spacing_m, uint32_t seed) {
   return body;
 }
 
-/// Chain of nodes along z with axial springs of four quarters (stiffness k) and nodes of eight eighths (mass m).
+/// Returns a chain of nodes along z with axial springs of four quarters (stiffness k) and nodes of eight eighths (mass
+/// m).
 inline Body chainBody(int count, double spacing_m) {
   Body body = boxBody({1, 1, count - 1}, spacing_m);
   Lattice& lattice = body.lattice;
@@ -121,8 +123,8 @@ inline Body chainBody(int count, double spacing_m) {
   return body;
 }
 
-/// Takes the springs between two layers of nodes, `at` and the next along `axis`, out of a box, as a cut does; of nodes
-/// from `first` on along the axis after that.
+/// Removes the springs between two layers of nodes of a box, `at` and the next along `axis`, as a cut does. Affects
+/// nodes from `first` on along the following axis.
 inline void slit(Body& body, int axis, int at, int first) {
   Lattice& lattice = body.lattice;
   const int along = (axis + 1) % 3;
@@ -145,10 +147,10 @@ inline Model modelOf(std::vector<Body> bodies) {
   return model;
 }
 
-/// Node counts that bracket a work group, and one that fills many.
+/// Node counts around the size of a work group, and one that fills many.
 constexpr size_t kSizes[] = {1, 63, 64, 65, 1234};
 
-/// The same body of two materials: `part` is what lies beyond a plane. Cells are sampled, whatever part of them is
+/// Returns the same body of two materials: `part` is beyond a plane. Cells are sampled, regardless of their share of
 /// tissue. @param normal  of the plane   @param at  of the plane along it, in cells from the lattice's first node
 inline Body twoMaterials(Body body, const Vector3d& normal, double at, const PartConfig& part) {
   constexpr int kSamples = 12;

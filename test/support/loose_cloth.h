@@ -7,14 +7,14 @@
 
 namespace viscera::test {
 
-/// A cloth that nothing slows down.
+/// Returns a cloth without damping.
 inline Body looseCloth(int rows, int columns, double spacing_m) {
   Body body = clothBody(rows, columns, spacing_m);
-  body.material.drag_per_s = body.material.dashpot_ratio = 0;
+  body.material.mass_damping_per_s = body.material.stiffness_damping_ratio = 0;
   return body;
 }
 
-/// Places a body: its nodes go from rest to pose * rest, all at one velocity.
+/// Places a body: its nodes move from rest to pose * rest, all with one velocity.
 inline void place(const Model& model, size_t body, const Pose& pose, const Vector3d& velocity_m_per_s,
                   HostState& state) {
   const uint32_t first = model.slotOffset(body);

@@ -6,7 +6,7 @@
 
 namespace viscera::test {
 
-/// Of all nodes [N s], by the masses of the float64 reference.
+/// Returns the momentum of all nodes [N s], with the masses of the float64 reference.
 inline Vector3d momentum(const Model& model, const HostState& state) {
   ReferenceSolver reference(model, Vector3d::Zero(), 1);
   load(reference, state);

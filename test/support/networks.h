@@ -11,8 +11,8 @@
 
 namespace viscera::test {
 
-/// A sheet of rows x columns nodes (sheetMesh) of structure surface, flat in z = 0 around the origin; nothing fixed, no
-/// skin. E 100 kPa and 1 mm thick unless given.
+/// Returns a sheet of rows x columns nodes (sheetMesh) of structure surface, flat in z = 0 around the origin; nothing
+/// fixed, no surface mesh. E 100 kPa and 1 mm thick unless given.
 inline Body clothBody(int rows, int columns, double spacing_m, double bending_ratio = 0, double thickness_m = 1e-3) {
   Body body;
   body.name = "cloth";
@@ -22,7 +22,7 @@ inline Body clothBody(int rows, int columns, double spacing_m, double bending_ra
   return body;
 }
 
-/// Holds the nodes that are nearest to points of the tissue frame. Returns their slots.
+/// Fixes the nodes nearest to points of the tissue frame. Returns their slots.
 inline std::vector<uint32_t> fixNearest(Body& body, const std::vector<Vector3d>& points_m) {
   std::vector<uint32_t> fixed;
   for (const Vector3d& point : points_m) {
@@ -36,20 +36,19 @@ inline std::vector<uint32_t> fixNearest(Body& body, const std::vector<Vector3d>&
 }
 
 struct GraphOptions {
-  size_t hub_valence = 200;  ///< links of one node, as far as there are nodes
-  size_t islands = 2;        ///< pieces that no spring joins to the others, beside the first
-  size_t duplicates = 4;     ///< springs that join two nodes once more
-  size_t zero_lengths =
-      4;                   ///< springs of rest length 0 between two nodes at the same place, as far as there are leaves
-  double prestrain = 0;    ///< rest lengths differ from the distance at rest by up to this share of it
-  double fixed_share = 0;  ///< of the nodes
-  double size_m = 0.1;     ///< of the cube that they lie in
+  size_t hub_valence = 200;    ///< links of one node, limited by the number of nodes
+  size_t islands = 2;          ///< pieces without a spring to the others, in addition to the first
+  size_t duplicates = 4;       ///< number of springs that duplicate another
+  size_t zero_lengths = 4;     ///< springs of rest length 0 between nodes at one position; limited by the leaves
+  double prestrain = 0;        ///< rest lengths differ from the distance at rest by up to this share of it
+  double fixed_share = 0;      ///< share of the nodes that are fixed
+  double size_m = 0.1;         ///< edge of the cube that contains the nodes
   double mean_n_per_m = 20;    ///< springs have 0.5..1.5 of it
   double mean_mass_kg = 2e-3;  ///< nodes have 0.5..1.5 of it
 };
 
-/// A random network of `nodes` nodes and at least `springs` springs (as many more as it takes to join every piece):
-/// every piece hangs together, has nodes of one link and, the first of them, a hub.
+/// A random network of `nodes` nodes and at least `springs` springs, or as many more as needed to connect every piece.
+/// Every piece is connected and has nodes with one link; the first also has a hub.
 class RandomGraph {
  public:
   RandomGraph(size_t nodes, size_t springs, uint32_t seed, const GraphOptions& options)
@@ -80,7 +79,7 @@ class RandomGraph {
 
   double share() { return static_cast<double>(random_() >> 5) / (1u << 27); }
 
-  /// Islands are small: four nodes each, where there are enough.
+  /// Divides the nodes into pieces. Islands are small: four nodes each, if there are enough.
   void divide(size_t nodes) {
     constexpr size_t kIsland = 4;
     const size_t islands = nodes >= 2 * kIsland * (options_.islands + 1) ? options_.islands : 0;
@@ -91,7 +90,7 @@ class RandomGraph {
     }
   }
 
-  /// All but the last eighth hang in a chain, the last ones by one spring each.
+  /// Connects a piece: all but the last eighth of the nodes form a chain, the last ones have one spring each.
   void join(const Piece& piece, size_t hub_valence) {
     const size_t core = coreOf(piece);
     for (size_t i = 1; i < piece.size(); ++i) add(piece[i], piece[i < core ? i - 1 : random_() % core]);
@@ -112,7 +111,7 @@ class RandomGraph {
       const NetworkSpring& spring = network_.springs[random_() % first];
       add(spring.a, spring.b);
     }
-    // A leaf has one spring only: that a node moves there takes no other zero-length spring apart.
+    // A leaf has one spring only: moving its node separates no other spring of length zero.
     const Piece& piece = pieces_[0];
     for (size_t i = coreOf(piece); i < piece.size() && i < coreOf(piece) + options_.zero_lengths; ++i) {
       const auto its = std::find_if(network_.springs.begin(), network_.springs.end(),

@@ -14,7 +14,7 @@
 
 namespace viscera::test {
 
-/// How a program ended and what it said.
+/// How a program ended, and its output.
 struct Ending {
   int status = -1;  ///< exit status; -1 if a signal ended it
   std::string out, err;
@@ -26,12 +26,12 @@ inline std::string shellQuoted(const std::string& word) {
   return out + "'";
 }
 
-/// [s] A program that runs longer hangs: the longest takes a minute of one processor, and machines differ by a factor
-/// of four.
+/// Timeout [s]: a program that runs longer hangs. The longest takes a minute of one processor, and machines differ by a
+/// factor of four.
 constexpr int kHangs_s = 240;
 
-/// Runs a program to its end; one that hangs ends with status 124. @param environment  "NAME=value" each, on top of
-/// this process's own
+/// Runs a program to its end; one that hangs ends with status 124. @param environment  "NAME=value" each, in addition
+/// to this process's own
 inline Ending runProgram(const std::string& program, const std::vector<std::string>& arguments,
                          const std::vector<std::string>& environment = {}) {
   const TemporaryFolder folder;
@@ -45,7 +45,7 @@ inline Ending runProgram(const std::string& program, const std::vector<std::stri
   char buffer[4096];
   for (size_t got = 0; (got = fread(buffer, 1, sizeof buffer, pipe)) > 0;) ending.out.append(buffer, got);
   const int state = pclose(pipe);
-  // A signal shows as such, or as 128 + signal where the shell did not exec.
+  // A signal appears as such, or as 128 + signal if the shell did not exec.
   if (WIFEXITED(state) && WEXITSTATUS(state) < 128) ending.status = WEXITSTATUS(state);
   ending.err = readFile(folder.file("err"));
   return ending;

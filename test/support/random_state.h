@@ -6,7 +6,7 @@
 
 namespace viscera::test {
 
-/// All nodes of the first body displaced and moving at random.
+/// Returns a state with all nodes of the first body displaced and moving at random.
 inline HostState randomState(const Model& model, double size_m, double speed_m_per_s, uint32_t seed) {
   std::mt19937 random(seed);
   HostState state = restState(model);
@@ -17,7 +17,7 @@ inline HostState randomState(const Model& model, double size_m, double speed_m_p
   return state;
 }
 
-/// As sceneFor, for an integrator other than leapfrog. @param fraction  substep over dt_safe
+/// Returns the same as sceneFor, for an integrator other than leapfrog. @param fraction  substep over dt_safe
 inline Scene sceneWith(Integrator integrator, const Model& model, int substeps, double fraction, int iterations = 20,
                        std::vector<StylusConfig> styluses = {}, const Vector3d& gravity = Vector3d::Zero()) {
   Scene scene = sceneFor(model, substeps, std::move(styluses), gravity);
@@ -37,7 +37,7 @@ inline ReferenceSolver referenceFor(ReferenceIntegrator integrator, const Model&
   return reference;
 }
 
-/// Kinetic and elastic energy [J] in float64; not finite if any number is not.
+/// Returns the kinetic and elastic energy [J] in float64; not finite if any number is not.
 inline double energyOf(const Model& model, const HostState& state) {
   ReferenceSolver reference(model, Vector3d::Zero(), 1);
   load(reference, state);

@@ -6,23 +6,23 @@
 #include <memory>
 #include <utility>
 
-#include "solver/cpu/store/sleep.h"
+#include "solver/cpu/state/sleep.h"
 #include "support/solver_rig.h"
 
 namespace viscera::test {
 
-// A cube whose bricks fall asleep, and what tools do to it, for the tests of sleep on either backend.
+// A cube with bricks that fall asleep, and tool motions on it, for the tests of sleep on either backend.
 
 constexpr double kSleepSpacing_m = 0.005;
 constexpr double kSleepTick_s = 0.005;
-constexpr double kSleepDrag_per_s = 60;  // less than twice the slowest mode's frequency: it swings, and soon settles
+constexpr double kSleepDrag_per_s = 60;  // below twice the slowest mode's frequency: it oscillates, and soon settles
 constexpr double kSleepSpeed_m_per_s = SolverConfig{}.sleep_speed_m_per_s;
 
-/// 13 nodes to a side: 4 bricks to a side. Held at the bottom, and soon at rest.
+/// Returns a cube of 13 nodes per edge, 4 bricks per edge. It is fixed at the bottom, and soon at rest.
 inline Body sleepyCube(Law law = Law::kSprings) {
   Body body = boxBody({12, 12, 12}, kSleepSpacing_m);
   if (law == Law::kNeoHookean) body = ofLaw(body, 0.4);
-  body.material.drag_per_s = kSleepDrag_per_s;
+  body.material.mass_damping_per_s = kSleepDrag_per_s;
   for (uint32_t slot : body.lattice.active_slots) {
     if (body.lattice.nodeAt(slot).z() == 0) body.lattice.nodes[slot].lo |= layout::kFixedBit;
   }
@@ -30,7 +30,7 @@ inline Body sleepyCube(Law law = Law::kSprings) {
 }
 
 inline const Vector3d kCorner_m(0, 0, 0.06);
-/// Stands still, 2 mm deep in the corner. The tip's radius is 6 mm.
+/// Returns a probe at rest, 2 mm deep in the corner. The tip's radius is 6 mm.
 inline ToolMotions probeAtCorner() {
   return probeAt(kCorner_m + Vector3d(0, 0, 0.004));
 }
@@ -49,14 +49,14 @@ inline ToolMotions letGoAtCorner() {
   motions[0].hold_ended = ToolMode::kGrab;
   return motions;
 }
-/// Along x through the whole width, blade from above, 1 cm of it in the cube.
+/// Returns a cut along x through the whole width, blade from above, 1 cm of it in the cube.
 inline ToolMotions cutTop() {
   return tool(ToolMode::kCut, {-0.02, 0.0275, 0.14}, {0.08, 0.0275, 0.14});
 }
 
 struct SleepKind {
   double sleep_speed_m_per_s = kSleepSpeed_m_per_s, gravity_m_per_s2 = 0;
-  bool governor = false, measured_limit = true;
+  bool stability_monitor = false, measured_limit = true;
 };
 inline Scene sleepyScene(const Model& model, const SleepKind& kind = {}) {
   StylusConfig stylus;
@@ -67,12 +67,12 @@ inline Scene sleepyScene(const Model& model, const SleepKind& kind = {}) {
   scene.solver.tick_hz = 1 / kSleepTick_s;
   scene.solver.dt_fraction = scene.solver.dt_fraction_strained = 0.75;
   scene.solver.sleep_speed_m_per_s = kind.sleep_speed_m_per_s;
-  scene.solver.governor = kind.governor;
+  scene.solver.stability_monitor = kind.stability_monitor;
   scene.solver.measured_limit = kind.measured_limit;
   return scene;
 }
 
-/// @return ticks until nothing is awake, or `most`
+/// Steps until nothing is awake. @return number of ticks, at most `most`
 template <class Solver>
 int settle(Solver& solver, int most = 2000) {
   int ticks = 0;
@@ -80,7 +80,7 @@ int settle(Solver& solver, int most = 2000) {
   return ticks;
 }
 
-/// Largest distance of a node of the first body between two states [m].
+/// Returns the largest distance of a node of the first body between two states [m].
 inline double farthestApart_m(const Model& model, const HostState& a, const HostState& b) {
   double largest = 0;
   for (uint32_t slot : model.bodies[0].lattice.active_slots) {

@@ -14,13 +14,13 @@
 
 namespace viscera::test {
 
-/// What a body of a test is run on.
+/// Backend and integrator of a test.
 struct SolverUnderTest {
   std::string backend;  ///< one of backendNames()
   Integrator integrator = Integrator::kLeapfrog;
 };
 
-/// Every integrator on every kind of backend, for INSTANTIATE_TEST_SUITE_P.
+/// Returns every integrator on every kind of backend, for INSTANTIATE_TEST_SUITE_P.
 inline auto solversUnderTest(const std::vector<Integrator>& integrators) {
   std::vector<SolverUnderTest> out;
   for (const std::string& backend : backendKinds()) {
@@ -29,7 +29,7 @@ inline auto solversUnderTest(const std::vector<Integrator>& integrators) {
   return ::testing::ValuesIn(out);
 }
 
-/// As the last part of a test's name.
+/// Returns their names as the last part of a test's name.
 inline std::string solverSuffix(const ::testing::TestParamInfo<SolverUnderTest>& info) {
   return backendSuffix({info.param.backend, info.index}) + "_" + traitsOf(info.param.integrator).name;
 }
@@ -37,14 +37,14 @@ inline std::string solverSuffix(const ::testing::TestParamInfo<SolverUnderTest>&
 /// One test body for every backend and some integrators. @see solversUnderTest
 class OnSolver : public ::testing::WithParamInterface<SolverUnderTest>, public GpuTest {
  protected:
-  std::unique_ptr<Ticks> make(const Model& model, Scene scene) const {
+  std::unique_ptr<TissueStepper> make(const Model& model, Scene scene) const {
     scene.solver.integrator = GetParam().integrator;
     scene.solver.iterations = 5;
     return makeBackend(GetParam().backend, model, scene);
   }
 };
 
-/// Of a stylus that is there.
+/// Returns the motion of a stylus that is present.
 inline StylusMotion motionOf(ToolMode mode, const Vector3d& from_m, const Vector3d& to_m) {
   StylusMotion out;
   out.mode = mode;
@@ -53,7 +53,7 @@ inline StylusMotion motionOf(ToolMode mode, const Vector3d& from_m, const Vector
   out.to.position_m = to_m;
   return out;
 }
-/// The first stylus alone.
+/// Returns motions of the first stylus alone.
 inline ToolMotions tool(ToolMode mode, const Vector3d& from_m, const Vector3d& to_m) {
   return ToolMotions{motionOf(mode, from_m, to_m)};
 }
@@ -65,16 +65,16 @@ inline bool isFinite(const HostState& state) {
   return isFinite(state.displacement_m) && isFinite(state.velocity_m_per_s);
 }
 
-/// Measurements of the last tick, however many there are.
-inline layout::TickStats lastStats(Ticks& solver) {
+/// Returns the measurements of the last tick, taking all that are available.
+inline layout::TickStats lastStats(TissueStepper& solver) {
   layout::TickStats stats{};
   while (solver.pollStats(stats, true)) {
   }
   return stats;
 }
 
-/// One tick of a solver and of the reference, with all that tools do.
-inline void tickBoth(Ticks& solver, ReferenceSolver& reference, const std::vector<StylusConfig>& styluses,
+/// Makes one tick of a solver and of the reference, with the actions of tools.
+inline void tickBoth(TissueStepper& solver, ReferenceSolver& reference, const std::vector<StylusConfig>& styluses,
                      size_t substeps, const ToolMotions& motions) {
   solver.step(motions);
   const ToolActs acts(styluses, static_cast<double>(substeps) * solver.dt_s());
@@ -86,16 +86,16 @@ inline void tickBoth(Ticks& solver, ReferenceSolver& reference, const std::vecto
   acts.endTick(reference, motions);
 }
 
-/// Displacements and velocities relative to the largest value.
+/// Compares displacements and velocities relative to the largest value.
 inline void expectSameState(const HostState& state, const ReferenceSolver& reference, double displacement,
                             double velocity) {
   EXPECT_LT(relativeError(state.displacement_m, reference.u_m, reference.active), displacement);
   EXPECT_LT(relativeError(state.velocity_m_per_s, reference.v_m_per_s, reference.active), velocity);
 }
 
-/// A tick without tools of both from a state, in substeps of the solver's. @return where the solver ends
-inline HostState expectSameTick(Ticks& solver, ReferenceSolver& reference, const HostState& start, double displacement,
-                                double velocity) {
+/// Makes a tick without tools of both from a state, in substeps of the solver's. @return end state of the solver
+inline HostState expectSameTick(TissueStepper& solver, ReferenceSolver& reference, const HostState& start,
+                                double displacement, double velocity) {
   solver.writeState(start);
   load(reference, start);
   solver.step({});
@@ -105,8 +105,8 @@ inline HostState expectSameTick(Ticks& solver, ReferenceSolver& reference, const
   return end;
 }
 
-/// What rounding of absolute positions makes of verlet_paper: up to 2^-24 of each, `roundings` of them a substep.
-/// x+ = 2 x - x_prev carries each on as a velocity: over n substeps n (n + 1)/2 of them at worst.
+/// Compares positions of verlet_paper within the rounding of absolute positions: up to 2^-24 of each, `roundings` of
+/// them per substep. x+ = 2 x - x_prev carries each on as a velocity: over n substeps n (n + 1)/2 of them at worst.
 /// @return largest error of a position [m]
 inline double expectPositionsRounded(const HostState& end, const ReferenceSolver& reference, double roundings,
                                      int substeps, double dt_s) {
@@ -123,8 +123,8 @@ inline double expectPositionsRounded(const HostState& end, const ReferenceSolver
   return error_m;
 }
 
-/// The same state again from the start on, after a reset.
-inline void expectResetRestoresTheHash(Ticks& solver, const Model& model, int ticks) {
+/// Expects the same state hash after a reset and the same ticks.
+inline void expectResetRestoresTheHash(TissueStepper& solver, const Model& model, int ticks) {
   const auto run = [&] {
     for (int t = 0; t < ticks; ++t) solver.step({});
     return stateHash(model, solver.readState());
@@ -137,9 +137,9 @@ inline void expectResetRestoresTheHash(Ticks& solver, const Model& model, int ti
   EXPECT_EQ(run(), first);
 }
 
-/// A hand that holds something is nowhere from one tick to the next: the governor takes that tick back.
-/// @param solver  of a scene with governor and a stylus
-inline void expectNoPlaceIsRolledBack(Ticks& solver, const Model& model) {
+/// Moves a stylus that holds something to a non-finite position for a tick: the stability monitor rolls that tick back.
+/// @param solver  of a scene with stability monitor and a stylus
+inline void expectNoPlaceIsRolledBack(TissueStepper& solver, const Model& model) {
   ToolMotions motions = tool(ToolMode::kGrab, Vector3d::Zero(), Vector3d::Zero());
   motions[0].hold_begins = true;
   solver.step(motions);
@@ -149,11 +149,11 @@ inline void expectNoPlaceIsRolledBack(Ticks& solver, const Model& model) {
   solver.step(motions);
   EXPECT_EQ(stateHash(model, solver.readState()), before);
   for (int t = 0; t < 10; ++t) solver.step({});
-  EXPECT_EQ(solver.health().trips, 1u);  // a GPU tells of it a tick later
+  EXPECT_EQ(solver.health().trips, 1u);  // a GPU reports it a tick later
   EXPECT_TRUE(isFinite(solver.readState()));
 }
 
-/// A blade and tools of some centimetres, for bodies of as many.
+/// Returns a blade and tools of some centimetres, for bodies of that size.
 inline StylusConfig wideTools() {
   StylusConfig config;
   config.probe.radius_m = config.grab.radius_m = 0.012;
@@ -164,7 +164,7 @@ inline StylusConfig wideTools() {
   return config;
 }
 
-/// A solver and the reference side by side, under the same two styluses.
+/// A solver and the reference in parallel, under the same two styluses.
 class BesideReference : public OnBackend {
  protected:
   BesideReference(size_t substeps, const StylusConfig& both) : substeps_(substeps), styluses_{both, both} {}
@@ -202,7 +202,7 @@ class BesideReference : public OnBackend {
   size_t substeps_;
   Model model_;
   std::vector<StylusConfig> styluses_;
-  std::unique_ptr<Ticks> solver_;
+  std::unique_ptr<TissueStepper> solver_;
   std::optional<ReferenceSolver> reference_;
 };
 

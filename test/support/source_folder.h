@@ -12,8 +12,8 @@ extern const char* const kDicomProgram;  ///< the program `viscera-dicom`; empty
 
 namespace viscera::test {
 
-/// Returns the folder with config/ and the sources that tests read: the environment's VISCERA_SOURCE_DIR, as of a
-/// bundle (scripts/bundle --tests), or the tree that the test was built from.
+/// Returns the folder with config/ and the sources that tests read: that in the environment variable
+/// VISCERA_SOURCE_DIR, as in a bundle (scripts/bundle --tests), or the tree from which the test was built.
 inline std::string sourceFolder() {
   const char* given = std::getenv("VISCERA_SOURCE_DIR");
   return given ? given : kSourceFolder;

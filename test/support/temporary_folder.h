@@ -17,7 +17,7 @@ inline std::string readFile(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// A fresh folder that goes away with everything in it.
+/// A new folder that is removed with its contents.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -9,7 +9,7 @@
 
 namespace viscera::test {
 
-/// Whether a message holds every one of the parts; tells which it lacks.
+/// Returns whether a message contains all of the parts; the failure names the missing one.
 inline ::testing::AssertionResult says(const std::string& message, const std::vector<std::string>& parts) {
   for (const std::string& part : parts) {
     if (message.find(part) != std::string::npos) continue;
@@ -18,7 +18,8 @@ inline ::testing::AssertionResult says(const std::string& message, const std::ve
   return ::testing::AssertionSuccess();
 }
 
-/// Message of the E that `act` throws; "nothing was thrown" if it throws nothing. Other exceptions pass through.
+/// Returns the message of the E that `act` throws; "nothing was thrown" if it throws nothing. Other exceptions pass
+/// through.
 template <class E, class Act>
 std::string messageOf(Act act) {
   try {

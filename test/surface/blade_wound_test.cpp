@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Wounds behind blades that tissue resists: they are closed, where the fronts have been.
+// Wounds behind blades that tissue resists are closed surfaces along the path of the fronts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace viscera::testing {
 namespace {
 
 constexpr double kStep_m = 0.001;
-constexpr double kBeside_m = 0.0011;         // off a row of nodes
+constexpr double kBeside_m = 0.0011;         // offset from a row of nodes
 constexpr double kVolume = 1e-5;             // share: float rounding
 constexpr double kOffPlane_m = 0.1 * 0.004;  // of a flat cut's lips and walls, as in other wounds
 
@@ -33,7 +33,7 @@ Scene sceneOf(const std::string& structure) {
                     "blades.yaml");
 }
 
-/// A stroke of an upright blade along x. @param ticks  of it: 45 end within the block, 80 beyond it
+/// Makes a stroke of an upright blade along x. @param ticks  45 end within the block, 80 beyond it
 HostState strokeThrough(const Model& model, const Scene& scene, int ticks) {
   CpuSolver solver(model, scene);
   Vector3d at(-0.031, kBeside_m, -0.01);

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Cuts of networks as the solvers leave them behind, and what is then drawn.
+// Cuts of networks as the solvers leave them, and the mesh that is then drawn.
 #pragma once
 
 #include <algorithm>
@@ -17,14 +17,14 @@
 
 namespace viscera::testing {
 
-/// Springs of the networks of the bodies before it: its first in SurfaceRig::spring_cut.
+/// Returns the number of springs in the networks of the bodies before this one: its first in SurfaceRig::spring_cut.
 inline size_t firstSpring(const Model& model, size_t body) {
   size_t first = 0;
   for (size_t b = 0; b < body; ++b) first += model.bodies[b].network ? model.bodies[b].network->springs.size() : 0;
   return first;
 }
 
-/// Takes a spring of a body's network from both ends, crossed at a share of the way from a to b.
+/// Removes a spring of a body's network from both ends, crossed at a share of its length from a to b.
 inline void cutSpring(SurfaceRig& rig, size_t body, size_t spring, double share) {
   float& cut = rig.spring_cut[firstSpring(rig.model, body) + spring];
   if (cut != 0) return;
@@ -40,7 +40,7 @@ inline size_t springBetween(const SpringNetwork& network, uint32_t a, uint32_t b
   return static_cast<size_t>(its - network.springs.begin());
 }
 
-/// Cuts every spring through the plane where `height` of a rest position is 0.
+/// Cuts every spring that crosses the plane in which `height` of a rest position is 0.
 template <class Height>
 void cutThrough(SurfaceRig& rig, size_t body, Height height) {
   const SpringNetwork& network = *rig.model.bodies[body].network;
@@ -68,7 +68,7 @@ inline double areaOf(const std::vector<Corners>& triangles, const std::vector<Ve
   });
 }
 
-/// Pieces that hang together by shared vertices: of each vertex that is drawn, the lowest vertex of its piece.
+/// Returns the pieces connected by shared vertices: for each vertex that is drawn, the lowest vertex of its piece.
 inline std::map<uint32_t, uint32_t> drawnPieces(const std::vector<Corners>& triangles) {
   uint32_t most = 0;
   for (const Corners& t : triangles) most = std::max({most, t[0], t[1], t[2]});

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The skin on the host against the one on the GPU: the same shaders' text.
+// The surface mesh on the host against that on the GPU, from the same shaders' text.
 #include "surface/follow/host_surface.h"
 
 #include <gtest/gtest.h>
@@ -21,8 +21,8 @@ using namespace viscera::testing;
 namespace {
 
 constexpr double kSpacing_m = 0.01;
-constexpr double kPlace_m = 1e-6;           // float rounding of places of some centimetres
-constexpr double kNormalError = 2.0 / 511;  // a step of a packed normal per axis: rounding may fall to either side
+constexpr double kPlace_m = 1e-6;           // float rounding of positions of some centimetres
+constexpr double kNormalError = 2.0 / 511;  // a step of a packed normal per axis: rounding may go either way
 
 Vector3d deformed(const Vector3d& x) {
   const double twist = 6 * x.z();
@@ -36,7 +36,7 @@ double height(const Vector3d& x) {
   return x.x() + 0.4 * x.y() - 0.0123;
 }
 
-/// A cloth, a block, a cloth that cannot be cut, a ball with cells in part: numbers of none begin at 0 but the first's.
+/// A cloth, a block, a cloth that cannot be cut, a ball with partial cells: only the first body's indices begin at 0.
 class HostSurfaceTest : public ::testing::Test {
  protected:
   HostSurfaceTest() : rig_(bodies()), host_(rig_.model) { snapshot_.bricks = host_.shownBricks(); }
@@ -49,7 +49,7 @@ class HostSurfaceTest : public ::testing::Test {
       std::copy(nodes.begin(), nodes.end(), rig_.nodes.begin() + rig_.model.slotOffset(b));
     }
   }
-  ShownMesh onHost() {
+  VisibleMesh onHost() {
     snapshot_.displacement_m.clear();
     for (const uint32_t brick : snapshot_.bricks) {
       const layout::vec4* const first = &rig_.displacement_m[size_t{layout::kBrickSlots} * brick];
@@ -60,13 +60,13 @@ class HostSurfaceTest : public ::testing::Test {
     snapshot_.nodes = rig_.nodes;
     snapshot_.spring_cut = rig_.spring_cut;
     snapshot_.cut_revision = rig_.revision;
-    ShownMesh out;
+    VisibleMesh out;
     host_.show(snapshot_, out);
     return out;
   }
   void expectAsOnTheGpu() {
     rig_.follow();
-    const ShownMesh mesh = onHost();
+    const VisibleMesh mesh = onHost();
     ASSERT_EQ(mesh.vertices(), rig_.surface.vertices());
     EXPECT_EQ(mesh.topology->triangles, rig_.surface.skin().shown(rig_.surface.alive().read().data())->triangles);
     const std::vector<Vector3d> positions = rig_.positions(), normals = rig_.normals();
@@ -94,7 +94,7 @@ class HostSurfaceTest : public ::testing::Test {
 }  // namespace
 
 TEST_F(HostSurfaceTest, RestIsTheMesh) {
-  const ShownMesh mesh = onHost();
+  const VisibleMesh mesh = onHost();
   EXPECT_EQ(mesh.topology, host_.skin().whole());
   size_t vertex = 0;
   for (const Body& body : rig_.model.bodies) {
@@ -116,9 +116,9 @@ TEST_F(HostSurfaceTest, SplitsAsTheGpuDoes) {
   cut();
   rig_.split();
   expectAsOnTheGpu();
-  const ShownMesh mesh = onHost();
+  const VisibleMesh mesh = onHost();
   EXPECT_NE(mesh.topology->revision, host_.skin().whole()->revision);
-  const std::vector<ShownPatch>&now = mesh.topology->patches, &whole = host_.skin().whole()->patches;
+  const std::vector<VisiblePatch>&now = mesh.topology->patches, &whole = host_.skin().whole()->patches;
   ASSERT_EQ(now.size(), 4u);
   EXPECT_GT(now[0].count, whole[0].count);  // in pieces
   for (size_t b = 1; b < now.size(); ++b) EXPECT_EQ(now[b].count, whole[b].count);
@@ -151,7 +151,7 @@ TEST_F(HostSurfaceTest, NormalsAreUnitForAnyInput) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   for (const float value : {nan, inf, -inf, 1e38f, 1e-20f}) {
     for (layout::vec4& u : rig_.displacement_m) u = {value, 0, value, 0};
-    const ShownMesh mesh = onHost();
+    const VisibleMesh mesh = onHost();
     for (const uint32_t packed : mesh.normals) ASSERT_NEAR(unpackNormal(packed).norm(), 1, kNormalError) << value;
   }
 }

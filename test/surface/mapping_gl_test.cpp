@@ -19,7 +19,7 @@ constexpr double kRadius_m = 0.05;
 // The kernel rounds origin, grid step, their product and two sums, each by half an ulp of the largest coordinate.
 constexpr double kRestUlps = 4;
 // Moved nodes carry their rounding into directions: an ulp of a displacement over a spacing, times an offset of less
-// than a spacing, in three axes of two edges, on top of the above.
+// than a spacing, in three axes of two edges, in addition to the above.
 constexpr double kMovedUlps = 16;
 // A step of a packed normal is 1/511 per axis and rounding errs by half of it; plus float noise.
 constexpr double kMappingNormalError = 1.0 / 511;
@@ -41,7 +41,7 @@ Body boxBody() {
   return makeBody(blockSolid({4, 3, 5}, kMappingSpacing_m), boxMesh({0, 0, 0}, {0.04, 0.03, 0.05}, 9));
 }
 
-/// A bend, a twist and a swelling at once: nothing symmetric about it.
+/// Returns a deformed position: bending, twist and swelling at once, without any symmetry.
 Vector3d mappingDeformed(const Vector3d& x) {
   const double twist = 6 * x.z();
   return {1.1 * x.x() * std::cos(twist) - x.y() * std::sin(twist) + 3 * x.z() * x.z(),
@@ -54,7 +54,7 @@ double largest(const std::vector<Vector3d>& points) {
   return out;
 }
 
-/// Every vertex and normal of a body against the float64 reference.
+/// Compares every vertex and normal of a body with the float64 reference.
 void expectAsReference(const SurfaceRig& rig, size_t body, size_t first_vertex) {
   const auto u = rig.ofBody(rig.displacement_m, body);
   const auto nodes = rig.ofBody(rig.nodes, body);
@@ -127,7 +127,8 @@ TEST_F(SkinMapping, StretchMovesVerticesWithTheNodesAndKeepsOffsets) {
   const Skin& skin = rig.model.bodies[0].skin;
   for (size_t v = 0; v < positions.size(); ++v) {
     const layout::vec4& o = skin.bindings[v].offset_constant;
-    // Offsets rotate but do not stretch: at most the strain of the offset, and its rotation by at most the strain.
+    // Offsets rotate but do not stretch: the error is at most the strain of the offset, plus its rotation by at most
+    // the strain.
     const double slack_m = 2 * kStretch * Vector3d(o.x, o.y, o.z).norm() + kMovedUlps * kUlp * kRadius_m;
     ASSERT_LT((positions[v] - moved(skin.mesh.positions_m[v].cast<double>())).norm(), slack_m) << v;
   }

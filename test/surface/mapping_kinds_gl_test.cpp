@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The mappings that a scene can ask for (docs/mappings.md), each held to a float64 formula written from EGVE's
-// equations, with normals that are carried in the interpolated one: of a binding only its nodes are taken.
+// The mappings that a scene can select (docs/surface.md), each compared with a float64 formula written from EGVE's
+// equations, with normals carried in the interpolated one. Of a binding only its nodes are used.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,9 +20,9 @@ using namespace viscera::testing;
 namespace {
 
 constexpr double kMappingKindsSpacing_m = 0.01, kMappingKindsRadius_m = 0.05;
-constexpr double kMappingKindsPlace_m = 1e-6;  // float rounding of places of up to 0.3 m, carried through directions
+constexpr double kMappingKindsPlace_m = 1e-6;  // float rounding of positions of up to 0.3 m, carried through directions
 constexpr double kMappingKindsNormalError =
-    2.0 / 511;  // a step of a packed normal per axis: rounding may fall to either side
+    2.0 / 511;  // a step of a packed normal per axis: rounding may go either way
 const std::vector<Mapping> kAll = {Mapping::kOneToOne, Mapping::kConstant, Mapping::kInterpolated,
                                    Mapping::kAlongNormal};
 
@@ -45,20 +45,20 @@ Body partialBall(Mapping mapping) {
   const TriangleMesh mesh = weldedSphereMesh({0.01, 0.02, 0.03}, kMappingKindsRadius_m, 10);
   return mapped(voxeliseByMoments(mesh, kMappingKindsSpacing_m), mesh, mapping);
 }
-/// A bar of 12 x 4 x 4 cells whose skin lies 0.4 cells around it, as a smooth skin of coarse cells does.
+/// Returns a bar of 12 x 4 x 4 cells with a surface mesh 0.4 cells around it, as a smooth mesh of coarse cells has.
 Body bar(Mapping mapping, int n = 24) {
   const Vector3d size = kMappingKindsSpacing_m * Vector3d(12, 4, 4),
                  around = Vector3d::Constant(0.4 * kMappingKindsSpacing_m);
   return mapped(blockSolid({12, 4, 4}, kMappingKindsSpacing_m), boxMesh(-around, size + around, n), mapping);
 }
 
-/// Bent and twisted, with no symmetry; far less than what would make normals unclear.
+/// Returns a deformed position: bent and twisted, without symmetry; far less than would make normals ambiguous.
 Vector3d mappingKindsDeformed(const Vector3d& x) {
   const double twist = 4 * x.z();
   return {1.1 * x.x() * std::cos(twist) - x.y() * std::sin(twist) + 2 * x.z() * x.z(),
           x.x() * std::sin(twist) + 0.95 * x.y() * std::cos(twist), 1.1 * x.z() + 0.1};
 }
-/// To a circle around a line along y, above the bar.
+/// Bends to a circle around a line along y, above the bar.
 Vector3d bent(const Vector3d& x) {
   constexpr double kBend_m = 8 * kMappingKindsSpacing_m;
   const double angle = (x.x() - 0.06) / kBend_m, radius = kBend_m - (x.z() - 0.02);
@@ -95,11 +95,11 @@ class Egve {
       return out;
     }
     const Vector3d e1 = rest_[node[1]] - rest_[node[0]], e2 = rest_[node[2]] - rest_[node[0]];
-    // Eq 4: the nearest place of the face.
+    // Eq 4: the nearest point of the face.
     double w1 = std::clamp((vertex - rest_[node[0]]).dot(e1) / e1.squaredNorm(), 0.0, 1.0),
            w2 = std::clamp((vertex - rest_[node[0]]).dot(e2) / e2.squaredNorm(), 0.0, 1.0);
     if (mapping == Mapping::kAlongNormal) {
-      w1 = s.weights.y;  // 3.5 does not say how to find it; what makes it right is asked in the test of the rest pose
+      w1 = s.weights.y;  // 3.5 does not say how to find it; its correctness is tested at rest
       w2 = s.weights.z;
       const Vector3d normal = normalAt(now_, node, w1, w2);
       out.position = at(now_, node, w1, w2) + s.weights.w * normal;
@@ -119,7 +119,7 @@ class Egve {
   Vector3d at(const std::vector<Vector3d>& p, const std::array<uint32_t, 3>& n, double w1, double w2) const {
     return (1 - w1 - w2) * p[n[0]] + w1 * p[n[1]] + w2 * p[n[2]];
   }
-  /// Eq 3, without `normalize`.
+  /// Returns eq 3, without `normalize`.
   Vector3d sumAt(const std::vector<Vector3d>& p, uint32_t slot) const {
     Vector3d sum = Vector3d::Zero();
     for (uint32_t spring = 0; spring < layout::kSpringsPerNode; ++spring) {
@@ -128,15 +128,15 @@ class Egve {
     }
     return sum;
   }
-  /// Eq 8, first line, made a unit vector: of the sums of eq 3.
+  /// Returns eq 8, first line, normalised, from the sums of eq 3.
   Vector3d normalAt(const std::vector<Vector3d>& p, const std::array<uint32_t, 3>& n, double w1, double w2) const {
     const std::array<double, 3> w = {1 - w1 - w2, w1, w2};
     Vector3d sum = Vector3d::Zero();
     for (size_t i = 0; i < 3; ++i) sum += w[i] * sumAt(p, n[i]).normalized();
     return sum.normalized();
   }
-  /// The same of eq 3 at rest, turned as the tissue is: half way between where the normal of a plane goes, two of whose
-  /// tangents go where the node's axial neighbours say, and where a fibre along it goes.
+  /// Returns the same from eq 3 at rest, rotated with the tissue: half way between the normal of a plane with two
+  /// tangents that follow the node's axial neighbours, and a fibre along the normal.
   Vector3d carriedAt(const std::vector<Vector3d>& p, const std::array<uint32_t, 3>& n, double w1, double w2) const {
     const std::array<double, 3> w = {1 - w1 - w2, w1, w2};
     Vector3d sum = Vector3d::Zero();
@@ -163,7 +163,7 @@ class Egve {
   const std::vector<Vector3d>& rest() const { return rest_; }
 
  private:
-  /// Eq 6, or eq 8.
+  /// Returns the basis of eq 6 or eq 8.
   std::array<Vector3d, 3> basis(Mapping mapping, const std::vector<Vector3d>& p, const std::array<uint32_t, 3>& n,
                                 double w1, double w2) const {
     const Vector3d t = (p[n[1]] - p[n[0]]).normalized(), b_t = (p[n[2]] - p[n[0]]).normalized();
@@ -177,12 +177,13 @@ class Egve {
   std::vector<Vector3d> rest_, now_;
 };
 
-/// In the middle of the bar's two bent faces, away from its edges, where normals of nodes are not those of one face.
+/// Returns whether a point is in the middle of the bar's two bent faces, away from edges, where normals of nodes are a
+/// mean over faces.
 bool isAbove(const Vector3d& rest) {
   return std::abs(rest.x() - 0.06) < 0.04 && std::abs(rest.y() - 0.02) < 0.01 && std::abs(rest.z() - 0.02) > 0.02;
 }
 
-ShownMesh onHost(const SurfaceRig& rig) {
+VisibleMesh onHost(const SurfaceRig& rig) {
   HostSurface host(rig.model);
   StateSnapshot snapshot;
   snapshot.bricks = host.shownBricks();
@@ -194,7 +195,7 @@ ShownMesh onHost(const SurfaceRig& rig) {
   }
   snapshot.nodes = rig.nodes;
   snapshot.spring_cut = rig.spring_cut;
-  ShownMesh out;
+  VisibleMesh out;
   host.show(snapshot, out);
   return out;
 }
@@ -217,7 +218,7 @@ TEST_F(MappingKinds, EachIsItsEquationsInFloat64OnBothBackends) {
       const Egve egve(body, mappingKindsDeformed);
       const std::vector<Vector3f> rest_normals = vertexNormals(body.skin.mesh);
       const std::vector<Vector3d> positions = rig.positions(), normals = rig.normals();
-      const ShownMesh host = onHost(rig);
+      const VisibleMesh host = onHost(rig);
       size_t judged = 0;
       for (size_t v = 0; v < positions.size(); ++v) {
         ASSERT_EQ(body.skin.bindings[v].springs & layout::kInCellBit, 0u);
@@ -241,7 +242,7 @@ TEST_F(MappingKinds, EachIsExactAtRest) {
       SurfaceRig rig(std::move(body));
       rig.follow();
       const std::vector<Vector3d> positions = rig.positions();
-      const ShownMesh host = onHost(rig);
+      const VisibleMesh host = onHost(rig);
       for (size_t v = 0; v < positions.size(); ++v) {
         const Vector3d rest = rig.model.bodies[0].skin.mesh.positions_m[v].cast<double>();
         ASSERT_LT((positions[v] - rest).norm(), kMappingKindsPlace_m) << int(mapping) << ", vertex " << v;
@@ -287,7 +288,7 @@ TEST_F(MappingKinds, OneToOneDoesNotTurnItsOffsets) {
   };
   for (const Mapping mapping : {Mapping::kConstant, Mapping::kInterpolated, Mapping::kAlongNormal})
     EXPECT_LT(largestError(mapping), kMappingKindsPlace_m) << int(mapping);
-  // The longest offset is near 0.87 cells, turned by 69 degrees: 2 sin(34.4 degrees) of it at most.
+  // The longest offset is near 0.87 cells, rotated by 69 degrees: an error of at most 2 sin(34.4 degrees) of it.
   EXPECT_GT(largestError(Mapping::kOneToOne), 0.5 * kMappingKindsSpacing_m);
 }
 
@@ -300,11 +301,11 @@ TEST_F(MappingKinds, OneToOneShadesByTheNodesAndNotByTheMesh) {
   for (size_t v = 0; v < normals.size(); ++v)
     sum += std::acos(std::min(1.0, normals[v].dot(mesh_normals[v].cast<double>())));
   const double mean = sum / static_cast<double>(normals.size());
-  EXPECT_GT(mean, 0.05);  // rad: stairs show
-  EXPECT_LT(mean, 0.5);   // and yet it looks outward
+  EXPECT_GT(mean, 0.05);  // rad: stairs are visible
+  EXPECT_LT(mean, 0.5);   // and yet normals point outward
 }
 
-/// Constant bases part neighbours that belong to two triangles (EGVE figure 5); interpolated ones keep them together.
+/// Constant bases separate neighbours of two triangles (EGVE figure 5); interpolated ones keep them together.
 TEST_F(MappingKinds, ConstantHasJumpsUnderBendingWhereInterpolatedHasNone) {
   const auto largestJumps = [&](Mapping mapping) {
     SurfaceRig rig(bar(mapping, 96));

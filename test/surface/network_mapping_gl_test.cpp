@@ -44,7 +44,7 @@ Body ball() {
   return withNetworkSkin(body);
 }
 
-/// Area-weighted mean of the normals of the triangles around each vertex, in float64.
+/// Returns the area-weighted mean of the normals of the triangles around each vertex, in float64.
 std::vector<Vector3d> ringNormals(const TriangleMesh& mesh, const std::vector<Vector3d>& at) {
   std::vector<Vector3d> out(mesh.positions_m.size(), Vector3d::Zero());
   for (const auto& t : mesh.triangles) {

@@ -16,7 +16,7 @@ using test::clothBody;
 
 constexpr double kNetworkSplittingSpacing_m = 0.01;
 constexpr double kUlp = 1.2e-7;  // [-] spacing of floats at 1
-// Of a vertex of a sheet 0.2 m wide: its place and the piece of an edge that is turned round in some ten operations.
+// For a vertex of a sheet 0.2 m wide: its position, and a part of an edge rotated in some ten operations.
 constexpr double kPlace_m = 10 * kUlp * 0.2;
 // A step of a packed normal is 1/511 per axis and rounding errs by half of it; plus float noise.
 constexpr double kNetworkSplittingNormalError = 1.0 / 511;
@@ -30,7 +30,7 @@ Body networkSplittingCloth(int rows = 20, int columns = 17) {
   return withNetworkSkin(clothBody(rows, columns, kNetworkSplittingSpacing_m));
 }
 
-/// Slanted, so that it crosses edges at all places and meets no node.
+/// Returns the height over a slanted plane that crosses edges at all positions and passes through no node.
 double height(const Vector3d& x) {
   return x.x() + 0.31 * x.y() - 0.0037;
 }
@@ -40,12 +40,12 @@ void apply(SurfaceRig& rig) {
   rig.follow();
 }
 
-/// Vertices of a body that are nodes, and which side they are on.
+/// Returns on which side of the cut a vertex that is a node is.
 bool isBeyond(const SurfaceRig& rig, uint32_t vertex) {
   return height(rig.model.bodies[0].skin.mesh.positions_m[vertex].cast<double>()) >= 0;
 }
 
-/// Triangle with all its neighbours, near the middle of a cloth; as vertices, which are slots there.
+/// Returns a triangle with all its neighbours, near the middle of a cloth, as vertices, which are slots there.
 Corners middleTriangle(const Body& body) {
   const auto& triangles = body.skin.mesh.triangles;
   const auto& at = body.skin.mesh.positions_m;
@@ -93,7 +93,7 @@ TEST_F(NetworkSplitting, CutThroughKeepsTheShownAreaAndMakesTwoPieces) {
   const std::vector<Corners> drawn = drawnTriangles(rig.surface);
   EXPECT_GT(drawn.size(), rig.surface.triangles());
   EXPECT_EQ(countPieces(drawn), 2u);
-  EXPECT_NEAR(areaOf(drawn, rig.positions()), area_m2, kPlace_m * 0.2 * 4);  // every border may be off by a place
+  EXPECT_NEAR(areaOf(drawn, rig.positions()), area_m2, kPlace_m * 0.2 * 4);  // rounding of every border
 }
 
 TEST_F(NetworkSplitting, NewVerticesLieWhereTheBladeCrossed) {
@@ -211,7 +211,7 @@ TEST_F(NetworkSplitting, CornerWhoseNodeHangsOnNothingIsNotShown) {
   }
   apply(rig);
   const std::vector<Corners> drawn = drawnTriangles(rig.surface);
-  EXPECT_EQ(drawn.size(), rig.surface.triangles() + 6);  // what is left of its six triangles are two each
+  EXPECT_EQ(drawn.size(), rig.surface.triangles() + 6);  // the rest of its six triangles is two each
   for (const Corners& t : drawn) EXPECT_EQ(std::count(t.begin(), t.end(), lonely), 0);
 }
 
@@ -229,7 +229,7 @@ TEST_F(NetworkSplitting, TrianglesOfErasedSpringsVanish) {
 TEST_F(NetworkSplitting, FlapOfANodeWithoutAWholeTriangleIsNotTurned) {
   SurfaceRig rig(networkSplittingCloth());
   const Body& body = rig.model.bodies[0];
-  // A strip between two cuts, one node wide: its triangles all reach across one of them.
+  // A strip between two cuts, one node wide: its triangles all extend across one of them.
   const double middle_m = body.network->positions_m[middleTriangle(body)[0]].y();
   cutThrough(rig, 0, [&](const Vector3d& x) { return x.y() - middle_m + 0.3 * kNetworkSplittingSpacing_m; });
   cutThrough(rig, 0, [&](const Vector3d& x) { return x.y() - middle_m - 0.4 * kNetworkSplittingSpacing_m; });
@@ -271,7 +271,7 @@ TEST_F(NetworkSplitting, NormalsAtACutComeFromTheirOwnSide) {
   apply(rig);
   for (const auto& [v, piece] : drawnPieces(drawnTriangles(rig.surface))) {
     ASSERT_LT((rig.normals()[v] - Vector3d::UnitZ()).norm(), kNetworkSplittingNormalError) << "vertex " << v;
-    if (v > 40) break;  // reading back takes its time
+    if (v > 40) break;  // reading back is slow
   }
 }
 

@@ -110,7 +110,7 @@ TEST_F(NodeOverlays, WhatCamerasShareIsWorkedOutOnceOfAState) {
   overlay.follow(rig.state(), rig.surface);
   const size_t all = overlay.makeLines(rig.state(), true);
   const std::vector<uint32_t> lines = overlay.lines().read();
-  for (layout::NodeBits& bits : rig.nodes) bits.lo &= ~layout::kAxialMask;  // would be other lines
+  for (layout::NodeBits& bits : rig.nodes) bits.lo &= ~layout::kAxialMask;  // would give other lines
   rig.upload();
   EXPECT_LT(overlay.makeLines(rig.state(), false), all);
   EXPECT_EQ(overlay.makeLines(rig.state(), true), all);
@@ -136,7 +136,7 @@ TEST_F(NodeOverlays, AClothIsShownWithItsStrainAndTheLinksThatAreLeft) {
   overlay.follow(rig.state(), rig.surface);
   const std::vector<layout::vec4> nodes = overlay.nodes().read();
   for (const uint32_t slot : rig.model.bodies[0].lattice.active_slots)
-    EXPECT_NEAR(nodes[slot].w, 0.1, kRounding) << slot;  // springs at rest where their ends are: 1.1 times as long
+    EXPECT_NEAR(nodes[slot].w, 0.1, kRounding) << slot;  // rest length at the distance of their ends: 1.1 times as long
   const size_t count = overlay.makeLines(rig.state(), true);
   EXPECT_EQ(linesThatJoin(overlay.lines().read(), count), rig.model.bodies[0].network->springs.size());
   rig.spring_cut[3] = 0.5F;

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "viscera/surface/shown_mesh.h"
+#include "viscera/surface/visible_mesh.h"
 
 using namespace viscera;
 

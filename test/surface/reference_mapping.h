@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The skin's mapping in float64, written from the papers' equations and not from the kernels.
+// The mapping of the surface mesh in float64, written from the papers' equations and not from the kernels.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace viscera::testing {
 
-/// Which form of EGVE eqs 6 and 8: orthonormal (physics.md 4), or as printed, without normalising N and N_c.
+/// Form of EGVE eqs 6 and 8: orthonormal (physics.md 4), or as printed, without normalising N and N_c.
 enum class Bases { kOrthonormal, kAsPrinted };
 
 class ReferenceMapping {
@@ -32,7 +32,7 @@ class ReferenceMapping {
   Vertex map(const layout::SkinBinding& s) const {
     return (s.springs & layout::kInCellBit) && !isCellCut(s) ? mapInCell(s) : mapByTriangle(s);
   }
-  /// As if it were not in a cell.
+  /// Maps a vertex as if it were not in a cell.
   Vertex mapByTriangle(const layout::SkinBinding& s) const {
     const Vector3d p1 = position(s.slot0), p2 = position(s.slot1), p3 = position(s.slot2);
     const Vector3d t = (p2 - p1).normalized(), b_t = (p3 - p1).normalized();
@@ -64,7 +64,7 @@ class ReferenceMapping {
   }
 
  private:
-  /// The offset as it is at rest.
+  /// Returns the offset at rest.
   Vector3d atRest(const layout::SkinBinding& s) const {
     const Vector3d p1 = lattice_.restPosition(s.slot0);
     const Vector3d t = (lattice_.restPosition(s.slot1) - p1).normalized();
@@ -81,7 +81,7 @@ class ReferenceMapping {
                   [&](const Vector3i&, uint32_t slot) { cut |= (nodes_[slot].lo & layout::kSeveredBit) != 0; });
     return cut;
   }
-  /// Trilinear interpolation; the normal by two tangents, from differences.
+  /// Maps by trilinear interpolation; the normal by two tangents, from differences.
   Vertex mapInCell(const layout::SkinBinding& s) const {
     const Vector3d p1 = lattice_.restPosition(s.slot0), p2 = lattice_.restPosition(s.slot1),
                    p3 = lattice_.restPosition(s.slot2);

@@ -29,7 +29,7 @@ Body ballOf(Mapping mapping, bool partial) {
   return body;
 }
 
-/// Crumpled: nothing is where its neighbours are.
+/// Returns a crumpled position: neighbours are moved in different directions.
 Vector3d crumpled(const Vector3d& x) {
   const auto wave = [&](double a, double b, double c) { return 0.02 * std::sin(a * x.x() + b * x.y() + c * x.z()); };
   return 1.5 * x + Vector3d(wave(300, 50, 20), wave(10, 400, 80), wave(90, 30, 350)) + Vector3d(0.3, 0, 0);
@@ -40,7 +40,7 @@ class SkinBoxesTest : public ::testing::Test {
   static std::vector<SkinBox> boxesOf(const SurfaceRig& rig) {
     return rig.surface.boxes().place(HostDisplacements::ofSlots(rig.displacement_m));
   }
-  /// Every vertex lies in the box of its body.
+  /// Expects every vertex inside the box of its body.
   static void expectInside(SurfaceRig& rig) {
     rig.follow();
     const std::vector<SkinBox> boxes = boxesOf(rig);
@@ -67,8 +67,7 @@ TEST_F(SkinBoxesTest, VerticesLieInTheBoxOfTheirBody) {
 
 TEST_F(SkinBoxesTest, BoxesAreNotMuchLargerThanWhatTheyHold) {
   const SurfaceRig rig(ballOf(Mapping::kConstant, false));
-  constexpr double kLargest_m =
-      2 * (1.1 * kSkinBoxesRadius_m + 2 * kSkinBoxesSpacing_m);  // the skin, nodes beside it, offsets
+  constexpr double kLargest_m = 2 * (1.1 * kSkinBoxesRadius_m + 2 * kSkinBoxesSpacing_m);  // mesh, nodes, offsets
   EXPECT_LT(boxesOf(rig).at(0).sizes().maxCoeff(), kLargest_m);
 }
 

@@ -22,7 +22,7 @@ TEST(SkinFits, ASkinThatIsTooFineIsToldHowManyFacesItMayHave) {
   EXPECT_NO_THROW(requireSkinFits(500, true));  // wounds have as many vertices again
   EXPECT_TRUE(test::says(test::messageOf<GpuError>([] { requireSkinFits(501, true); }),
                          {"501 vertices", "at most 500 where tissue can be cut", "bodies[].skin_faces", "800"}));
-  gpu::forgetDriverLimits();
+  gpu::clearDriverLimits();
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ using namespace viscera::testing;
 constexpr double kStateMirrorSpacing_m = 0.01;
 constexpr double kRadius_m = 0.06;
 
-/// A surface that follows the state itself, and one that follows what the mirror makes of it.
+/// A surface that follows the state itself, and one that follows the mirror's copy.
 class StateMirrorTest : public ::testing::Test {
  protected:
   StateMirrorTest() : StateMirrorTest(balls()) {}
@@ -32,7 +32,7 @@ class StateMirrorTest : public ::testing::Test {
     snapshot_.bricks = mirror_.shownBricks();
   }
 
-  /// Two balls of several bricks, so that springs and skins cross the borders of bricks.
+  /// Returns two balls of several bricks, with springs and surface meshes across the borders of bricks.
   static std::vector<Body> balls() {
     std::vector<Body> out;
     for (const Vector3d& center : {Vector3d(0, 0, 0), Vector3d(0.3, 0.01, 0)}) {
@@ -78,7 +78,7 @@ class StateMirrorTest : public ::testing::Test {
     layout::vec4& u = rig_.displacement_m[slot];
     u = {u.x + step_m(random_), u.y + step_m(random_), u.z + step_m(random_), 0};
   }
-  /// As a cut does: from both ends.
+  /// Cuts a spring from both ends, as a blade does.
   void cutASpringOf(size_t body) {
     const uint32_t first = rig_.model.slotOffset(body), slot = someNode(body);
     for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
@@ -144,11 +144,11 @@ TEST_F(StateMirrorTest, OnlyVerticesNearAMovedBrickAreMappedAgain) {
     mapped_of_other += v >= first_of_other;
   }
   EXPECT_GT(mapped, 0u);
-  EXPECT_LT(mapped, first_of_other);  // the node is on the ball's lowest side: two bricks up nothing depends on it
+  EXPECT_LT(mapped, first_of_other);  // the node is on the ball's lowest side: nothing depends on it two bricks up
   EXPECT_EQ(mapped_of_other, 0u);
 }
 
-/// Networks of many bricks, in the order of a space-filling curve: triangles join nodes of any two of them.
+/// Networks of many bricks, in the order of a space-filling curve: triangles connect nodes of any two of them.
 class NetworkMirrorTest : public StateMirrorTest {
  protected:
   NetworkMirrorTest() : StateMirrorTest(mixed()) {}
@@ -215,7 +215,7 @@ TEST_F(NetworkMirrorTest, OnlyVerticesNearAMovedNodeAreMappedAgain) {
     mapped_of_others += v < firstVertex(1) || v >= firstVertex(2);
   }
   EXPECT_GT(mapped, 0u);
-  EXPECT_LT(mapped, 3 * layout::kBrickSlots);  // its brick, and the nodes beside that
+  EXPECT_LT(mapped, 3 * layout::kBrickSlots);  // its brick, and the adjacent nodes
   EXPECT_EQ(mapped_of_others, 0u);
 }
 
@@ -226,7 +226,7 @@ TEST_F(StateMirrorTest, BricksDeepInsideAreNotAskedFor) {
                     boxMesh({0, 0, 0}, Vector3d::Constant(size_m), cells));
   };
   std::vector<Body> bodies;
-  bodies.push_back(block(31));  // 8 bricks along an edge; the skin, and the nodes beside it, lie in the outermost
+  bodies.push_back(block(31));  // 8 bricks per edge; the surface mesh, and adjacent nodes, are in the outermost
   const StateMirror mirror(Model{std::move(bodies)});
   EXPECT_EQ(mirror.shownBricks().size(), 8u * 8 * 8 - 6 * 6 * 6);
 }

@@ -23,19 +23,19 @@ inline Body makeBody(const Solid& solid, const TriangleMesh& mesh, Weights weigh
   return body;
 }
 
-/// A ball whose cells at the surface are tissue in part.
+/// Returns a ball with partially filled cells at the surface.
 inline Body filledBallBody(const Vector3d& center_m, double radius_m, double spacing_m, int n = 10) {
   const TriangleMesh mesh = weldedSphereMesh(center_m, radius_m, n);
   return makeBody(voxeliseByMoments(mesh, spacing_m), mesh);
 }
 
-/// The body, whose network is its own, with the skin that shows it.
+/// Returns the body, which has a network, with the surface mesh that shows it.
 inline Body withNetworkSkin(Body body, bool can_be_cut = true) {
   body.skin = bindNetworkSkin(*body.network, can_be_cut);
   return body;
 }
 
-/// Bodies with nodes that go where a function of (body, rest position) sends them.
+/// Bodies with nodes moved by a function of (body, rest position).
 class SurfaceRig {
  public:
   explicit SurfaceRig(std::vector<Body> bodies)
@@ -67,7 +67,7 @@ class SurfaceRig {
     ++revision;
     surface.split(state());
   }
-  /// Writes displacement_m, nodes and spring_cut.
+  /// Uploads displacement_m, nodes and spring_cut.
   void upload() {
     buffers_.state.displacement[0].write(displacement_m);
     buffers_.store.nodes.write(nodes);
@@ -85,7 +85,7 @@ class SurfaceRig {
     view.cut_revision = revision;
     return view;
   }
-  /// Part of displacement_m or nodes that belongs to one body, by its own slots.
+  /// Returns the part of displacement_m or nodes of one body, by its own slots.
   template <class T>
   std::vector<T> ofBody(const std::vector<T>& all, size_t body) const {
     const auto first = all.begin() + model.slotOffset(body);

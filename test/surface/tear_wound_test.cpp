@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Wounds that tissue tears into under a grip are closed, as those of blades are.
+// Wounds where tissue tears under a grip are closed surfaces, as those of blades are.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -14,12 +14,11 @@
 namespace viscera::testing {
 namespace {
 
-constexpr double kTearWoundVolume =
-    1e-3;  // share: slivers between tears nearer to each other than a spring are left out (2e-4)
+constexpr double kTearWoundVolume = 1e-3;  // share: slivers between tears closer than a spring are left out (2e-4)
 constexpr double kTearWoundStep_m = 0.001;
-constexpr int kTicks = 60;  // the grip is 6 cm off then
+constexpr int kTicks = 60;  // the grip is 6 cm away then
 
-/// A block that is held below, whose upper side a grip lifts until it tears.
+/// Returns a block that is fixed below, with a grip that lifts its upper side until it tears.
 Scene scene() {
   return parseScene(
       "name: tears\nbodies:\n  - {source: box, structure: lattice, box_size_m: [0.04, 0.04, 0.024], spacing_m: 0.004,\n"

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What wounds are held to (docs/wounds.md), as measures of a wounded body in some state.
+// Requirements on wounds (docs/surface.md), as measures of a wounded body in some state.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ inline Place keyOf(const Vector3d& at) {
           std::llround(at.z() / kSamePlace_m)};
 }
 
-/// Edges, welded by where nodes carry their ends, that have not one triangle on either hand.
+/// Returns the number of edges, welded by the nodes that carry their ends, without exactly one triangle on either side.
 template <class Of>
 size_t openEdges(const Of& of, const std::vector<Vector3d>& at) {
   std::map<std::pair<Place, Place>, int> balance;
@@ -47,9 +47,9 @@ size_t openEdges(const Of& of, const std::vector<Vector3d>& at) {
   return open;
 }
 
-/// Edges of a mesh by the numbers of their vertices.
+/// Edges of a mesh, by the indices of their vertices.
 struct Edges {
-  size_t open = 0;    ///< without one triangle on either hand
+  size_t open = 0;    ///< without exactly one triangle on either side
   size_t shared = 0;  ///< with more than two triangles
 };
 inline Edges edgeCounts(const std::vector<uint32_t>& triangles) {
@@ -72,7 +72,7 @@ inline Edges edgeCounts(const std::vector<uint32_t>& triangles) {
   return out;
 }
 
-/// Of what is shown, walls sewn to the vertices of the skin that they go with.
+/// Returns the edges of the shown mesh, with walls joined to their vertices of the surface mesh.
 inline Edges edgesOf(const Wounded& of) {
   std::vector<uint32_t> triangles = of.triangles();
   for (uint32_t& v : triangles) {
@@ -83,7 +83,7 @@ inline Edges edgesOf(const Wounded& of) {
   return edgeCounts(triangles);
 }
 
-/// How far walls are from the vertices of the skin that they go with [m].
+/// Returns the largest distance of walls from their vertices of the surface mesh [m].
 inline double seamGap(const Wounded& of, const std::vector<Vector3d>& at) {
   double gap = 0;
   for (size_t v = 0; v < of.wound.wallVertices().size(); ++v) {
@@ -93,9 +93,9 @@ inline double seamGap(const Wounded& of, const std::vector<Vector3d>& at) {
   return gap;
 }
 
-/// Of every vertex of a lip, how far the nearest one of another lip is [m]; ascending.
+/// Returns for every vertex of a lip the distance to the nearest one of another lip [m]; ascending.
 inline std::vector<double> lipGaps(const Wounded& of, const std::vector<Vector3d>& at) {
-  std::vector<uint32_t> order;  // along x, in which neighbours are looked for
+  std::vector<uint32_t> order;  // along x, for the search for neighbours
   for (size_t v = of.wound.ownVertices(); v < of.wound.firstWallVertex(); ++v) {
     if (!of.wound.isEnd(v)) order.push_back(static_cast<uint32_t>(v));
   }
@@ -117,7 +117,7 @@ inline std::vector<double> lipGaps(const Wounded& of, const std::vector<Vector3d
   return gaps;
 }
 
-/// Distances of lips and walls from the plane of a flat cut [m]; ascending.
+/// Returns the distances of lips and walls from the plane of a flat cut [m]; ascending.
 template <class Of>
 std::vector<double> distancesFromPlane(const Of& of, const std::vector<Vector3d>& at, const Vector3d& on_plane,
                                        const Vector3d& normal) {
@@ -137,7 +137,7 @@ double volume(const Of& of, const std::vector<Vector3d>& at) {
   return sum;
 }
 
-/// A square picture of a body that tells only fronts from backs of triangles, exact to rounding of doubles.
+/// A square image of a body that only distinguishes fronts from backs of triangles, exact to rounding of doubles.
 class BackCamera {
  public:
   static constexpr int kPixels = 128;
@@ -149,7 +149,7 @@ class BackCamera {
     tangent_ = half_width_m / (target - eye).norm();
   }
 
-  /// @returns pixels at which the back of a triangle is the nearest thing
+  /// @returns number of pixels at which the back of a triangle is nearest
   size_t backsSeen(const std::vector<uint32_t>& triangles, const std::vector<Vector3d>& at) {
     seen_.clear();
     for (const Vector3d& p : at) {
@@ -164,11 +164,11 @@ class BackCamera {
   }
 
  private:
-  static constexpr double place(int pixel) { return (pixel + 0.5) / kPixels * 2 - 1; }  ///< of its middle, -1..1
+  static constexpr double place(int pixel) { return (pixel + 0.5) / kPixels * 2 - 1; }  ///< centre of a pixel, -1..1
   static int pixelBefore(double share) {
     return static_cast<int>(std::floor(std::clamp((share + 1) / 2, -0.1, 1.1) * kPixels - 0.5));
   }
-  /// Pixels along one axis between which a triangle lies; all of them where it reaches behind the eye.
+  /// Returns the range of pixels along one axis that a triangle covers; all of them if it extends behind the eye.
   static std::pair<int, int> reach(double a, double b, double c, bool ahead) {
     if (!ahead) return {0, kPixels - 1};
     return {std::max(0, pixelBefore(std::min({a, b, c}))), std::min(kPixels - 1, pixelBefore(std::max({a, b, c})) + 1)};
@@ -176,7 +176,7 @@ class BackCamera {
   void draw(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
     const bool ahead = std::min({a.z(), b.z(), c.z()}) > 1e-6;
     if (!ahead && std::max({a.z(), b.z(), c.z()}) < 0) return;
-    for (const int axis : {0, 1}) {  // most of an organ is beside a picture of its wound
+    for (const int axis : {0, 1}) {  // most of an organ is outside the image of its wound
       if (!ahead) break;
       if (a[axis] > a.z() && b[axis] > b.z() && c[axis] > c.z()) return;
       if (a[axis] < -a.z() && b[axis] < -b.z() && c[axis] < -c.z()) return;
@@ -187,7 +187,7 @@ class BackCamera {
     const Vector3d bc = b.cross(c), ca = c.cross(a), ab = a.cross(b);
     const double whole = a.dot(bc);
     const double bc_x = bc.x(), ca_x = ca.x(), ab_x = ab.x();
-    for (int y = top; y <= bottom; ++y) {  // u, v and w: by the way to a pixel, whose z is 1
+    for (int y = top; y <= bottom; ++y) {  // u, v and w: by the ray of a pixel, with z = 1
       const double way_y = place(y);
       const double u_y = way_y * bc.y() + bc.z(), v_y = way_y * ca.y() + ca.z(), w_y = way_y * ab.y() + ab.z();
       for (int x = left; x <= right; ++x) {
@@ -211,7 +211,7 @@ class BackCamera {
   std::vector<uint8_t> back_;
 };
 
-/// How many times the shown mesh goes around a point.
+/// Returns the winding number of the shown mesh about a point.
 inline double windingNumber(const std::vector<uint32_t>& triangles, const std::vector<Vector3d>& at,
                             const Vector3d& point) {
   double sum = 0;
@@ -223,8 +223,8 @@ inline double windingNumber(const std::vector<uint32_t>& triangles, const std::v
   return sum / (4 * M_PI);
 }
 
-/// Share of pixels that show back faces in pictures of a wound from 200 places outside of the body: half of them all
-/// around it, half of them before the wound, down to where one looks right into it.
+/// Returns the share of pixels that show back faces in images of a wound from 200 positions outside the body: half of
+/// them all around it, half in front of the wound, down to where one looks right into it.
 template <class Of>
 double backsSeen(const Of& of, const std::vector<Vector3d>& at, const Vector3d& wound_m, const Vector3d& outward,
                  double reach_m) {
@@ -251,10 +251,10 @@ double backsSeen(const Of& of, const std::vector<Vector3d>& at, const Vector3d& 
   return static_cast<double>(backs) / (kViews * BackCamera::kPixels * BackCamera::kPixels);
 }
 
-/// Of the 3.3 million pixels of an incision that is pulled open. Wanted are none: what is left are a few thin triangles
-/// whose corners hang on nodes of different cells and turn over (docs/wounds.md). Organs had up to 3e-4 before.
+/// Share of the 3.3 million pixels of an incision that is pulled open. The aim is none. A few remain: thin triangles
+/// with corners on nodes of different cells that turn over (docs/surface.md). Organs had up to 3e-4 before.
 constexpr double kBacks = 1e-4;
-constexpr double kBacksAtRest = 1e-5;  // as well: where an organ's own skin, uncut, shows some
+constexpr double kBacksAtRest = 1e-5;  // in addition, where an organ's own surface, uncut, shows some
 
 inline double percentile99(const std::vector<double>& ascending) {
   return ascending.empty() ? 0 : ascending[std::min(ascending.size() - 1, ascending.size() * 99 / 100)];

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What lies on a skin stays on the pieces that a cut makes of it, and walls know how deep they are (docs/detail.md).
+// Detail of a surface mesh stays on the pieces that a cut makes of it, and walls store their depth (docs/surface.md).
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -23,7 +23,7 @@ BoundSkin box() {
   return bindTo(blockSolid({8, 7, 6}, kWoundDetailSpacing_m), mesh);
 }
 
-/// A box each of whose triangles has a chart of its own.
+/// Returns a box in which each triangle has a chart of its own.
 Model chartedBox() {
   BoundSkin bound = box();
   Model model;
@@ -96,14 +96,13 @@ TEST(WoundDetail, PiecesKeepTheChartsOfTheirTriangles) {
 TEST(WoundDetail, DepthIsThatBelowTheNearestFace) {
   const BoundSkin bound = box();
   const WoundDepths depths(bound.skin, bound.lattice);
-  constexpr double kOff_m =
-      0.35 * kWoundDetailSpacing_m;  // between nodes the edge where two faces are equally near is rounded
+  constexpr double kOff_m = 0.35 * kWoundDetailSpacing_m;  // the edge between two equally near faces is rounded
   for (const Vector3d& at : {Vector3d(0.04, 0.035, 0.004), Vector3d(0.012, 0.03, 0.03), Vector3d(0.04, 0.035, 0.03),
                              Vector3d(0.06, 0.061, 0.03), Vector3d(0.0, 0.02, 0.03)}) {
     const double truth_m = std::min(at.minCoeff(), (kSize_m - at).minCoeff());
     EXPECT_NEAR(depths.at(at / kWoundDetailSpacing_m), truth_m, kOff_m) << at.transpose();
   }
-  constexpr double kRounding_m = 1e-8;  // of places of 0.1 m in float32
+  constexpr double kRounding_m = 1e-8;  // of positions of 0.1 m in float32
   EXPECT_NEAR(depths.at(Vector3d(4, 3.5, 1)), 0.01, kRounding_m) << "exact at nodes";
   EXPECT_NEAR(depths.at(Vector3d(4, 3.5, 0)), 0, kRounding_m);
 }

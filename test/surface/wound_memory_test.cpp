@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Wounds ask for no memory while a cut goes on, once their buffers have grown.
+// Wounds allocate no memory during a cut, once their buffers have grown.
 #include <gtest/gtest.h>
 
 #include "model/shape/mesh/box_surface.h"
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSpacing_m = 0.005;
 constexpr int kTicks = 40;
-constexpr uint64_t kGrowing = 300;  // by all buffers of a first cut, most of which double a few times
+constexpr uint64_t kGrowing = 300;  // allocations of all buffers in a first cut, most of which double a few times
 
 Model boxModel() {
   const TriangleMesh mesh = boxSurface(Vector3d::Zero(), Vector3d(0.08, 0.07, 0.06), {39, 35, 31});
@@ -28,11 +28,11 @@ Model boxModel() {
   return model;
 }
 
-/// A slanting cut that comes a little farther with each tick. @returns what it asked for, while another shows the last
+/// Makes a slanting cut that advances with each tick. @returns its number of allocations, while another is shown
 /// @param box  with its springs whole
 uint64_t cutThrough(Wounded& box, Wounds& wounds) {
   const Vector3d normal = Vector3d(1, 0.3, 0.2).normalized(), middle(0.041, 0.034, 0.03);
-  std::shared_ptr<const ShownWounds> shown = wounds.shown();
+  std::shared_ptr<const VisibleWounds> shown = wounds.shown();
   uint64_t asked = 0;
   for (int tick = 1; tick <= kTicks; ++tick) {
     box.cut(middle, normal, [&](const Vector3d& at) { return at.z() > 0.06 * (1 - tick / double{kTicks}); });
@@ -47,7 +47,7 @@ uint64_t cutThrough(Wounded& box, Wounds& wounds) {
   return asked;
 }
 
-/// Twice the same cut, with a reset between: the second asks for nothing.
+/// The same cut twice, with a reset between: the second allocates nothing.
 TEST(WoundMemory, ACutThatGoesOnAsksForNone) {
   const Model model = boxModel();
   Wounds wounds(model, joinSkins(model));

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Wounds of organs (docs/wounds.md): the built-in heart, and a real one where its mesh is there.
+// Wounds of organs (docs/surface.md): the built-in heart, and a real one if its mesh is present.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -14,10 +14,10 @@
 namespace viscera::testing {
 namespace {
 
-constexpr double kWoundOrganVolume = 1e-6;  // share, of the body's own volume; wounds close up to rounding of floats
+constexpr double kWoundOrganVolume = 1e-6;  // share of the body's own volume; wounds close up to rounding of floats
 constexpr double kWoundOrganGap = 0.02;     // of the spacing: between lips at rest
 constexpr double kWoundOrganOff = 0.1;  // of the spacing: lips and walls of a flat cut from its plane, 99th percentile
-constexpr double kPull = 0.6;           // of the spacing: how far either side is pulled away
+constexpr double kPull = 0.6;           // of the spacing: displacement of either side
 
 Body bodyOf(const BodyConfig& config) {
   Scene scene;
@@ -30,7 +30,8 @@ struct Incision {
   Vector3d middle_m, outward, normal;
 };
 
-/// On the outermost points of a skin in ten directions; blades go in there upright and more and more slanting.
+/// Returns incisions at the outermost points of a surface in ten directions; blades enter upright, then more and more
+/// slanting.
 std::vector<Incision> incisionsOf(const Skin& skin) {
   const std::vector<Vector3f> normals = vertexNormals(skin.mesh);
   std::vector<Incision> out;
@@ -50,7 +51,7 @@ std::vector<Incision> incisionsOf(const Skin& skin) {
   return out;
 }
 
-/// Everything that wounds are held to, of `count` incisions four spacings deep: through most walls of a heart.
+/// Tests all requirements on wounds, for `count` incisions four spacings deep: through most walls of a heart.
 void expectWoundsOf(const Body& body, size_t count) {
   Wounded organ(body);
   organ.update();

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Bodies on lattices that planes cut, with the wounds that this leaves: boxes, balls and organs alike.
+// Bodies on lattices that planes cut, with the resulting wounds: boxes, balls and organs alike.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 
 namespace viscera::testing {
 
-/// A lattice with springs that cuts have taken, as a solver records it. Stays where it is: its wound refers to it.
+/// A lattice with cut springs, as a solver records them. It must not move: its wound refers to it.
 struct Wounded {
   Lattice lattice;
   Skin skin;
@@ -62,7 +62,7 @@ struct Wounded {
   void cut(const Vector3d& on_plane, const Vector3d& normal) {
     cut(on_plane, normal, [](const Vector3d&) { return true; });
   }
-  /// Takes all springs of the nodes where `within(point)` holds.
+  /// Removes all springs of the nodes where `within(point)` holds.
   template <class Within>
   void erase(Within within) {
     for (const uint32_t slot : lattice.active_slots) {
@@ -101,7 +101,8 @@ struct Wounded {
     for (layout::vec4& u : out) u = {any(random), any(random), any(random), 0};
     return out;
   }
-  /// An incision held open: either side of it pulled away from it, most in its middle, not at all at its ends.
+  /// Returns displacements of an incision held open: both sides are pulled away, most in its middle, not at all at its
+  /// ends.
   std::vector<layout::vec4> heldOpen(const Vector3d& middle, const Vector3d& normal, double reach_m, double pull_m) {
     std::vector<layout::vec4> out = still();
     for (const uint32_t slot : lattice.active_slots) {
@@ -119,7 +120,8 @@ struct Wounded {
   }
 };
 
-/// A box of 8 x 7 x 6 cells of a centimetre from the origin, its skin off the lattice. @param open  without its top
+/// Returns a box of 8 x 7 x 6 cells of a centimetre from the origin, its surface mesh not aligned with the lattice.
+/// @param open  without its top
 inline Wounded woundedBox(bool open = false) {
   TriangleMesh mesh = boxSurface(Vector3d::Zero(), Vector3d(0.08, 0.07, 0.06), {19, 17, 15});
   const auto on_top = [&](const std::array<uint32_t, 3>& t) {
@@ -129,7 +131,7 @@ inline Wounded woundedBox(bool open = false) {
   return Wounded(bindTo(blockSolid({8, 7, 6}, 0.01), mesh));
 }
 
-/// Ten normals of cuts: along an axis, between two and between three of them, and seven at random.
+/// Returns ten normals of cuts: along an axis, between two and between three of them, and seven random ones.
 inline std::vector<Vector3d> anglesOfCuts() {
   std::vector<Vector3d> out = {Vector3d::UnitX(), Vector3d(1, 1, 0), Vector3d(1, 1, 1)};
   std::mt19937 random(7);

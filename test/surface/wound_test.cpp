@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Wounds (docs/wounds.md): skin and walls of bodies that planes cut, at any angle to the lattice.
+// Wounds (docs/surface.md): surface and walls of bodies that planes cut, at any angle to the lattice.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,13 +16,13 @@ namespace viscera::testing {
 namespace {
 
 constexpr double kWoundSpacing_m = 0.01;
-constexpr double kWoundVolume =
-    1e-4;  // share: slivers between wounds closer than a skin edge are not shown; a tenth of the thousandth wanted
-constexpr double kWoundGap = 0.02;  // of the spacing: between lips at rest (docs/wounds.md)
-constexpr double kWoundOff = 0.1;   // of the spacing: lips and walls of a flat cut from its plane
-constexpr double kSeam_m = 1e-7;    // float rounding of two bindings of one point to the same nodes
+constexpr double kWoundVolume = 1e-4;  // share: slivers between wounds closer than an edge of the surface mesh are not
+                                       // shown; a tenth of the required thousandth
+constexpr double kWoundGap = 0.02;     // of the spacing: between lips at rest (docs/surface.md)
+constexpr double kWoundOff = 0.1;      // of the spacing: lips and walls of a flat cut from its plane
+constexpr double kSeam_m = 1e-7;       // float rounding of two bindings of one point to the same nodes
 
-constexpr double kWoundBacksOfBox = 3e-4;  // of pixels, as kBacks: at one angle, where a coarse skin's wound ends askew
+constexpr double kWoundBacksOfBox = 3e-4;  // of pixels, as kBacks: at one angle a coarse wound ends obliquely
 
 void expectClosed(const Wounded& of) {
   EXPECT_EQ(of.wound.holes(), 0u);
@@ -89,7 +89,7 @@ TEST(Wound, ErasedNodesLeaveAGrooveWithWalls) {
   box.update();
   const std::vector<Vector3d> rest = box.positions(box.still());
   EXPECT_EQ(openEdges(box, rest), 0u);
-  // From half of the way to the nodes beside and below, with its lower edges rounded off by a cell's point each.
+  // From half way to the neighbours at the sides and below, with its lower edges rounded off by a point per cell.
   const double square_m3 = 0.01 * 0.07 * 0.015, lost_m3 = 0.08 * 0.07 * 0.06 - volume(box, rest);
   EXPECT_GT(lost_m3, 0.65 * square_m3);
   EXPECT_LT(lost_m3, 0.80 * square_m3);
@@ -112,13 +112,13 @@ TEST(Wound, CountsWhereItStaysOpenInASkinWithABorder) {
   EXPECT_EQ(box.wound.holes(), 0u);
   box.cut({0.0403, 0.0352, 0.0304}, Vector3d::UnitX());
   box.update();
-  EXPECT_GT(box.wound.holes(), 0u);  // along the top, where there is no skin
+  EXPECT_GT(box.wound.holes(), 0u);  // along the top, where there is no surface
   box.makeWhole();
   EXPECT_EQ(box.wound.holes(), 0u);
 }
 
 TEST(Wound, CountsEdgesThatLoseAPieceBetweenTwoCuts) {
-  // A layer of nodes between two cuts that pass through the same edges of the skin, from 0.0379 to 0.0421.
+  // A layer of nodes between two cuts that pass through the same edges of the surface mesh, from 0.0379 to 0.0421.
   Wounded box = woundedBox();
   box.cut({0.0393, 0.0352, 0.0304}, Vector3d::UnitX());
   box.update();
@@ -145,7 +145,7 @@ TEST(Wound, CutsThatCrossLeaveClosedPieces) {
 }
 
 TEST(Wound, PiecesSayWhichTriangleTheyAreOf) {
-  constexpr double kOff_m = 1e-6;  // rounding of float bindings and of crossings, far below the skin's edges of 1 cm
+  constexpr double kOff_m = 1e-6;  // rounding of float bindings and of crossings, far below the mesh's edges of 1 cm
   Wounded box = woundedBox();
   box.cut({0.0403, 0.0352, 0.0304}, Vector3d(1, 2, 3).normalized());
   box.cut({0.0381, 0.0333, 0.0299}, Vector3d(3, -1, 1).normalized());

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A wound makes what has changed, tick by tick, and shows what it would if all had been cut at once.
+// A wound updates only what has changed, tick by tick, and shows the same as if all had been cut at once.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,12 +17,12 @@ namespace viscera::testing {
 namespace {
 
 constexpr double kWoundWorkSpacing_m = 0.01;
-constexpr double kMostWork = 2;  // times the work of the cuts of a first stroke that those of the last one may take
+constexpr double kMostWork = 2;  // largest work of the cuts of the last stroke, over that of a first one
 
-/// A corner of a shown triangle as those who map it see it: bit by bit what carries it, and how.
+/// A corner of a shown triangle as its mapping sees it, bit by bit: the nodes that carry it, and how.
 using Corner = std::array<unsigned char, sizeof(layout::SkinBinding)>;
 
-/// Triangles whatever their order and that of their vertices.
+/// Returns the triangles regardless of their order and that of their vertices.
 std::vector<std::array<Corner, 3>> shownBy(const BodyWound& wound, const std::vector<uint32_t>& triangles) {
   std::vector<std::array<Corner, 3>> out(triangles.size() / 3);
   for (size_t i = 0; i < triangles.size(); ++i)
@@ -33,7 +33,7 @@ std::vector<std::array<Corner, 3>> shownBy(const BodyWound& wound, const std::ve
   return out;
 }
 
-/// A body that has been cut tick by tick beside one whose cuts are shown for the first time.
+/// Compares a body that was cut tick by tick with one that shows the same cuts for the first time.
 void expectTheSame(const Wounded& body) {
   Wounded other(body.lattice, body.skin);
   other.nodes = body.nodes;
@@ -78,7 +78,7 @@ TEST(WoundWork, OfASkinWithABorderHolesAreCountedAlike) {
   EXPECT_GT(body.wound.holes(), 0u);
 }
 
-/// As Wounded::cut(), of springs of nodes within two spacings of a place.
+/// Cuts springs of nodes within two spacings of a position, as Wounded::cut().
 void cutNear(Wounded& body, const Vector3d& place_m, const Vector3d& normal, double reach_m) {
   const Lattice& lattice = body.lattice;
   const Vector3i home = ((place_m - lattice.origin_m) / lattice.spacing_m).array().floor().cast<int>();
@@ -109,7 +109,7 @@ TEST(WoundWork, OfALaterCutIsThatOfAnEarlyOne) {
   Wounded body(
       bindTo(blockSolid(cells, kWoundWorkSpacing_m), boxSurface(Vector3d::Zero(), size_m, cells + Vector3i(3, 2, 1))));
   size_t first = 0, last = 0;
-  for (int cut = 0; cut < kCuts; ++cut) {  // strokes beside each other, each cut a patch of a spacing's size
+  for (int cut = 0; cut < kCuts; ++cut) {  // adjacent strokes; each cut is a patch of a spacing's size
     const int stroke = cut / (kAlong * kDeep), along = cut / kDeep % kAlong, deep = cut % kDeep;
     Vector3d place_m((2.53 * stroke + 2.5) * kWoundWorkSpacing_m, (along + 0.5) * kWoundWorkSpacing_m,
                      size_m.z() - (deep + 0.5) * kWoundWorkSpacing_m);

@@ -38,12 +38,12 @@ TEST(TaskFile, ErrorsNameFileLineKeyAndWhatIsAccepted) {
   EXPECT_TRUE(names(errorOf(task + "time_limit_s: 0\n"), {"task.yaml:5: ", "'time_limit_s'", "0.1 .. 86400"}));
   EXPECT_TRUE(names(errorOf(task + "goal: 1\n"), {"task.yaml:5: ", "'goal'", "cut_disc"}));
   EXPECT_TRUE(names(errorOf("scene: a\nkind: dance\n"), {"task.yaml:2: ", "'kind'", "cut_disc", "lift"}));
-  EXPECT_TRUE(names(errorOf("scene: a\nkind: lift\n"), {"task.yaml: ", "'lift' must be there"}));
-  EXPECT_TRUE(names(errorOf("scene: a\nkind: lift\nlift: {up: [0, 0, 0]}\n"), {"'lift.up' is a direction"}));
+  EXPECT_TRUE(names(errorOf("scene: a\nkind: lift\n"), {"task.yaml: ", "'lift' is missing"}));
+  EXPECT_TRUE(names(errorOf("scene: a\nkind: lift\nlift: {up: [0, 0, 0]}\n"), {"'lift.up' must be a direction"}));
   EXPECT_TRUE(names(errorOf("scene: a\nkind: touch_targets\ntouch_targets: {}\n"), {"'touch_targets.targets'"}));
   EXPECT_TRUE(names(errorOf("scene: a\nkind: follow_line\nfollow_line: {path: [{}]}\n"), {"'follow_line.path'"}));
-  EXPECT_TRUE(names(errorOf("scene: a\nkind: close_wound\n"), {"'close_wound' must be there"}));
-  EXPECT_TRUE(names(errorOf("scene: a\nkind: clip_and_divide\n"), {"'clip_and_divide' must be there"}));
+  EXPECT_TRUE(names(errorOf("scene: a\nkind: close_wound\n"), {"'close_wound' is missing"}));
+  EXPECT_TRUE(names(errorOf("scene: a\nkind: clip_and_divide\n"), {"'clip_and_divide' is missing"}));
   EXPECT_TRUE(names(errorOf("scene: a\nkind: clip_and_divide\nclip_and_divide: {clips: [{}]}\n"),
                     {"'clip_and_divide.clips'", "even number"}));
   EXPECT_TRUE(names(errorOf("scene: a\nkind: close_wound\nclose_wound: {path: [{}]}\n"), {"'close_wound.path'"}));
@@ -51,9 +51,9 @@ TEST(TaskFile, ErrorsNameFileLineKeyAndWhatIsAccepted) {
   EXPECT_TRUE(names(errorOf("kind: lift\nlift: {}\n"), {"task.yaml: ", "'scene' must name"}));
   EXPECT_TRUE(names(errorOf("scene: a\nmeasures:\n  - {measure: blood}\n"),
                     {"task.yaml:3: ", "'measures[0].measure'", "off_path_mm, deviation_mm"}));
-  EXPECT_TRUE(names(errorOf(task + "pass_score: 301\n"), {"'pass_score' is 0 .. 300"}));
+  EXPECT_TRUE(names(errorOf(task + "pass_score: 301\n"), {"'pass_score' must be 0 .. 300"}));
   EXPECT_TRUE(names(errorOf("a: [\n"), {"task.yaml:2"}));
-  EXPECT_TRUE(names(errorOf("7\n"), {"task.yaml: a task is a map"}));
+  EXPECT_TRUE(names(errorOf("7\n"), {"task.yaml: a task must be a map"}));
 }
 
 TEST(TaskFile, KindsStandInTheOrderOfTheirGoals) {

@@ -11,8 +11,8 @@ namespace viscera {
 namespace {
 
 constexpr double kHalfM = 0.02;      ///< half an edge of the box, which is centred on the origin
-constexpr double kRoundingM = 1e-8;  ///< skin positions are floats
-constexpr double kRounding = 1e-9;   ///< of unit vectors
+constexpr double kRoundingM = 1e-8;  ///< positions of the surface mesh are floats
+constexpr double kRounding = 1e-9;   ///< rounding of unit vectors
 
 BodyConfig box(const std::string& name) {
   BodyConfig body;
@@ -32,7 +32,7 @@ const Model& boxModel() {
   return model;
 }
 
-/// Strokes of one key, anchored by a ray.
+/// Returns strokes with one key, anchored by a ray.
 Strokes anchored(const Vector3d& from_m, const Vector3d& towards_m, const Pose& key = {}) {
   Strokes strokes;
   strokes.strokes.push_back({"left", {{0, key, false, false}}, Anchor{from_m, towards_m}});
@@ -70,7 +70,7 @@ TEST(Anchor, SlantedRayKeepsXHorizontalAndYUpwards) {
     EXPECT_LT((frame.orientation * Vector3d::UnitZ() - (from - towards).normalized()).norm(), kRounding);
     EXPECT_NEAR(x.z(), 0, kRounding);
     EXPECT_GT(y.z(), 0);
-    EXPECT_NEAR(frame.position_m.cwiseAbs().maxCoeff(), kHalfM, kRoundingM);  // on the skin
+    EXPECT_NEAR(frame.position_m.cwiseAbs().maxCoeff(), kHalfM, kRoundingM);  // on the surface
   }
 }
 
@@ -91,8 +91,8 @@ TEST(Anchor, RayDoesNotSlipBetweenTwoTriangles) {
   for (const auto& triangle : mesh.triangles) {
     const Vector3d a = mesh.positions_m[triangle[0]].cast<double>(), b = mesh.positions_m[triangle[1]].cast<double>(),
                    c = mesh.positions_m[triangle[2]].cast<double>();
-    if ((b - a).cross(c - a).dot(ray) >= 0) continue;  // the ray leaves here
-    for (double share : {0.0, 0.123, 0.71}) {          // a vertex, and points of an edge
+    if ((b - a).cross(c - a).dot(ray) >= 0) continue;  // the ray leaves the box here
+    for (double share : {0.0, 0.123, 0.71}) {          // a vertex, and points on an edge
       const Vector3d target = a + share * (b - a);
       Strokes strokes = anchored(target - 0.3 * ray, target);
       resolveAnchors(strokes, model);
@@ -101,7 +101,7 @@ TEST(Anchor, RayDoesNotSlipBetweenTwoTriangles) {
   }
 }
 
-/// A fit to the box of the tests from one `times` as large, which strokes were made for.
+/// Returns a fit to the box of the tests from a box `times` as large, for which the strokes were made.
 OrganFit fitFrom(double times) {
   const Eigen::AlignedBox3d box_m(Vector3d::Constant(-kHalfM), Vector3d::Constant(kHalfM));
   return OrganFit::between({times * box_m.min(), times * box_m.max()}, box_m, Vector3d::UnitY());
@@ -115,9 +115,9 @@ TEST(Anchor, AndItsStrokesFollowAnOrganInThePlaceOfALargerOne) {
 }
 
 TEST(Anchor, OfAnotherOrganMovesToWhereTheSkinIsBroadEnoughForAllStrokes) {
-  // Two steps of the search: its places and the skin are on a grid.
+  // Two steps of the search: its candidates and the surface are on a grid.
   constexpr double kStepM = 2 * 2 * kHalfM / 95;
-  constexpr double kSideM = 0.012;                                    // strokes touch the skin so far to either side
+  constexpr double kSideM = 0.012;  // distance of the contacts of strokes to either side
   Strokes strokes = anchored({0.015, -0.3, 0.03}, {0.015, 0, 0.03});  // a ray above the box
   strokes.strokes[0].keys[0].pose.position_m.x() = kSideM;
   strokes.strokes.push_back(strokes.strokes[0]);
@@ -125,14 +125,14 @@ TEST(Anchor, OfAnotherOrganMovesToWhereTheSkinIsBroadEnoughForAllStrokes) {
   Strokes fitted = strokes;
   resolveAnchors(fitted, boxModel(), fitFrom(1));
   const Vector3d right = fitted.strokes[0].keys[0].pose.position_m, left = fitted.strokes[1].keys[0].pose.position_m;
-  EXPECT_NEAR(right.x() - left.x(), 2 * kSideM, kRoundingM);  // they stay together
-  EXPECT_NEAR(right.x(), kHalfM, kStepM);                     // and go no farther than they must
+  EXPECT_NEAR(right.x() - left.x(), 2 * kSideM, kRoundingM);  // their distance is unchanged
+  EXPECT_NEAR(right.x(), kHalfM, kStepM);                     // they move no farther than necessary
   EXPECT_NEAR(right.z(), kHalfM, kStepM);
   EXPECT_NEAR(right.y(), -kHalfM, kRoundingM);
-  EXPECT_THROW(resolveAnchors(strokes, boxModel()), StrokesError);  // on the organ that they were made for they stay
+  EXPECT_THROW(resolveAnchors(strokes, boxModel()), StrokesError);  // on their own organ they do not move
 }
 
-/// A box whose upper half is held.
+/// Returns a box with its upper half held.
 Model halfHeldBox() {
   Scene scene;
   scene.bodies = {box("box")};
@@ -160,7 +160,7 @@ TEST(Anchor, StrokeThatMeetsOnlyHeldTissueIsNamed) {
   strokes.strokes[1].keys[0].pose.position_m.y() = -0.03;  // below: free tissue
   const std::vector<std::string> notes = resolveAnchors(strokes, model);
   ASSERT_EQ(notes.size(), 1U);
-  EXPECT_TRUE(test::says(notes[0], {"'left'", "[0.001, -0.02, 0.015]", "held", "bodies[].fixed"}));
+  EXPECT_TRUE(test::says(notes[0], {"'left'", "[0.001, -0.02, 0.015]", "fixed tissue", "bodies[].fixed"}));
 }
 
 TEST(Anchor, RayStopsAtTheNearestBody) {
@@ -193,7 +193,7 @@ TEST(Anchor, StrokeWithoutOneStaysAsItIs) {
 
 TEST(StrokesYaml, ComesBackAsItWas) {
   constexpr double kDigits = 1e-8;          // nine digits are written
-  constexpr double kNearTheLockRad = 3e-6;  // where y is within 1e-4 degrees of a right angle, x and z become one turn
+  constexpr double kNearTheLockRad = 3e-6;  // if y is within 1e-4 degrees of a right angle, x and z become one rotation
   Strokes strokes;
   strokes.strokes.push_back({"left", {}, {}});
   const Vector3d turns[] = {{0, 0, 0}, {10, 20, 30}, {-170, 80, 150}, {33, 90, 0}, {33, -90, 44}, {5, 89.99999, 7}};

@@ -13,7 +13,8 @@ constexpr int kSubsteps = 8;
 constexpr double kInterpolationRoundingM = 1e-7;  ///< positions of about 1 m, as floats
 constexpr double kRoundingRad = 1e-6;
 
-/// The first stylus probes; it moves and turns by a right angle about x. The second one does nothing.
+/// Returns motions in which the first stylus probes, moves, and turns by a right angle about x. The second one does
+/// nothing.
 ToolMotions movingAndTurning() {
   ToolMotions motions;
   motions[0].mode = ToolMode::kProbe;

@@ -1,18 +1,18 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Fingers of tools: how buttons and hands close them, what they hold, how it slides.
+// Jaws of tools: closing by buttons and devices, grip, and slip.
 #include "viscera/tools/jaws.h"
 
 #include <gtest/gtest.h>
 
 #include "model/scene/tool_kinds.h"
-#include "viscera/tools/hands.h"
+#include "viscera/tools/tools.h"
 
 namespace viscera {
 namespace {
 
 constexpr double kOpen_rad = 40 * M_PI / 180, kTick_s = 0.02;
-constexpr double kTight = 1e-6;  // rad and m: what a float keeps of an angle below 1
+constexpr double kTight = 1e-6;  // rad and m: precision of a float for an angle below 1
 
 StylusConfig grasper() {
   StylusConfig config;
@@ -24,7 +24,7 @@ StylusConfig grasper() {
 }
 
 Tools toolsOf(const StylusConfig& config) {
-  HandLimits limits;
+  ToolLimits limits;
   limits.tick_s = kTick_s;
   return Tools({config}, limits);
 }
@@ -117,7 +117,7 @@ TEST(Jaws, OfAGrasperLetGoWhenAHandOpensThemWiderThanWhatTheyHold) {
   EXPECT_TRUE(tools.advance(at(false, 0.1), tissueOf(0.3))[0].hold_begins) << "and they close again";
 }
 
-/// A tool that is pulled up by 0.1 mm in a tick, tissue of a stiffness [N/m] on it.
+/// A tool that is pulled up by 0.1 mm in a tick, with tissue of a given stiffness [N/m] in its jaws.
 TEST(Jaws, WhatTheyHoldSlidesSoThatTheForceIsTheRatedOneAndIsLostAtTheirLength) {
   constexpr double kStiffness = 1000, kPerTick_m = 1e-4, kWithin = 0.1;
   Tools tools = toolsOf(grasper());

@@ -53,7 +53,7 @@ TEST(Obstacles, AFrameCarriesThemAndItsFirstPoseIsNoMotion) {
   EXPECT_EQ(obstacles.motions()[0].from.position_m, Vector3d(5, 0, 1));
   EXPECT_LT((obstacles.motions()[0].to.position_m - Vector3d(6, -1, 0)).norm(), kExact);
   EXPECT_NEAR(cut(config, obstacles, 1, 0.1)[0].spin.x, M_PI / 2 / 0.1, 1e-5);
-  obstacles.advance(0.2, 0.1);  // the frame is silent: it stands still
+  obstacles.advance(0.2, 0.1);  // no message of the frame: it stops
   EXPECT_EQ(obstacles.motions()[0].from.position_m, obstacles.motions()[0].to.position_m);
 }
 
@@ -76,20 +76,20 @@ TEST(Obstacles, AFrameThatJumpsIsFollowedNoFasterThanTissueCan) {
     Obstacles obstacles({config}, kMost_m);
     obstacles.setFrame(0, Pose{});
     obstacles.advance(0, kTick_s);
-    EXPECT_FALSE(obstacles.heldBack(0));
+    EXPECT_FALSE(obstacles.speedLimited(0));
     const Pose far{Vector3d(turns ? 0 : 0.1, 0, 0),
                    turns ? Quaterniond(Eigen::AngleAxisd(1, Vector3d::UnitZ())) : Quaterniond::Identity()};
     obstacles.setFrame(0, far);
-    int held_back = 0;
+    int speed_limited = 0;
     const Vector3d corner = 0.5 * config.size_m;
     for (int t = 1; t <= 40; ++t) {
       obstacles.advance(t * kTick_s, kTick_s);
       const RigidMotion& motion = obstacles.motions()[0];
       EXPECT_LE((motion.to * corner - motion.from * corner).norm(), kMost_m + kExact) << t;
-      held_back += obstacles.heldBack(0);
+      speed_limited += obstacles.speedLimited(0);
     }
-    EXPECT_GE(held_back, 9) << turns;  // ten ticks of a centimetre are ten centimetres
-    EXPECT_FALSE(obstacles.heldBack(0));
+    EXPECT_GE(speed_limited, 9) << turns;  // ten ticks of 1 cm each make 10 cm
+    EXPECT_FALSE(obstacles.speedLimited(0));
     EXPECT_LT((obstacles.pose(0).position_m - far.position_m).norm(), kExact);
     EXPECT_LT(obstacles.pose(0).orientation.angularDistance(far.orientation), 1e-7);  // acos of nearly 1
   }
@@ -100,6 +100,6 @@ TEST(Obstacles, ThatMoveByTheirKeysAreNotHeldBack) {
   config.velocity_m_per_s = Vector3d(10, 0, 0);
   Obstacles obstacles({config}, 0.01);
   obstacles.advance(0, 0.1);
-  EXPECT_FALSE(obstacles.heldBack(0));
+  EXPECT_FALSE(obstacles.speedLimited(0));
   EXPECT_LT((obstacles.pose(0).position_m - Vector3d(1, 0, 0)).norm(), kExact);
 }

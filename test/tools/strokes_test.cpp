@@ -138,7 +138,7 @@ TEST(Strokes, LaterStrokeOfAStylusTakesOverWhenItBegins) {
 constexpr const char* kRecorded =
     "tick_hz: 100\n"
     "ticks: 12\n"
-    "hands_anew: [3, 9]\n"
+    "input_reset: [3, 9]\n"
     "strokes:\n"
     "  - stylus: left\n"
     "    samples: |\n"
@@ -162,7 +162,7 @@ TEST(RecordedStrokes, AreThoseOfTheirTickAndAbsentInOthers) {
   EXPECT_FALSE(at(4).valid);
   EXPECT_TRUE(at(7).button2);
   EXPECT_FALSE(at(8).valid);
-  EXPECT_EQ(sample(kRecorded, 0.0299).pose.position_m.x(), 0.1);  // between ticks: nothing is interpolated
+  EXPECT_EQ(sample(kRecorded, 0.0299).pose.position_m.x(), 0.1);  // between ticks: no interpolation
 }
 
 TEST(RecordedStrokes, TicksAreFoundAgainByTheirTimesAtAnyRate) {
@@ -173,7 +173,7 @@ TEST(RecordedStrokes, TicksAreFoundAgainByTheirTimesAtAnyRate) {
     strokes.strokes.emplace_back().stylus = "left";
     for (uint64_t tick = 1; tick <= strokes.ticks; tick += 97) {
       strokes.strokes[0].samples = {{tick, Pose{}, false, false}};
-      const double tick_s = 1 / hz;  // as a session counts
+      const double tick_s = 1 / hz;  // as a session computes it
       ASSERT_TRUE(strokes.at(static_cast<double>(tick) * tick_s, leftAndRight())[0].valid) << tick << " at " << hz;
     }
   }
@@ -182,8 +182,8 @@ TEST(RecordedStrokes, TicksAreFoundAgainByTheirTimesAtAnyRate) {
 TEST(RecordedStrokes, LastAsLongAsTheyWereRecorded) {
   const Strokes strokes = parseStrokes(kRecorded, "f.yaml");
   EXPECT_EQ(strokes.duration_s(), 0.12);
-  EXPECT_TRUE(strokes.handsAnew(3) && strokes.handsAnew(9));
-  EXPECT_FALSE(strokes.handsAnew(4));
+  EXPECT_TRUE(strokes.inputReset(3) && strokes.inputReset(9));
+  EXPECT_FALSE(strokes.inputReset(4));
 }
 
 TEST(RecordedStrokes, ComeBackToTheBit) {
@@ -192,11 +192,11 @@ TEST(RecordedStrokes, ComeBackToTheBit) {
   Strokes was;
   was.tick_hz = 1000.0 / 7;
   was.ticks = 400;
-  was.hands_anew = {1, 300};
+  was.input_reset = {1, 300};
   was.recorded = {"heart", "bodies[0].spacing_m=0.004;environment.gravity_m_per_s2=[0,0,0]", "0000000000012345"};
   was.strokes.resize(2);
   was.strokes[0].stylus = "left";
-  was.strokes[1].stylus = "right";  // a hand that never came
+  was.strokes[1].stylus = "right";  // a stylus that was never tracked
   for (uint64_t tick = 1; tick <= 300; ++tick) {
     const Vector3d place(anywhere(random), 1e-9 * anywhere(random), 1e-310 * anywhere(random));
     const Quaterniond turn = Quaterniond(anywhere(random), anywhere(random), anywhere(random), anywhere(random));
@@ -206,7 +206,7 @@ TEST(RecordedStrokes, ComeBackToTheBit) {
   const Strokes is = parseStrokes(strokesYaml(was), "f.yaml");
   EXPECT_EQ(is.tick_hz, was.tick_hz);
   EXPECT_EQ(is.ticks, was.ticks);
-  EXPECT_EQ(is.hands_anew, was.hands_anew);
+  EXPECT_EQ(is.input_reset, was.input_reset);
   EXPECT_EQ(is.recorded.scene, was.recorded.scene);
   EXPECT_EQ(is.recorded.overrides, was.recorded.overrides);
   EXPECT_EQ(is.recorded.state_hash, was.recorded.state_hash);
@@ -263,11 +263,12 @@ TEST(RecordedStrokes, WhatDoesNotFitIsRefused) {
   EXPECT_TRUE(says(recordedRefusal("tick_hz: 100\n", ""), {"f.yaml: ", "'tick_hz'"}));
   EXPECT_TRUE(says(recordedRefusal("ticks: 12\n", ""), {"f.yaml: ", "'ticks'"}));
   EXPECT_TRUE(says(recordedRefusal("ticks: 12\n", "ticks: 6\n"), {"f.yaml: ", "'left'", "tick 7", "'ticks' is 6"}));
-  EXPECT_TRUE(says(recordedRefusal("[3, 9]", "[9, 3]"), {"f.yaml: ", "'hands_anew'"}));
-  EXPECT_TRUE(says(recordedRefusal("[3, 9]", "[0]"), {"f.yaml:3: ", "'hands_anew'"}));
-  EXPECT_TRUE(says(recordedRefusal("    samples", "    keys: [{}]\n    samples"), {"f.yaml:5: ", "without 'keys'"}));
+  EXPECT_TRUE(says(recordedRefusal("[3, 9]", "[9, 3]"), {"f.yaml: ", "'input_reset'"}));
+  EXPECT_TRUE(says(recordedRefusal("[3, 9]", "[0]"), {"f.yaml:3: ", "'input_reset'"}));
+  EXPECT_TRUE(says(recordedRefusal("    samples", "    keys: [{}]\n    samples"),
+                   {"f.yaml:5: ", "cannot be combined with 'keys'"}));
   EXPECT_TRUE(says(recordedRefusal("samples: |", "samples: []\n    stylus2: |"),
-                   {"f.yaml:6: ", ".samples'", "a text of lines"}));
+                   {"f.yaml:6: ", ".samples'", "a block of lines"}));
   const Strokes strokes = parseStrokes(kRecorded, "f.yaml");
   EXPECT_TRUE(
       says(test::messageOf<StrokesError>([&] { strokes.requireTickRate(60); }), {"f.yaml: ", "100 Hz", "60 Hz"}));

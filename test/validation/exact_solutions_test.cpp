@@ -18,13 +18,13 @@ std::vector<std::string> systems() {
   return out;
 }
 
-/// Unit masses along z on springs, the first of them fixed, and the last if so asked.
+/// Unit masses along z on springs, the first of them fixed, and the last on request.
 struct MassChain {
   std::string name;
   Body body;
   double stiffness_n_per_m, length_m;
 
-  /// Of a node: its number from the fixed end.
+  /// Returns the number of a node from the fixed end.
   int numberOf(uint32_t slot) const { return static_cast<int>(std::lround(restPosition(body, slot).z() / length_m)); }
 };
 
@@ -66,12 +66,12 @@ class Exact : public OnBackend {
     for (size_t slot = 0; slot < u_m.size(); ++slot) state.displacement_m[slot] = vec4(u_m[slot]);
     return state;
   }
-  /// [slots, N] of nodes that are free, at rest, without drag and gravity.
+  /// Returns [slots, N] the forces on free nodes, at rest, without drag and gravity.
   Field forces(const Model& model, const Field& u_m) const {
     if (isReference()) return ReferenceLattice(model).elasticForces(u_m);
     return forcesOf(GetParam(), model, stateOf(model, u_m));
   }
-  /// [slots, m] where it comes to rest.
+  /// Returns [slots, m] the displacements in equilibrium.
   Field hung(const Model& model, const Vector3d& gravity_m_per_s2) const {
     if (isReference()) {
       ReferenceSolver solver(model, gravity_m_per_s2, 1);
@@ -84,7 +84,7 @@ class Exact : public OnBackend {
     for (const layout::vec4& u : solver->readState().displacement_m) out.push_back(xyz(u));
     return out;
   }
-  /// Lets a body go from rest. Calls visit(n, dt_s, z of a slot) after each substep n of 1 to `count`.
+  /// Releases a body from rest. Calls visit(n, dt_s, z of a slot) after each substep n of 1 to `count`.
   template <class Visit>
   void swing(const Model& model, const Field& u_m, int count, const Visit& visit) const {
     if (isReference()) {
@@ -111,13 +111,14 @@ INSTANTIATE_TEST_SUITE_P(Systems, Exact, ::testing::ValuesIn(systems()), backend
 
 }  // namespace
 
-/// Oracle 3: the first node holds, the others hang.
+/// Oracle 3: the first node is fixed, the others hang.
 TEST_P(Exact, ChainsHang) {
   constexpr int kMasses = 10;
   constexpr double kGravity = 0.01;
   for (MassChain& chain : chains(kMasses + 1, false)) {
     // 2 omega_1 settles fastest.
-    chain.body.material.drag_per_s = 4 * std::sqrt(chain.stiffness_n_per_m) * std::sin(M_PI / (4.0 * kMasses + 2));
+    chain.body.material.mass_damping_per_s =
+        4 * std::sqrt(chain.stiffness_n_per_m) * std::sin(M_PI / (4.0 * kMasses + 2));
     const Field u_m = hung(modelOf({chain.body}), Vector3d(0, 0, kGravity));
     const auto exact = [&](int j) { return kGravity / chain.stiffness_n_per_m * (kMasses * j - j * (j - 1) / 2.0); };
     for (const uint32_t slot : chain.body.lattice.active_slots) {
@@ -127,8 +128,8 @@ TEST_P(Exact, ChainsHang) {
   }
 }
 
-/// Oracle 2, fixed-fixed: along the chain every mode swings as an oscillator of its own, u_n = A cos(n theta) with
-/// cos(theta) = 1 - (omega dt)^2 / 2 and omega = 2 sqrt(k/m) sin(p pi / (2 (N + 1))).
+/// Oracle 2, fixed-fixed: along the chain every mode is an independent oscillator, u_n = A cos(n theta) with cos(theta)
+/// = 1 - (omega dt)^2 / 2 and omega = 2 sqrt(k/m) sin(p pi / (2 (N + 1))).
 TEST_P(Exact, ChainsSwing) {
   constexpr int kMasses = 9, kSteps = 300;
   for (const MassChain& chain : chains(kMasses + 2, true)) {
@@ -176,7 +177,7 @@ TEST_P(Exact, RigidMotionGivesNoForceAnywhere) {
 /// A sheet of equilateral triangles is a plate of modulus E, thickness t and nu = 1/3 (membraneNetwork).
 TEST_P(Exact, StretchedSheetPullsWithItsModulusAndIsFreeOfForceInside) {
   constexpr double kStrain = 1e-4, kSpacing_m = 0.01, kThickness_m = 1e-3;
-  constexpr double kSecondOrder = 10 * kStrain;  // springs turn: finite strain
+  constexpr double kSecondOrder = 10 * kStrain;  // springs rotate: finite strain
   const Body body = undamped(clothBody(9, 14, kSpacing_m, 0, kThickness_m));
   Eigen::AlignedBox3d box;
   for (const uint32_t slot : body.lattice.active_slots) box.extend(restPosition(body, slot));

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// How tissue of the neo-Hookean law swings, and that it comes to rest under what presses it (physics.md 2).
+// Oscillation of tissue of the neo-Hookean law, and its return to rest under pressing objects (physics.md 2).
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 #include <cmath>
@@ -19,8 +19,8 @@ struct Swing {
   double frequency_hz, decay_per_s;
 };
 
-/// Returns the damped swings of a signal that has `swings` of them beside a constant, by the matrix pencil method (Hua
-/// and Sarkar 1990). @param interval_s  between its samples
+/// Returns the damped oscillations of a signal that has `swings` of them plus a constant, by the matrix pencil method
+/// (Hua and Sarkar 1990). @param interval_s  between its samples
 std::vector<Swing> swingsOf(const std::vector<double>& signal, double interval_s, int swings) {
   const auto samples = static_cast<Eigen::Index>(signal.size()), pencil = samples / 3,
              rank = Eigen::Index{2} * swings + 1;
@@ -47,19 +47,19 @@ Swing nearest(const std::vector<Swing>& swings, double frequency_hz) {
   return out;
 }
 
-/// 100 x 20 x 14 mm, held at one end.
+/// Returns a block of 100 x 20 x 14 mm, fixed at one end.
 Scene cantilever() {
   return parseScene(
       "bodies:\n"
       "  - {name: beam, source: box, box_size_m: [0.1, 0.02, 0.014], spacing_m: 0.004,\n"
-      "     material: {young_modulus_pa: 20000, poisson_ratio: 0.3, density_kg_per_m3: 1060, drag_per_s: 4},\n"
+      "     material: {young_modulus_pa: 20000, poisson_ratio: 0.3, density_kg_per_m3: 1060, mass_damping_per_s: 4},\n"
       "     fixed: [{shape: plane, point_m: [-0.05, 0, 0], normal: [1, 0, 0]}]}\n"
       "environment: {gravity_m_per_s2: [0, 0.02, 0.02]}\n"
       "solver: {tick_hz: 100, sleep_speed_m_per_s: 0}\n",
       "cantilever.yaml");
 }
 
-/// A block on a plate, and a ball over its middle that goes down and stays. @param cells  in its radius
+/// Returns a block on a plate, and a ball above its middle that moves down and stays. @param cells  in its radius
 Scene pressedBlock(double cells) {
   Scene scene = parseScene(
       "bodies:\n"
@@ -75,12 +75,12 @@ Scene pressedBlock(double cells) {
 
 }  // namespace
 
-/// CalculiX's *FREQUENCY of second-order tetrahedra gives the frequencies. Drag takes gamma/2 of a velocity per second,
-/// the dashpot tau omega^2/2, and both together lower the frequency.
+/// The frequencies are from CalculiX's *FREQUENCY with second-order tetrahedra. Drag reduces a velocity by gamma/2 per
+/// second, the dashpot by tau omega^2/2, and both together lower the frequency.
 TEST(LawDynamics, ACantileverSwingsAndDecaysAsItShould) {
   constexpr double kOff = 0.003;     // of a frequency
   constexpr double kOfDecay = 0.01;  // of a decay rate
-  constexpr double kSeconds = 5;     // e^-10 of what swings is left
+  constexpr double kSeconds = 5;     // e^-10 of the oscillation is left
   constexpr double kWeak_hz[2] = {0.9767, 5.640}, kStrong_hz[2] = {1.3719, 7.401};
   const Scene scene = cantilever();
   const Model model = buildModel(scene);
@@ -117,8 +117,7 @@ TEST(LawDynamics, ACantileverSwingsAndDecaysAsItShould) {
 }
 
 TEST(LawDynamics, NothingTremblesUnderBallsOfFewCells) {
-  constexpr double kStill =
-      5e-3;  // of a cell, that a node moves in a tick: 15 um, which no one sees; the force stays to 1e-4 N
+  constexpr double kStill = 5e-3;  // of a cell, motion of a node in a tick: 15 um; the force varies by 1e-4 N
   struct Press {
     double radius, depth;  // [cells]
     double nu;

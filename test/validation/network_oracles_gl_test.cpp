@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Oracles of physics.md 6 on explicit connections, and what issue 5 asks of a cloth.
+// Oracles of physics.md 6 on explicit connections, and the requirements of issue 5 on a cloth.
 #include <numeric>
 
 #include "solver/network_rig.h"
@@ -11,7 +11,8 @@ using namespace viscera::test;
 
 namespace {
 
-/// Total energy from velocities of half a substep before [J]: kinetic 1/2 m v- . v+ (physics.md 6, oracle 8).
+/// Returns the total energy from velocities of half a substep earlier [J]: kinetic 1/2 m v- . v+ (physics.md 6, oracle
+/// 8).
 double energyBetween(ReferenceSolver& reference, const HostState& state, double dt_s) {
   load(reference, state);
   const Field force_n = reference.elasticForces(reference.u_m);
@@ -30,11 +31,11 @@ INSTANTIATE_TEST_SUITE_P(Backends, NetworkOracle, ::testing::ValuesIn(backendNam
 
 }  // namespace
 
-/// Issue 5: cloth on four points sags as the static solution of the reference does.
+/// Issue 5: cloth on four points sags as in the static solution of the reference.
 TEST_P(NetworkOracle, ClothOnFourPointsSagsLikeTheStaticSolution) {
   constexpr double kSag = 1e-4;  // issue 5, relative
   Body cloth = clothBody(15, 13, 0.01, 0.1);
-  cloth.material.drag_per_s = 40;  // about twice the slowest frequency
+  cloth.material.mass_damping_per_s = 40;  // about twice the slowest frequency
   fixNearest(cloth, {{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}});
   const Model model = modelOf({cloth});
   const Vector3d gravity(0, 0, -9.81);
@@ -43,7 +44,7 @@ TEST_P(NetworkOracle, ClothOnFourPointsSagsLikeTheStaticSolution) {
   const auto solver = make(model, scene);
   for (int t = 0; t < 20; ++t) solver->step({});
   const HostState state = solver->readState();
-  // A sheet in compression may buckle either way. Start from a hollow that is nothing like the solution.
+  // A sheet in compression may buckle in either direction. Start from a hollow far from the solution.
   for (uint32_t slot : reference.active) {
     if (!isFixed(reference.nodes[slot])) reference.u_m[slot] = Vector3d(0, 0, -1e-3);
   }
@@ -59,10 +60,10 @@ TEST_P(NetworkOracle, ClothOnFourPointsSagsLikeTheStaticSolution) {
   EXPECT_LT(error_m, kSag * true_sag_m);
 }
 
-/// A drum: cloth that is stretched over a rim. (A slack one lies flat without stiffness; there leapfrog's own energy,
-/// in float64 too, comes and goes by 2e-4 with what its modes exchange.)
+/// A drum: cloth that is stretched over a rim. (A slack one is flat without stiffness; there leapfrog's own energy,
+/// also in float64, varies by 2e-4 as its modes exchange energy.)
 TEST_P(NetworkOracle, UndampedDrumKeepsTheEnergyOfItsSwing) {
-  constexpr double kDrift = 1e-4;  // issue 3's bound, for lattices
+  constexpr double kDrift = 1e-4;  // bound of issue 3, for lattices
   constexpr int kTicks = 200, kTickSubsteps = 100, kMeanTicks = 50;
   Body cloth = undamped(clothBody(8, 8, 0.01));
   for (uint32_t slot : cloth.lattice.active_slots) {
@@ -92,7 +93,7 @@ TEST_P(NetworkOracle, UndampedDrumKeepsTheEnergyOfItsSwing) {
 }
 
 TEST_P(NetworkOracle, FreeNetworkKeepsItsMomentum) {
-  constexpr double kMomentum = 1e-6;  // of the sum of sizes: issue 3's bound, for lattices
+  constexpr double kMomentum = 1e-6;  // of the sum of magnitudes: bound of issue 3, for lattices
   GraphOptions options;
   options.prestrain = 0.05;
   const Model model = modelOf({undamped(graphBody(200, 700, 8, options))});

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Oracles of physics.md 6 that only backends are asked for; those of the reference too are in exact_solutions_test.cpp.
+// Oracles of physics.md 6 for backends only; those that also test the reference are in exact_solutions_test.cpp.
 #include "solver/network_rig.h"
 #include "solver/reference/reference_bodies.h"
 
@@ -18,13 +18,13 @@ INSTANTIATE_TEST_SUITE_P(Backends, Oracle, ::testing::ValuesIn(backendNames()), 
 TEST_P(Oracle, DampedOscillatorFollowsItsDiscreteSolution) {
   Body body = chainBody(2, 0.01);
   body.lattice.nodes[slotAt(body, 0, 0, 0)].lo |= layout::kFixedBit;
-  body.material.dashpot_ratio = 0;
-  body.material.drag_per_s = 40;
+  body.material.stiffness_damping_ratio = 0;
+  body.material.mass_damping_per_s = 40;
   const Model model = modelOf({body});
   const auto solver = make(model, sceneFor(model, 1));
   const layout::BodyParams params = bodyParams(body, 0);
   const double dt = solver->dt_s(), omega2 = 4.0 * params.axial_quarter_n_per_m / (8.0 * params.mass_eighth_kg);
-  const double g = body.material.drag_per_s * dt, o2 = omega2 * dt * dt;
+  const double g = body.material.mass_damping_per_s * dt, o2 = omega2 * dt * dt;
   const double radius = std::sqrt((1 - g / 2) / (1 + g / 2));
   const double theta = std::acos((1 - o2 / 2) / std::sqrt(1 - g * g / 4));
   const double amplitude = 1e-3;

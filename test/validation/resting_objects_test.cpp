@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What GW's figures show, run to its end: balls that lie on a cloth, a cloth that lies folded on the floor, the flap of
-// a cut that hangs. On the CPU: minutes of a software rasteriser otherwise; backends' contacts are compared elsewhere.
+// The scenes of GW's figures, run to rest: balls on a cloth, a cloth folded on the floor, the hanging flap of a cut. On
+// the CPU, as a software rasteriser would take minutes; backends' contacts are compared elsewhere.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,15 +13,15 @@
 namespace viscera {
 namespace {
 
-/// Root of the mean square of nodes' speeds: single nodes of a cloth that lies on round nodes tremble at 0.1 m/s; a
-/// fall of 1 cm makes 0.44.
+/// Root mean square of nodes' speeds. Single nodes of a cloth on round nodes tremble at 0.1 m/s; a fall of 1 cm gives
+/// 0.44.
 constexpr double kRests_m_per_s = 0.03;
 
 Scene shipped(const std::string& name) {
   return loadScene(test::sourceFolder() + "/config/scenes/" + name + ".yaml");
 }
 
-/// A scene that is run, and where its nodes are then.
+/// A scene that is run, and the final positions of its nodes.
 class Resting : public ::testing::Test {
  protected:
   void run(const Scene& scene, double seconds, const Strokes& strokes = {}) {
@@ -44,12 +44,12 @@ class Resting : public ::testing::Test {
     }
     return std::sqrt(sum2 / static_cast<double>(nodes(body).size()));
   }
-  /// How deep a node lies below the surface [m]. Those outside of it have no tissue: what is measured is that within.
+  /// Returns the depth of a node below the surface [m]. Nodes outside have no tissue: only inner ones are measured.
   double depth(size_t body, uint32_t slot) const {
     const std::vector<float>& depths_m = model().bodies[body].lattice.depth_m;
     return depths_m.empty() ? 0 : depths_m[slot];
   }
-  /// Of its tissue [m].
+  /// Returns the lowest height of a body's tissue [m].
   double lowest(size_t body) const {
     double out = 1e9;
     for (const uint32_t slot : nodes(body)) {
@@ -57,7 +57,7 @@ class Resting : public ::testing::Test {
     }
     return out;
   }
-  /// Nearest that the tissue of one body is to that of the other [m].
+  /// Returns the smallest distance between the tissue of two bodies [m].
   double gap(size_t a, size_t b) const {
     double out = 1e9;
     for (const uint32_t i : nodes(a)) {
@@ -74,9 +74,9 @@ class Resting : public ::testing::Test {
 
 TEST_F(Resting, BallsFallOntoTheClothTouchItAndLieInIt) {
   Scene scene = shipped("objects");
-  scene.environment.wind = {};  // which never lets them rest
+  scene.environment.wind = {};  // wind never lets them rest
   for (BodyConfig& body : scene.bodies) body.force_n.setZero();
-  constexpr double kReach_m = 0.016 * 1.1;  // the cloth's spacing is how near its contacts let nodes come
+  constexpr double kReach_m = 0.016 * 1.1;  // the cloth's spacing is its contact distance
   run(scene, 6);
   for (const size_t ball : {1u, 2u}) {
     EXPECT_LT(gap(ball, 0), kReach_m) << "ball " << ball << " hangs in the air";
@@ -105,7 +105,7 @@ TEST_F(Resting, TheLipsOfACutClothHangApartAndRest) {
   const Scene scene = shipped("cloth_on_points");
   const Strokes strokes = loadStrokes(test::sourceFolder() + "/config/strokes/cut_cloth.yaml");
   run(scene, strokes.duration_s() + 4, strokes);
-  // Nodes of the near edge on the two sides of the blade, side by side before.
+  // Nodes of the near edge on the two sides of the blade, adjacent before.
   double left = -1, right = 1;
   Vector3d left_at = Vector3d::Zero(), right_at = left_at;
   for (const uint32_t slot : nodes(0)) {

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kConfig = fs::path(test::sourceFolder()) / "config";
-constexpr double kCoarseM = 0.008;  ///< quick to build, and still fine enough for every wall of an organ to be there
+constexpr double kCoarseM = 0.008;  ///< quick to build, and still fine enough to resolve every wall of an organ
 
 std::vector<fs::path> filesIn(const char* folder) {
   std::vector<fs::path> out;
@@ -36,19 +36,19 @@ std::string nameOf(const ::testing::TestParamInfo<fs::path>& info) {
   return name;
 }
 
-/// The scene with every solid body made coarse.
+/// Returns the scene with every solid body made coarse.
 Scene coarse(const fs::path& file) {
   Scene scene = loadScene(file.string());
-  if (!scene.threads.empty()) return scene;  // whose channels are where its tissue is
+  if (!scene.sutures.empty()) return scene;  // its channels are at fixed positions of the tissue
   for (BodyConfig& body : scene.bodies) {
-    if (body.source == TissueSource::kSheet) continue;  // which are quick to build, and held along lines
+    if (body.source == TissueSource::kSheet) continue;  // quick to build, and fixed along lines
     body.target_nodes = 0;
     body.spacing_m = std::max(body.spacing_m, kCoarseM);
   }
   return scene;
 }
 
-/// Is every mesh file of the scene here? Some scenes are for data that cannot be shipped.
+/// Returns whether every mesh file of the scene is present. Some scenes are for data that cannot be shipped.
 bool isComplete(const Scene& scene) {
   return std::all_of(scene.bodies.begin(), scene.bodies.end(), [&](const BodyConfig& body) {
     return body.source != TissueSource::kMesh || fs::exists(fs::path(scene.folder) / body.mesh_file);
@@ -75,10 +75,10 @@ TEST_P(ShippedScene, RunsSomeTicksAsItsNameSaysWithoutATrip) {
   EXPECT_FALSE(scene.cameras.empty());
   EXPECT_FALSE(scene.styluses.empty());
   Session session(scene, context_);
-  constexpr int kTicks = 6;  // 0.1 s: long enough for what is loose to fall by 5 cm
+  constexpr int kTicks = 6;  // 0.1 s: long enough for loose bodies to fall by 5 cm
   for (int tick = 0; tick < kTicks; ++tick) session.step({}, {});
   session.drain();
-  EXPECT_EQ(session.extremes().governor_trips, 0u);
+  EXPECT_EQ(session.extremes().roll_backs, 0u);
   EXPECT_EQ(session.extremes().nonfinite, 0u);
   const bool has_weight = scene.environment.gravity_m_per_s2.norm() > 0;
   EXPECT_TRUE(!has_weight || session.extremes().max_speed_m_per_s > 0) << "nothing moves";
@@ -100,7 +100,7 @@ TEST_P(ShippedScene, BladesInTissueThatResistsThemHaveAPoint) {
     EXPECT_TRUE(!cuts(stylus) || stylus.cut.point_width_m > 0) << stylus.name << " stabs and feels nothing";
 }
 
-/// Straight in along the blade, 6 mm deep, at 5 cm/s. @returns the largest force against it [N]
+/// Moves straight in along the blade, 6 mm deep, at 5 cm/s. @returns the largest force against it [N]
 double stab(const std::string& name) {
   const Scene scene = loadScene((kConfig / "scenes" / (name + ".yaml")).string(), {"solver.backend=cpu", "cameras=[]"});
   Session session(scene);
@@ -123,13 +123,13 @@ TEST(PracticeScenes, AStabIsFelt) {
   }
 }
 
-/// The scene that a strokes file was made for, if it is for no task.
+/// The scene of each strokes file that belongs to no task.
 const std::map<std::string, std::string> kSceneOf = {
     {"demo", "heart"},         {"cut_cloth", "cloth_on_points"},    {"incision", "skin_under_tension"},
     {"stab", "practice_skin"}, {"cautery", "cautery_pad"},          {"bleeding", "bleeding_vessel"},
     {"suture", "suture_pad"},  {"running_suture", "running_suture"}};
 
-/// Of strokes TASK_good and TASK_clumsy. Not there: they are for no task.
+/// Returns the task of strokes TASK_good and TASK_clumsy; nothing for other files.
 std::optional<TaskConfig> taskOf(const fs::path& strokes) {
   const std::string name = strokes.stem().string();
   const fs::path task = kConfig / "tasks" / (name.substr(0, name.rfind('_')) + ".yaml");
@@ -150,7 +150,7 @@ TEST_P(ShippedStrokes, LoadAndFitTheirScene) {
                             [&](const StylusConfig& stylus) { return stylus.name == stroke.stylus; }))
         << scene.name << " has no stylus " << stroke.stylus;
   }
-  EXPECT_TRUE(task || !strokes.marks.empty()) << "no pictures";  // those of a task are the report's
+  EXPECT_TRUE(task || !strokes.marks.empty()) << "no pictures";  // those of a task are made by the report
   for (const Mark& mark : strokes.marks) EXPECT_LE(mark.time_s, strokes.duration_s()) << mark.name << " is never seen";
   resolveAnchors(strokes, buildModel(scene));
   EXPECT_FALSE(strokes.anchored());

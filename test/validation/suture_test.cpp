@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The shipped wounds: open once they are cut; one is closed by four stitches that are tied, also when their tails are
-// cut, the other by four of a running suture that a needle is led through.
+// The shipped wounds are open once they are cut. One is closed by four stitches that are tied, also when their tails
+// are cut; the other by the four stitches of a running suture with a needle.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <optional>
 
-#include "solver/processes/suture/thread_bodies.h"
+#include "solver/processes/suture/suture_bodies.h"
 #include "support/source_folder.h"
 #include "viscera/gpu/context.h"
 #include "viscera/session/session.h"
@@ -19,18 +19,18 @@
 namespace viscera {
 namespace {
 
-constexpr double kHalf_m = 0.0015, kRestGap_m = 0.003;  // nodes beside the wound's plane, x = 0
-constexpr double kWoundEnds_m = 0.0135;                 // rows of nodes along it, y, farther than that are not parted
-constexpr double kCutDown_m = 0.0015;                   // z of the blade's tip
+constexpr double kHalf_m = 0.0015, kRestGap_m = 0.003;  // nodes next to the wound's plane, x = 0
+constexpr double kWoundEnds_m = 0.0135;  // rows of nodes along it, y, farther than that are not separated
+constexpr double kCutDown_m = 0.0015;    // z of the blade's tip
 
-constexpr double kLastStitch_m = -0.01125, kBesideStitch_m = 0.0025;  // y of the running suture's last one, and rows
+constexpr double kLastStitch_m = -0.01125, kBesideStitch_m = 0.0025;  // y of the running suture's last stitch; rows
 
 struct Gap {
-  double mean_m = 0, skin_m = 0;  // of all pairs across the wound, and of those at the skin
-  double last_m = 0;              // the largest of those at the skin beside the running suture's last stitch
+  double mean_m = 0, skin_m = 0;  // of all pairs across the wound, and of those at the surface
+  double last_m = 0;              // largest of those at the surface next to the running suture's last stitch
 };
 
-/// Beyond what two nodes across the wound are apart at rest.
+/// Returns the gaps of two nodes across the wound in excess of their rest distance.
 Gap gapOf(const Session& session) {
   const HostState state = session.solver().readState();
   const Body& body = session.model().bodies[0];
@@ -61,7 +61,7 @@ Gap gapOf(const Session& session) {
 
 struct Sutured {
   Gap open, tied, cut;
-  std::vector<SeenThread> threads;
+  std::vector<SutureState> sutures;
   uint64_t hash = 0, trips = 0;
 };
 
@@ -72,7 +72,7 @@ Sutured sutured(double young_pa, Backend backend) {
   const double stiffer = young_pa / scene.bodies[0].material.young_modulus_pa;
   scene.bodies[0].material.young_modulus_pa = young_pa;
   scene.solver.backend = backend;
-  for (ThreadConfig& thread : scene.threads) thread.ties[0].tension_n *= stiffer;
+  for (SutureConfig& suture : scene.sutures) suture.ties[0].tension_n *= stiffer;
   std::optional<gpu::Context> context;
   if (backend == Backend::kGpu) context.emplace();
   Session session = context ? Session(scene, *context) : Session(scene);
@@ -85,16 +85,16 @@ Sutured sutured(double young_pa, Backend backend) {
   out.open = until(2.9);
   out.tied = until(7.4);
   out.cut = until(strokes.duration_s());
-  out.threads = seenThreads(session);
+  out.sutures = sutureStates(session);
   session.drain();
   out.hash = session.stateHash();
-  out.trips = session.extremes().governor_trips;
+  out.trips = session.extremes().roll_backs;
   return out;
 }
 
 void expectClosed(double young_pa, Backend backend = Backend::kCpu) {
   constexpr double kOpen_m = 0.0008, kMean_m = 3e-4, kSkin_m = 5e-4;  // that wound gapes by a millimetre and more
-  constexpr size_t kThreads = 4, kTails = 8;
+  constexpr size_t kSutures = 4, kTails = 8;
   const Sutured found = sutured(young_pa, backend);
   printf("E %.0f kPa: gap open %.2f (skin %.2f), tied %.2f (%.2f), tails cut %.2f (%.2f) mm\n", young_pa / 1e3,
          1e3 * found.open.mean_m, 1e3 * found.open.skin_m, 1e3 * found.tied.mean_m, 1e3 * found.tied.skin_m,
@@ -105,29 +105,29 @@ void expectClosed(double young_pa, Backend backend = Backend::kCpu) {
     EXPECT_LT(gap.skin_m, kSkin_m);
   }
   EXPECT_EQ(found.trips, 0U);
-  EXPECT_GE(found.threads.size(), kThreads + kTails);  // a tail that hangs may be met twice
+  EXPECT_GE(found.sutures.size(), kSutures + kTails);  // a hanging tail may be met twice
   size_t knots = 0;
-  for (const SeenThread& thread : found.threads) {
-    for (const SeenKnot& knot : thread.knots) {
+  for (const SutureState& suture : found.sutures) {
+    for (const KnotState& knot : suture.knots) {
       EXPECT_TRUE(knot.tied);
       ++knots;
     }
   }
-  EXPECT_EQ(knots, kThreads);
+  EXPECT_EQ(knots, kSutures);
 }
 
 struct Sewn {
   Gap open, drawn, tied;
   std::array<size_t, 8> channels{};  ///< of each stitch in the left lip, then in the right one
   double worst_link = 0, tail_off_m = 0;
-  SeenThread thread;
+  SutureState suture;
   uint64_t trips = 0, nonfinite = 0;
 };
 
-/// By where they are: they were made in the order of the needle's way.
+/// Assigns channels by position: they were made in the order of the needle's path.
 void countChannels(const Session& session, std::array<size_t, 8>& channels) {
   constexpr double kStitches_m[] = {0.01125, 0.00375, -0.00375, kLastStitch_m};
-  for (const ChainSlide& slide : findProcess<ThreadBodies>(session.solver())->slides(0)) {
+  for (const ChainSlide& slide : findProcess<SutureBodies>(session.solver())->slides(0)) {
     for (size_t k = 0; k < 4; ++k) {
       if (std::abs(slide.to_m.y() - kStitches_m[k]) < kBesideStitch_m) ++channels[2 * k + (slide.to_m.x() > 0 ? 1 : 0)];
     }
@@ -147,9 +147,9 @@ Sewn sewn() {
   const auto until = [&](double time_s) {
     while (static_cast<double>(session.tick()) * session.tick_s() < time_s) {
       session.step(strokes.at(static_cast<double>(session.tick() + 1) * session.tick_s(), scene.styluses), {});
-      const ThreadBodies& threads = *findProcess<ThreadBodies>(session.solver());
-      out.worst_link = std::max(out.worst_link, threads.chain(0).worstLink());
-      out.tail_off_m = std::max(out.tail_off_m, (threadPlaces(session, 0)[0] - threads.needle(0)->tail_m()).norm());
+      const SutureBodies& sutures = *findProcess<SutureBodies>(session.solver());
+      out.worst_link = std::max(out.worst_link, sutures.chain(0).worstLink());
+      out.tail_off_m = std::max(out.tail_off_m, (suturePositions(session, 0)[0] - sutures.needle(0)->tail_m()).norm());
     }
     return gapOf(session);
   };
@@ -157,9 +157,9 @@ Sewn sewn() {
   out.drawn = until(mark_s("drawn"));
   out.tied = until(strokes.duration_s());
   countChannels(session, out.channels);
-  out.thread = seenThreads(session)[0];
+  out.suture = sutureStates(session)[0];
   session.drain();
-  out.trips = session.extremes().governor_trips;
+  out.trips = session.extremes().roll_backs;
   out.nonfinite = session.extremes().nonfinite;
   return out;
 }
@@ -179,9 +179,9 @@ TEST(RunningSuture, ANeedleSewsAWoundClosed) {
   }
   for (size_t lip = 0; lip < found.channels.size(); ++lip)
     EXPECT_GE(found.channels[lip], 2U) << "stitch " << lip / 2 << (lip % 2 ? ", right lip" : ", left lip");
-  EXPECT_LT(found.tied.last_m, kSkin_m);  // without its knot, with the thread's last loop, 0.9 mm
-  ASSERT_EQ(found.thread.knots.size(), 2U);
-  for (const SeenKnot& knot : found.thread.knots) EXPECT_TRUE(knot.tied);
+  EXPECT_LT(found.tied.last_m, kSkin_m);  // without its knot, with the suture's last loop, 0.9 mm
+  ASSERT_EQ(found.suture.knots.size(), 2U);
+  for (const KnotState& knot : found.suture.knots) EXPECT_TRUE(knot.tied);
   EXPECT_LT(found.worst_link, kLink);
   EXPECT_LT(found.tail_off_m, kOnTail_m);
   EXPECT_EQ(found.trips, 0U);

@@ -12,7 +12,7 @@ namespace {
 constexpr size_t kNodes = 42745, kFaces = 31320;
 constexpr int kNodesPerAxis = 100;
 
-/// Three crossed beams that span the box: as thin a filling of it as a hollow organ, in one piece.
+/// Returns three crossed beams that span the box: as sparse a filling as a hollow organ, in one piece.
 Solid crossedBeams() {
   constexpr int kFrom = 44, kTo = 56;  // 12 cells, 13 nodes wide; one cell less along the second side
   Solid solid;
@@ -43,7 +43,7 @@ TEST_F(Vr05Size, BoxOfAHundredCubedLoadsAndRuns) {
   body.lattice = buildLattice(solid, Weights::kCell);
   EXPECT_EQ(body.lattice.nodes_per_axis, Vector3i::Constant(kNodesPerAxis));
   EXPECT_NEAR(static_cast<double>(body.lattice.active_slots.size()), kNodes, 0.02 * kNodes);
-  // Work and memory follow the nodes, not the box: bricks that hold none are not there.
+  // Work and memory follow the nodes, not the box: bricks without nodes do not exist.
   EXPECT_LT(body.lattice.nodes.size(), 2 * body.lattice.active_slots.size());
   body.skin = bindSkin(extractSkin(solid), body.lattice, solid);
   EXPECT_GT(body.skin.mesh.triangles.size(), kFaces);

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// bench_copy.comp - how fast the renderer's kernels copy memory.   Owner: bench/harness/machine/machine_gpu.cpp
+// bench_copy.comp - copies memory, to measure the renderer's copy rate.   Owner: bench/harness/machine/machine_gpu.cpp
 // in  from [count]     out  to [count]
 layout(local_size_x = GROUP_SIZE) in;
 layout(std430, binding = 0) restrict readonly buffer From {

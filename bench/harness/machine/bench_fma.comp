@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// bench_fma.comp - how many multiply-adds the renderer does in registers.   Owner:
-// bench/harness/machine/machine_gpu.cpp out  results [invocations]
+// bench_fma.comp - multiply-adds in registers, to measure the renderer's rate.
+// Owner: bench/harness/machine/machine_gpu.cpp   out  results [invocations]
 layout(local_size_x = GROUP_SIZE) in;
 layout(std430, binding = 0) writeonly buffer Results {
   vec4 results[];
@@ -10,7 +10,7 @@ layout(std430, binding = 0) writeonly buffer Results {
 uniform int rounds;
 
 void main() {
-  // Eight chains side by side hide the latency of one.
+  // Eight concurrent chains hide the latency of one.
   vec4 a = vec4(gl_GlobalInvocationID.x), b = a + 1.0;
   vec4 factor = vec4(0.999), term = vec4(float(rounds) * 1e-6);
   for (int i = 0; i < rounds; ++i) {

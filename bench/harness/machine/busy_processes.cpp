@@ -17,10 +17,10 @@ namespace viscera::bench {
 
 namespace {
 
-/// What a process does. It is a fork of a program with threads: system calls only.
+/// Work of a process. It is forked from a program with threads, so it uses system calls only.
 [[noreturn]] void compute(const Load& load, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(0);  // it has ended meanwhile
+  if (getppid() != parent) _exit(0);  // the parent has ended concurrently
   if (load.elsewhere) setsid();
   setpriority(PRIO_PROCESS, 0, load.nice);
   for (volatile unsigned count = 0;; count = count + 1) {
@@ -37,7 +37,7 @@ BusyProcesses::BusyProcesses(const Load& load) {
     if (process < 0) {
       const std::string why = std::strerror(errno);
       end();
-      throw Error("no process that keeps the machine busy can be made: " + why);
+      throw Error("cannot start a process that keeps the machine busy: " + why);
     }
     processes_.push_back(process);
   }

@@ -9,17 +9,17 @@
 
 namespace viscera::bench {
 
-/// What else wants the processors.
+/// Other processes that use the CPU.
 struct Load {
   std::string name;
   int processes = 0, nice = 0;
-  bool elsewhere = false;  ///< each in a session of its own, as one that was started in another terminal
+  bool elsewhere = false;  ///< whether each has a session of its own, like one started in another terminal
 };
 
-/// Processes that compute and never wait, from the constructor to the destructor, or to this process's end.
+/// Processes that compute without waiting, from the constructor to the destructor, or to this process's end.
 class BusyProcesses {
  public:
-  /// @throws Error  the system makes no more processes
+  /// @throws Error  the system cannot create more processes
   explicit BusyProcesses(const Load& load);
   ~BusyProcesses();
   BusyProcesses(const BusyProcesses&) = delete;

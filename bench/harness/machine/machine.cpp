@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kCopies = 5;
 
-/// Of one thread: its own arrays, the best of some copies.
+/// Measures one thread with arrays of its own: the best of several copies.
 double copyAlone(size_t bytes) {
   AlignedVector<char> from(bytes, 1), to(bytes);
   double best_s = 1e9;
@@ -29,7 +29,7 @@ double copyAlone(size_t bytes) {
     const auto start = std::chrono::steady_clock::now();
     std::memcpy(to.data(), from.data(), bytes);
     best_s = std::min(best_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-    from[static_cast<size_t>(i)] = to[bytes - 1];  // a copy that is not looked at might be left out
+    from[static_cast<size_t>(i)] = to[bytes - 1];  // uses the copy, which might otherwise be optimised away
   }
   return 2 * static_cast<double>(bytes) / best_s;
 }

@@ -9,24 +9,26 @@
 
 namespace viscera::bench {
 
-// What this machine can do at most, measured (docs/benchmarks.md, speed).
+// Measured limits of this machine (docs/benchmarks.md, speed).
 
-/// Bytes read plus bytes written per second by memcpy between arrays far larger than caches.
-/// @param threads  at once, each with arrays of its own   @param mebibytes  of each array
+/// Returns bytes read plus bytes written per second by memcpy between arrays far larger than caches.
+/// @param threads  concurrent threads, each with arrays of its own   @param mebibytes  size of each array
 double copyRate(int threads, size_t mebibytes);
-/// Float32 operations per second of fused multiply-adds in registers (two operations each) on the best instruction set.
-/// @param threads  at once   @param seconds  of measurement
+/// Returns float32 operations per second of fused multiply-adds in registers (two operations each) with the best
+/// instruction set.
+/// @param threads  concurrent threads   @param seconds  duration of the measurement
 double fmaRate(int threads, double seconds);
-std::string fmaTarget();  ///< the instruction set of fmaRate()
+std::string fmaTarget();  ///< instruction set of fmaRate()
 
-/// Does something, each time to its end, for 0.4 s: a GPU that was idle takes some tenths of a second to its full
+/// Repeats some work, each time to its end, for 0.4 s: an idle GPU takes some tenths of a second to reach its full
 /// clock.
 void warmUpGpu(const std::function<void()>& work);
-/// The same on the renderer of the current context: copies between buffers, multiply-adds in a compute shader.
-double gpuCopyRate(size_t mebibytes);  ///< of each buffer, or as much as the driver lets a storage block be
+/// Returns the rates of the current context's renderer: copies between buffers, and (below) multiply-adds in a compute
+/// shader.
+double gpuCopyRate(size_t mebibytes);  ///< size of each buffer, limited by the largest storage block of the driver
 double gpuFmaRate(double seconds);
 
-/// Memory of this process that is resident [bytes].
+/// Returns the resident memory of this process [bytes].
 double residentBytes();
 int processors();
 

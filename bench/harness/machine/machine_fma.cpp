@@ -10,7 +10,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "bench/harness/machine/machine_fma.cpp"
 #include "hwy/foreach_target.h"  // IWYU pragma: keep
-// <hwy/foreach_target.h> first
+// <hwy/foreach_target.h> must come first
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -18,10 +18,12 @@ namespace viscera::bench::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Chains of multiply-adds side by side: as many as two units with a latency of five take, and registers hold.
+/// Number of concurrent chains of multiply-adds: enough for two units with a latency of five, and they fit into
+/// registers.
 constexpr int kChains = 12;
 
-/// @return operations done   @param sink  takes a result, so that the work is not left out
+/// Computes chains of multiply-adds.
+/// @return number of operations   @param sink  receives a result, so that the work is not optimised away
 double multiplyAdds(int64_t rounds, float* sink) {
   const hn::ScalableTag<float> d;
   const auto factor = hn::Set(d, 0.999f), term = hn::Set(d, 1e-3f * sink[0]);
@@ -46,7 +48,7 @@ HWY_EXPORT(multiplyAdds);
 namespace {
 
 constexpr int64_t kRounds = 100000;  // about 0.1 ms
-constexpr int kParts = 10;           // of the measurement: the best one counts
+constexpr int kParts = 10;           // number of parts of the measurement: the best one counts
 
 double fmaAlone(double seconds) {
   using Clock = std::chrono::steady_clock;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kRepeats = 5;
 constexpr size_t kInvocations = size_t{1} << 16;
-constexpr double kOperations = 16;  // of a round of an invocation (bench_fma.comp)
+constexpr double kOperations = 16;  // operations per round of an invocation (bench_fma.comp)
 
 template <class Work>
 double secondsOnGpu(const Work& work) {
@@ -69,7 +69,7 @@ double gpuFmaRate(double seconds) {
     gpu::Program::dispatch(kInvocations, layout::kGroupSize);
   };
   int rounds = 64;
-  run(rounds);  // compiles
+  run(rounds);  // compiles the shader
   const double once_s = secondsOnGpu([&] { run(rounds); });
   rounds = std::clamp(static_cast<int>(rounds * seconds / kRepeats / once_s), rounds, 1 << 20);
   return kOperations * kInvocations * rounds / bestOnGpu([&] { run(rounds); });

@@ -6,7 +6,7 @@
 
 namespace viscera::bench {
 
-/// Runs a measurement on several threads at once and adds what they found.
+/// Runs a measurement on several threads at once and returns the sum of the results.
 double sumOverThreads(int threads, const std::function<double()>& measure);
 
 }  // namespace viscera::bench

@@ -13,7 +13,7 @@ std::string nameOf(Backend backend) {
   return backend == Backend::kCpu ? "cpu" : "gpu";
 }
 
-std::unique_ptr<Ticks> solverOn(Backend backend, const Model& model, const Scene& scene, bool allow_unstable) {
+std::unique_ptr<TissueStepper> solverOn(Backend backend, const Model& model, const Scene& scene, bool allow_unstable) {
   if (backend == Backend::kCpu) {
     CpuSolverOptions options;
     options.allow_unstable = allow_unstable;
@@ -36,7 +36,7 @@ Machine machineFor(const std::string& asked, int device) {
     out.context = std::make_unique<gpu::Context>(device);
   } catch (const GpuError& error) {
     if (asked == "gpu") throw;
-    out.note = cpu + " alone, as there is no OpenGL context: " + error.what();
+    out.note = cpu + " only, because there is no OpenGL context: " + error.what();
     return out;
   }
   out.backends.push_back(Backend::kGpu);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/ticks/ticks.h"
+#include "solver/ticks/tissue_stepper.h"
 #include "viscera/gpu/context.h"
 #include "viscera/model/scene/solver_kinds.h"
 
@@ -16,23 +16,25 @@ struct Scene;
 
 namespace viscera::bench {
 
-/// "cpu" or "gpu".
+/// Returns "cpu" or "gpu".
 std::string nameOf(Backend backend);
 
-/// Ticks on one backend; the GPU's needs a current context.
-/// @param model  must outlive the solver   @param allow_unstable  substeps above the stable one are taken as they are
+/// Creates a solver on one backend; the GPU requires a current context.
+/// @param model  must outlive the solver   @param allow_unstable  whether to accept substeps above the stable one
 /// @throws GpuError  shaders, memory;  SceneError  substeps, parts
-std::unique_ptr<Ticks> solverOn(Backend backend, const Model& model, const Scene& scene, bool allow_unstable = false);
+std::unique_ptr<TissueStepper> solverOn(Backend backend, const Model& model, const Scene& scene,
+                                        bool allow_unstable = false);
 
-/// The backends that a run takes, and what the GPU's needs.
+/// The backends of a run, and the context for the GPU.
 struct Machine {
-  std::unique_ptr<gpu::Context> context;  ///< null: no GPU backend in the run
+  std::unique_ptr<gpu::Context> context;  ///< null: the run has no GPU backend
   std::vector<Backend> backends;          ///< kCpu, kGpu
-  std::string note;                       ///< one line for a person: on what
+  std::string note;                       ///< description of the hardware, one line
 };
 
-/// @param asked  "cpu": no context is made; "gpu"; "both": the CPU alone where there is no EGL device
-/// @param device  EGL device, or -1: the best   @throws GpuError  "gpu", and there is none
+/// Selects the backends.
+/// @param asked  "cpu": no context is created; "gpu"; "both": the CPU alone if there is no EGL device
+/// @param device  EGL device, or -1: the best   @throws GpuError  "gpu" is requested, and there is none
 Machine machineFor(const std::string& asked, int device);
 
 }  // namespace viscera::bench

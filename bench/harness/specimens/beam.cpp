@@ -19,7 +19,7 @@ Model beamModel(const Vector3i& cells, const MaterialConfig& material) {
   return blockModel(cells, kBeamSpacing_m, material, [](const Vector3i& node) { return node.z() == 0; });
 }
 
-/// Inverse iteration: u <- K^-1 M u.
+/// Uses inverse iteration: u <- K^-1 M u.
 Field lowestMode(const Model& model, double largest_m) {
   const ReferenceSolver solver(model, Vector3d::Zero(), 1);
   Field mode(model.slots(), Vector3d::UnitX());

@@ -9,17 +9,18 @@ namespace viscera::bench {
 
 constexpr double kBeamSpacing_m = 0.004;
 
-/// A beam along z, clamped at z = 0. @param cells  its size
+/// Creates a beam along z, clamped at z = 0. @param cells  its size
 Model beamModel(const Vector3i& cells, const MaterialConfig& material);
 
-/// Displacements of the lowest mode of a body, to first order. [slots] @param largest_m  of all nodes
+/// Returns displacements of a body's lowest mode, to first order. [slots] @param largest_m  over all nodes
 Field lowestMode(const Model& model, double largest_m);
 
-/// Displacements in which forces hold a body that are those of its lowest mode: let go, it swings slowly, with all that
-/// bending does to lengths. [slots] @param largest_m  about that of all nodes
+/// Returns the static displacements under the forces of the body's lowest mode. When released, the body oscillates
+/// slowly, including the effect of bending on lengths. [slots]
+/// @param largest_m  approximate largest displacement of all nodes
 Field bent(const Model& model, double largest_m);
 
-/// Displacements in which the body hangs at rest. [slots] @param gravity_m_per_s2  tissue frame
+/// Returns the static displacements under gravity. [slots] @param gravity_m_per_s2  tissue frame
 Field sag(const Model& model, const Vector3d& gravity_m_per_s2);
 
 }  // namespace viscera::bench

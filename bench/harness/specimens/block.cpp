@@ -58,7 +58,7 @@ MaterialConfig unitMaterial() {
   MaterialConfig material;
   material.young_modulus_pa = 2.5;
   material.density_kg_per_m3 = 1;
-  material.drag_per_s = material.dashpot_ratio = 0;
+  material.mass_damping_per_s = material.stiffness_damping_ratio = 0;
   return material;
 }
 
@@ -77,9 +77,9 @@ Scene plainScene(const Model& model, int substeps, double dt_fraction) {
   scene.environment.gravity_m_per_s2 = Vector3d::Zero();
   scene.solver.dt_fraction = scene.solver.dt_fraction_strained = dt_fraction;
   scene.solver.substeps = substeps;
-  scene.solver.governor = false;
-  scene.solver.sleep_distance_m = 1e9;   // nothing may step in,
-  scene.solver.sleep_speed_m_per_s = 0;  // nor take a small wave at its turning point for tissue at rest
+  scene.solver.stability_monitor = false;
+  scene.solver.sleep_distance_m = 1e9;   // keeps the sleep test from interfering,
+  scene.solver.sleep_speed_m_per_s = 0;  // so a small wave at its turning point does not count as rest
   scene.solver.tick_hz = 1 / (substeps * dt_fraction * safeTimeStep(model));
   return scene;
 }
@@ -105,11 +105,11 @@ layout::vec4 vec4(const Vector3d& v) {
 }
 
 Field forcesOn(Backend backend, const Model& model, const Field& u_m) {
-  const std::unique_ptr<Ticks> solver = solverOn(backend, model, plainScene(model, 1));
+  const std::unique_ptr<TissueStepper> solver = solverOn(backend, model, plainScene(model, 1));
   solver->writeState(stateOf(model, u_m));
   solver->step({});
   const HostState after = solver->readState();
-  const ReferenceLattice lattice(model);  // masses
+  const ReferenceLattice lattice(model);  // provides the masses
   Field out(model.slots(), Vector3d::Zero());
   for (uint32_t slot : lattice.active) {
     out[slot] = lattice.mass(slot) * xyz(after.velocity_m_per_s[slot]) / (0.5 * solver->dt_s());

@@ -10,38 +10,38 @@
 
 namespace viscera::bench {
 
-/// A block of whole cells, its lowest corner at the origin. @param material  Law::kAuto: springs   @param fixed  which
-/// nodes are held, or empty: none
+/// Creates a block of full cells with its lowest corner at the origin. @param material  Law::kAuto: springs
+/// @param fixed  selects fixed nodes; empty: none
 Model blockModel(const Vector3i& cells, double spacing_m, const MaterialConfig& material,
                  const std::function<bool(const Vector3i& node)>& fixed = {});
 
-/// Half of a hollow ball of whole cells, its round side up, held at its rim. @param radius, wall  in cells; a cell is
-/// there if its middle is
+/// Creates half of a hollow ball of full cells, round side up, fixed at its rim.
+/// @param radius, wall  [cells]; a cell exists if its centre is inside
 Model domeModel(int radius, double wall, double spacing_m, const MaterialConfig& material);
 
-/// Undamped, k = h = m = 1 for a block of spacing 1 m: E = 2.5 Pa, 1 kg/m3.
+/// Returns an undamped material with k = h = m = 1 for a block of spacing 1 m: E = 2.5 Pa, 1 kg/m3.
 MaterialConfig unitMaterial();
 
-/// "springs" or "neo_hookean".
+/// Returns "springs" or "neo_hookean".
 std::string nameOf(Law law);
 
-/// The material with a Poisson's ratio, and with the law that has it: springs at 1/4, elsewhere the neo-Hookean one.
+/// Returns the material with a Poisson's ratio and a law that supports it: springs at 1/4, otherwise neo-Hookean.
 MaterialConfig withPoisson(MaterialConfig material, double poisson_ratio);
 
-/// Scene for a model that is there already: no gravity, no governor, no sleep, ticks of `substeps` substeps of
+/// Returns a scene for an existing model: no gravity, stability monitor or sleep; ticks of `substeps` substeps of
 /// dt_fraction times the largest stable one.
 Scene plainScene(const Model& model, int substeps, double dt_fraction = 0.5);
 
-/// Everything at rest. [slots]
+/// Returns the state at rest. [slots]
 HostState restState(const Model& model);
-/// Displacements as given, velocities zero. @param u_m  [slots]
+/// Returns a state with the given displacements and zero velocities. @param u_m  [slots]
 HostState stateOf(const Model& model, const Field& u_m);
 
 Vector3d xyz(const layout::vec4& v);
 layout::vec4 vec4(const Vector3d& v);
 
-/// Elastic forces of a backend on every node [slots, N]: from the velocity that half a kick gives it. The solver has
-/// plainScene(): one substep per tick.
+/// Returns the elastic forces of a backend on every node [slots, N], from the velocity after half a kick. The solver
+/// has plainScene() with one substep per tick.
 /// @param model  one body without drag
 Field forcesOn(Backend backend, const Model& model, const Field& u_m);
 

@@ -6,8 +6,8 @@
 
 namespace viscera::bench {
 
-/// A block of tissue that stands at z = 0 and is held there, centred on the z axis.
-/// @param size_m  > 0   @param spacing_m  of nodes
+/// Returns a block of tissue that is fixed at its bottom z = 0 and centred on the z axis.
+/// @param size_m  > 0   @param spacing_m  node spacing
 BodyConfig blockOnBone(const Vector3d& size_m, double spacing_m, double young_modulus_pa);
 
 }  // namespace viscera::bench

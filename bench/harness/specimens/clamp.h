@@ -6,7 +6,7 @@
 
 namespace viscera::bench {
 
-/// Returns a clamp of all nodes behind a plane, on the side that its normal points away from.
+/// Returns a clamp of all nodes on the negative side of a plane.
 inline FixedConfig clampBehind(const Vector3d& point_m, const Vector3d& normal) {
   FixedConfig clamp;
   clamp.shape = FixedShape::kPlane;

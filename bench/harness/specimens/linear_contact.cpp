@@ -11,8 +11,8 @@ namespace viscera::bench {
 
 namespace {
 
-/// Displacement in an elastic half-space under a force of 1 N on its surface, along z into it (Boussinesq).
-/// @param x  from the point of application, z > 0 inside [m]
+/// Returns the displacement in an elastic half-space under a force of 1 N on its surface, along z into it (Boussinesq).
+/// @param x  position relative to the point of application, z > 0 inside [m]
 Vector3d boussinesq(const Vector3d& x, double shear_pa, double nu) {
   const double rho = x.norm(), r2 = rho * rho;
   const double side = x.z() / (r2 * rho) - (1 - 2 * nu) / (rho * (rho + x.z()));
@@ -23,13 +23,13 @@ Vector3d boussinesq(const Vector3d& x, double shear_pa, double nu) {
 /// The quarter block x, y >= 0 and its rest stiffness, split into free and prescribed degrees of freedom.
 class QuarterBlock {
  public:
-  QuarterBlock(int cells, double spacing_m, const MaterialConfig& material, Surroundings surroundings)
+  QuarterBlock(int cells, double spacing_m, const MaterialConfig& material, FarField far_field)
       : model_(blockModel(Vector3i::Constant(cells), spacing_m, material)),
         lattice_(model_, Vector3d::Zero(), 1),
         cells_(cells),
         nu_(material.poisson_ratio),
         shear_pa_(material.young_modulus_pa / (2 * (1 + nu_))),
-        surroundings_(surroundings) {
+        far_field_(far_field) {
     std::vector<int> free_of(static_cast<size_t>(lattice_.dofs()), -1);
     for (uint32_t slot : lattice_.active) {
       for (int axis = 0; axis < 3; ++axis) {
@@ -39,11 +39,12 @@ class QuarterBlock {
     split(free_of);
   }
 
-  /// How far every candidate sinks if a node at the top and its mirror images are pressed by 1 N each [m].
+  /// Returns the displacement of every candidate if a node at the top and its mirror images are each pressed by 1 N
+  /// [m].
   Eigen::VectorXd sinking(uint32_t pressed, const std::vector<uint32_t>& candidates) const {
     Eigen::VectorXd load = Eigen::VectorXd::Zero(free_);
     load[index_[dof(pressed, 2)]] = -images(pressed) / 4.0;  // a node on a plane of symmetry is shared
-    if (surroundings_ == Surroundings::kHalfSpace) load -= coupling_ * farDisplacement(pressed);
+    if (far_field_ == FarField::kHalfSpace) load -= coupling_ * farDisplacement(pressed);
     const Eigen::VectorXd u = solver_.solve(load);
     Eigen::VectorXd out(static_cast<Eigen::Index>(candidates.size()));
     for (size_t i = 0; i < candidates.size(); ++i)
@@ -51,7 +52,7 @@ class QuarterBlock {
     return out;
   }
   int images(uint32_t slot) const { return (node(slot).x() > 0 ? 2 : 1) * (node(slot).y() > 0 ? 2 : 1); }
-  /// Free nodes of the top within a distance of the axis.
+  /// Returns the free nodes of the top within a distance of the axis.
   std::vector<uint32_t> topNodes(double reach_m) const {
     std::vector<uint32_t> out;
     for (uint32_t slot : lattice_.active) {
@@ -67,7 +68,7 @@ class QuarterBlock {
   size_t dof(uint32_t slot, int axis) const { return static_cast<size_t>(lattice_.dof(slot, axis)); }
   bool isFree(const Vector3i& n, int axis) const {
     if (n.z() == 0) return false;
-    if (surroundings_ == Surroundings::kHalfSpace && (n.x() == cells_ || n.y() == cells_)) return false;
+    if (far_field_ == FarField::kHalfSpace && (n.x() == cells_ || n.y() == cells_)) return false;
     return !(axis < 2 && n[axis] == 0);
   }
   void split(const std::vector<int>& free_of) {
@@ -89,7 +90,7 @@ class QuarterBlock {
     solver_.compute(matrix);
     index_ = free_of;
   }
-  /// Of the far faces, [dofs]; zero elsewhere.
+  /// Returns [dofs] displacements of the far faces; zero elsewhere.
   Eigen::VectorXd farDisplacement(uint32_t pressed) const {
     Eigen::VectorXd out = Eigen::VectorXd::Zero(lattice_.dofs());
     const Vector3d top = lattice_.restPosition(pressed);
@@ -104,7 +105,7 @@ class QuarterBlock {
           sum += Vector3d(u.x(), u.y(), -u.z());
         }
       }
-      out.segment<3>(lattice_.dof(slot, 0)) = sum * images(pressed) / 4.0;  // images that coincide count once
+      out.segment<3>(lattice_.dof(slot, 0)) = sum * images(pressed) / 4.0;  // coinciding images count once
     }
     return out;
   }
@@ -113,17 +114,17 @@ class QuarterBlock {
   ReferenceSolver lattice_;
   int cells_, free_ = 0;
   double nu_, shear_pa_;
-  Surroundings surroundings_;
-  std::vector<int> index_;  ///< [dofs] place among the free ones, or -1
+  FarField far_field_;
+  std::vector<int> index_;  ///< [dofs] index among the free ones, or -1
   Eigen::SparseMatrix<double> coupling_;
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> solver_;
 };
 
 }  // namespace
 
-LinearContact::LinearContact(int cells, double spacing_m, const MaterialConfig& material, Surroundings surroundings,
+LinearContact::LinearContact(int cells, double spacing_m, const MaterialConfig& material, FarField far_field,
                              double reach_m) {
-  const QuarterBlock block(cells, spacing_m, material, surroundings);
+  const QuarterBlock block(cells, spacing_m, material, far_field);
   const std::vector<uint32_t> nodes = block.topNodes(reach_m);
   const auto count = static_cast<Eigen::Index>(nodes.size());
   compliance_.resize(count, count);
@@ -134,7 +135,7 @@ LinearContact::LinearContact(int cells, double spacing_m, const MaterialConfig& 
 }
 
 LinearContact::Result LinearContact::press(double radius_m, double depth_m) const {
-  // Every candidate sinks to the sphere or deeper, is pressed or not at all, and one of the two is an equality.
+  // Every candidate is at the sphere or deeper, is pressed or free, and one of the two conditions is an equality.
   const auto count = static_cast<Eigen::Index>(candidates_.size());
   Eigen::VectorXd wanted(count), force = Eigen::VectorXd::Zero(count);
   std::vector<bool> touched(candidates_.size());

@@ -8,9 +8,9 @@
 
 namespace viscera::bench {
 
-/// Frequency of an undamped mode from its amplitude q, sampled every `stride` substeps of leapfrog. Leapfrog turns the
-/// phase by theta per substep with sin(theta/2) = Omega dt/2, so q(n+1) + q(n-1) = 2 cos(stride theta) q(n); that is
-/// fitted, and solved for Omega [rad/s]: no error of time is left in it.
+/// Returns the frequency of an undamped mode from its amplitude q, sampled every `stride` substeps of leapfrog.
+/// Leapfrog advances the phase by theta per substep with sin(theta/2) = Omega dt/2, so q(n+1) + q(n-1) = 2 cos(stride
+/// theta) q(n). This is fitted and solved for Omega [rad/s], which removes the error of time integration.
 /// @param q  [samples], at least 3   @param stride  stride * theta < pi
 inline double modeFrequency(const std::vector<double>& q, int stride, double dt_s) {
   double neighbors = 0, here = 0;
@@ -22,7 +22,7 @@ inline double modeFrequency(const std::vector<double>& q, int stride, double dt_
   return 2 * std::sin(theta / 2) / dt_s;
 }
 
-/// Phase that leapfrog turns a mode by in one substep.
+/// Returns the phase by which leapfrog advances a mode in one substep.
 inline double phasePerSubstep(double omega, double dt_s) {
   return 2 * std::asin(omega * dt_s / 2);
 }

@@ -18,7 +18,7 @@ constexpr double kOnAxis = 1e-9;  ///< [m]
 const std::array<double, 3> kGauss = {-std::sqrt(0.6), 0, std::sqrt(0.6)};
 constexpr std::array<double, 3> kWeights = {5.0 / 9, 8.0 / 9, 5.0 / 9};
 
-/// Quadratic shape functions on -1, 0, 1, and their slopes.
+/// Quadratic shape functions on -1, 0, 1, and their derivatives.
 Vector3d shape(double x) {
   return {x * (x - 1) / 2, 1 - x * x, x * (x + 1) / 2};
 }
@@ -30,7 +30,7 @@ Vector9 outer(const Vector3d& a, const Vector3d& b) {
   return Eigen::Map<const Vector9>(m.data());
 }
 
-/// Nine nodes each on a grid of elements; three displacements a node: u_r, u_theta, u_z.
+/// A grid of elements with nine nodes each and three displacements per node: u_r, u_theta, u_z.
 class Mesh {
  public:
   explicit Mesh(const Revolution& body) : body_(body), rows_(2 * body.across + 1), columns_(2 * body.along + 1) {
@@ -61,7 +61,7 @@ class Mesh {
   }
 
  private:
-  static constexpr double kHeld = 1e9;  ///< stiffness of what holds a fixed one, over that of the stuff
+  static constexpr double kHeld = 1e9;  ///< penalty stiffness of a fixed displacement, relative to the material
 
   int dofs() const { return 3 * static_cast<int>(places_.size()); }
   void addElement(int i, int j) {
@@ -85,7 +85,7 @@ class Mesh {
       }
     }
   }
-  /// Of one Gauss point. @param r, z  of the element's nodes
+  /// Adds one Gauss point. @param r, z  of the element's nodes
   void addPoint(double a, double b, double weight, const Vector9& r, const Vector9& z, Eigen::Matrix<double, 27, 27>& k,
                 Vector27& f) const {
     const Vector9 n = outer(shape(a), shape(b)), na = outer(slope(a), shape(b)), nb = outer(shape(a), slope(b));
@@ -114,7 +114,7 @@ class Mesh {
     const Vector3d load = body_.load(radius, z.dot(n));
     for (int m = 0; m < 9; ++m) f.segment<3>(3 * m) += volume * n[m] * load;
   }
-  /// What regularity on the axis wants, and what rigid motions there are.
+  /// Applies the regularity conditions on the axis and fixes the rigid motions.
   void pin() {
     const int n = body_.waves;
     fixed_.assign(static_cast<size_t>(dofs()), false);

@@ -10,7 +10,7 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr int kBorder = 1;  // on every side of the box
+constexpr int kBorder = 1;  // width on every side of the box
 
 }  // namespace
 
@@ -45,7 +45,7 @@ ScalarLattice::ScalarLattice(const Model& model, const HostState& start, double 
   }
 }
 
-/// Sum of k (L - l0) n, L - l0 = (2 d.w + w.w) / (L + l0), with dashpots where the ends will be.
+/// Returns the sum of k (L - l0) n, L - l0 = (2 d.w + w.w) / (L + l0); dashpots use the predicted ends.
 template <bool kDashpot>
 std::array<float, 3> ScalarLattice::springForce(size_t at) const {
   const Node& near = nodes_[at];
@@ -74,7 +74,7 @@ std::array<float, 3> ScalarLattice::springForce(size_t at) const {
 
 template <bool kDashpot>
 void ScalarLattice::stepAll() {
-  const float g = 0.5f * body_.drag_per_s * kick_s_;
+  const float g = 0.5f * body_.mass_damping_per_s * kick_s_;
   for (uint32_t at : active_) {
     if (isFixed(bits_[at])) continue;
     const std::array<float, 3> force = springForce<kDashpot>(at);

@@ -10,17 +10,17 @@
 
 namespace viscera::bench {
 
-/// What SIMD is compared with: a plain loop over the nodes of one body, one after the other, on one thread, in float32.
-/// The same equations as the other backends (physics.md 2: leapfrog on (u, v), extension without cancellation; with
-/// a dashpot all springs are predicted, as mild ones are), the same counts per spring; nodes lie in a box with a
-/// border, so that a neighbour is a constant away.
+/// Scalar baseline for SIMD: a plain loop over the nodes of one body on one thread in float32. It solves the same
+/// equations as the backends (physics.md 2: leapfrog on (u, v), extension without cancellation; with a dashpot all
+/// springs are predicted, as mild ones are) with the same counts per spring. Nodes are in a box with a border, so
+/// neighbours have constant offsets.
 class ScalarLattice {
  public:
-  /// @param model  one body of springs, without parts   @param start  state of time 0   @param dt_s  substep
+  /// @param model  one body of springs, without parts   @param start  initial state   @param dt_s  substep
   ScalarLattice(const Model& model, const HostState& start, double dt_s);
   void substep();
   size_t nodes() const { return active_.size(); }
-  /// Displacements of the active nodes, in active-list order [m].
+  /// Returns the displacements of the active nodes, in active-list order [m].
   std::vector<Vector3f> displacements() const;
 
  private:
@@ -28,19 +28,19 @@ class ScalarLattice {
     std::array<float, 3> u_m, v_m_per_s;
   };
   struct Neighbor {
-    std::ptrdiff_t offset;     ///< in the box
-    std::array<float, 3> d_m;  ///< at rest
+    std::ptrdiff_t offset;     ///< offset in the box
+    std::array<float, 3> d_m;  ///< vector to the neighbour at rest [m]
     float l0_m;
-    float stiffness_n_per_m;  ///< of one count
+    float stiffness_n_per_m;  ///< stiffness of one count [N/m]
   };
   template <bool kDashpot>
   void stepAll();
   template <bool kDashpot>
   std::array<float, 3> springForce(size_t at) const;
 
-  std::vector<Node> nodes_, next_;      ///< [box]
-  std::vector<layout::NodeBits> bits_;  ///< [box]
-  std::vector<uint32_t> active_;        ///< [active] places in the box
+  std::vector<Node> nodes_, next_;      ///< [box] nodes; state of the next substep
+  std::vector<layout::NodeBits> bits_;  ///< [box] springs of the nodes
+  std::vector<uint32_t> active_;        ///< [active] indices in the box
   std::array<Neighbor, layout::kSpringsPerNode> neighbors_;
   layout::BodyParams body_;
   float dt_s_, kick_s_;

@@ -10,11 +10,11 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kSpacing_m = 0.003;  // of cubes of every size: so is the substep
+constexpr double kSpacing_m = 0.003;  // for cubes of every size, so that the substep is the same
 constexpr double kWave = 0.02;        // amplitude over spacing
-constexpr double kNumber = 0.7;       // of the wave, radians per spacing: nine spacings long
+constexpr double kNumber = 0.7;       // wave number in radians per spacing: the wave is nine spacings long
 
-/// Drift: no component is zero, and none grows far in the length of a measurement.
+/// Drift velocity: no component is zero, and none grows far during a measurement.
 const Vector3d kDrift_m_per_s(0.05, 0.03, 0.02);
 
 Scene specimenScene(const Model& model) {
@@ -39,10 +39,10 @@ BodyConfig heartBody(int nodes) {
 
 }  // namespace
 
-MaterialConfig specimenMaterial(double dashpot_ratio) {
+MaterialConfig specimenMaterial(double stiffness_damping_ratio) {
   MaterialConfig material;
-  material.drag_per_s = 0;  // drift goes on
-  material.dashpot_ratio = dashpot_ratio;
+  material.mass_damping_per_s = 0;  // the drift must continue
+  material.stiffness_damping_ratio = stiffness_damping_ratio;
   material.law = Law::kSprings;
   return material;
 }
@@ -82,12 +82,12 @@ double filledShare(const Model& model) {
   return static_cast<double>(model.activeNodes()) / model.bodies[0].lattice.nodes_per_axis.cast<double>().prod();
 }
 
-Scene pigHeartScene(int nodes, double dashpot_ratio) {
+Scene pigHeartScene(int nodes, double stiffness_damping_ratio) {
   Scene scene;
   scene.name = "pig_heart_size";
   scene.bodies.push_back(heartBody(nodes));
-  scene.bodies[0].material.dashpot_ratio = dashpot_ratio;
-  scene.bodies[0].material.law = Law::kSprings;  // as the paper's
+  scene.bodies[0].material.stiffness_damping_ratio = stiffness_damping_ratio;
+  scene.bodies[0].material.law = Law::kSprings;  // as in the paper
   scene.bodies[0].fixed.push_back(clampAbove(0.03));
   scene.styluses.resize(2);
   scene.styluses[0].name = "left";

@@ -8,45 +8,47 @@
 
 namespace viscera::bench {
 
-/// A body whose stepping is timed. It drifts and wobbles, so that every spring works, none of its numbers is a denormal
-/// one, and nothing may sleep.
+/// A body for timing its steps. It drifts and oscillates, so every spring has a force, no value is denormal, and
+/// nothing sleeps.
 struct Specimen {
   std::string name;
   Model model;
-  Scene scene;      ///< no gravity, no governor, no tools; ticks of kSpecimenSubsteps
-  HostState start;  ///< displacements and velocities of time 0
+  Scene scene;      ///< no gravity, stability monitor or tools; ticks of kSpecimenSubsteps
+  HostState start;  ///< displacements and velocities at time 0
 
   size_t nodes() const { return model.activeNodes(); }
 };
-constexpr int kSpecimenSubsteps = 20;  ///< per tick: one pass of measurement in 20 substeps, as live sessions have it
+constexpr int kSpecimenSubsteps = 20;  ///< substeps per tick: one measurement per 20 substeps, as in live sessions
 
-/// Springs alone, without drag and dashpot: what rates are quoted for. @param dashpot_ratio  xi
-MaterialConfig specimenMaterial(double dashpot_ratio = 0);
+/// Returns the material for which rates are quoted: springs without drag and dashpot. @param stiffness_damping_ratio xi
+MaterialConfig specimenMaterial(double stiffness_damping_ratio = 0);
 
-/// A solid cube, cell-assembled. @param nodes_per_edge  > 1
+/// Creates a solid cube with cell-assembled stiffness. @param nodes_per_edge  > 1
 Specimen cubeOf(int nodes_per_edge, const MaterialConfig& material = specimenMaterial());
-/// A hollow heart. @param nodes  wanted; met within 2 %
+/// Creates a hollow heart. @param nodes  approximate number, met within 2 %
 Specimen heartOf(int nodes, const MaterialConfig& material = specimenMaterial());
 
-/// Nodes per edge of the cube that comes nearest to a number of nodes.
+/// Returns the nodes per edge of the cube with the closest number of nodes.
 int edgeOf(double nodes);
-/// Share of a body's bounding box that is nodes, 0..1.
+/// Returns the share of a body's bounding box that is filled with nodes, 0..1.
 double filledShare(const Model& model);
 
-/// The heart of VR05's size in a scene as sessions have it: gravity, governor, fixed top, two styluses, a camera; the
-/// values of config/scenes/pig_heart_size.yaml, but of springs, as the paper's is. @param nodes  42745 is the size
-Scene pigHeartScene(int nodes, double dashpot_ratio);
+/// Returns a scene with a heart of VR05's size as in sessions: gravity, stability monitor, fixed top, two styluses, a
+/// camera. The values are those of config/scenes/pig_heart_size.yaml, but with springs as in the paper.
+/// @param nodes  42745 is the paper's size
+Scene pigHeartScene(int nodes, double stiffness_damping_ratio);
 
-/// The place of a deformed body that lies farthest along a direction [m]. @param model  one body
+/// Returns the position of a deformed body's node that is farthest along a direction [m]. @param model  one body
 Vector3d farthestNode(const Model& model, const HostState& state, const Vector3d& direction);
-/// A probe at rest. @param tip_m  its centre
+/// Returns a probe at rest. @param tip_m  position of its centre
 ToolMotions probeAt(const Vector3d& tip_m);
 
-/// Takes a spring out of a state, from both ends, and marks the cells at its ends as broken.
+/// Removes a spring from a state, at both ends, and marks the cells at its ends as broken.
 /// @param nodes  [slots] of a model of one body
 void cutSpring(const Lattice& lattice, uint32_t slot, uint32_t spring, std::vector<layout::NodeBits>& nodes);
 
-/// A wave through the free nodes of a body, which drifts. @param wave_m  amplitude   @param drift  1: as specimens do
+/// Returns a state with a wave through the free nodes of a body, which drifts.
+/// @param wave_m  amplitude   @param drift  factor; 1: as in specimens
 HostState wobbling(const Model& model, double wave_m, double drift);
 
 }  // namespace viscera::bench

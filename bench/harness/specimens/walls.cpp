@@ -11,19 +11,19 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr int kSamples = 6;       ///< per edge of a cell that is tissue all through, or not at all
-constexpr int kFineSamples = 24;  ///< of others: along a rod all cells miss the same, so that its area must be right
-constexpr double kLeastShare = 0.01;  ///< of a cell that is kept
-constexpr double kSmall = 1e-3;       ///< largest displacement over the spacing where kernels are asked: linear yet
+constexpr int kSamples = 6;           ///< per edge of a cell that is completely inside or outside
+constexpr int kFineSamples = 24;      ///< for other cells: along a rod, errors of the area do not average out
+constexpr double kLeastShare = 0.01;  ///< least share of a cell that is kept
+constexpr double kSmall = 1e-3;       ///< largest displacement over the spacing when kernels are evaluated
 
-/// The part of one cell that is tissue, and the load on its corners.
+/// The part of one cell inside the wall, and the load on its corners.
 struct FilledCell {
-  double inside = 0;  ///< share of the samples
+  double inside = 0;  ///< share of the samples that are inside
   CellFill fill;
   std::array<Vector3d, 8> load_n;
 };
 
-/// Cells of the grid, in whose axes all is.
+/// Cells of the grid, in the axes of the grid.
 class Grid {
  public:
   Grid(const Wall& wall, const Placing& placing, double spacing_m)
@@ -39,7 +39,7 @@ class Grid {
         for (int x = 0; x < solid_.cells.x(); ++x) fillCell({x, y, z});
   }
   const Solid& solid() const { return solid_; }
-  /// Of all nodes [slots, N].
+  /// Returns the load on all nodes [slots, N].
   Field load(const Lattice& lattice) const {
     Field out(lattice.nodes.size(), Vector3d::Zero());
     for (const auto& [cell, load_n] : loads_) {
@@ -50,7 +50,8 @@ class Grid {
     }
     return out;
   }
-  /// Displacement at a place in the wall's axes, in those [m]; not finite where no cell is. @param u_m  [slots]
+  /// Returns the displacement at a position, both in the wall's axes [m]; not finite outside the cells.
+  /// @param u_m  [slots]
   Vector3d movedAt(const Lattice& lattice, const Field& u_m, const Vector3d& place_m) const {
     const Vector3d at = placing_.turn * place_m / spacing_m_ + placing_.shift - low_.cast<double>();
     const Vector3i cell = at.array().floor().cast<int>();
@@ -64,13 +65,13 @@ class Grid {
   }
 
  private:
-  /// Of a corner at a place in its cell.
+  /// Returns the weight of a corner at a position in its cell.
   static double weightOf(int corner, const Vector3d& in_cell) {
     double weight = 1;
     for (int axis = 0; axis < 3; ++axis) weight *= (corner >> axis & 1) ? in_cell[axis] : 1 - in_cell[axis];
     return weight;
   }
-  /// From a place in spacings from the corner of the cell to the wall's own axes [m].
+  /// Converts a position in spacings from the corner of the cell to the wall's own axes [m].
   Vector3d own(const Vector3i& cell, const Vector3d& in_cell) const {
     return placing_.turn.transpose() * ((cell + low_).cast<double>() + in_cell - placing_.shift) * spacing_m_;
   }
@@ -83,7 +84,7 @@ class Grid {
     loads_.emplace_back(cell, found.load_n);
     if (found.inside < 1) solid_.partial.push_back({index, found.fill});
   }
-  /// @param samples  per edge
+  /// Samples a cell. @param samples  number per edge
   FilledCell sampled(const Vector3i& cell, int samples) const {
     FilledCell out;
     out.load_n.fill(Vector3d::Zero());
@@ -130,7 +131,7 @@ Model modelOf(const Solid& solid, double poisson_ratio) {
   return model;
 }
 
-/// Takes from a load its net force and torque, which rounding and stairs leave.
+/// Removes the net force and torque that rounding and the staircase boundary leave in a load.
 void balance(const ReferenceLattice& lattice, Field& load_n) {
   const auto rows = static_cast<Eigen::Index>(3 * lattice.active.size());
   Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(rows, 6);
@@ -153,8 +154,8 @@ void balance(const ReferenceLattice& lattice, Field& load_n) {
   }
 }
 
-/// Six displacements that leave no rigid motion and, under a balanced load, take no force: all of one node, two of the
-/// one farthest from it, one of the one farthest from the line through both.
+/// Returns six prescribed displacements that remove all rigid motions and have no reaction under a balanced load: three
+/// at one node, two at the node farthest from it, one at the node farthest from the line through both.
 std::vector<PrescribedDof> pins(const ReferenceLattice& lattice) {
   const uint32_t a = lattice.active.front();
   const Vector3d at = lattice.restPosition(a);
@@ -206,7 +207,7 @@ BentWall bendWall(const Wall& wall, const Placing& placing, double spacing_m, do
   try {
     u = solveLinear(solver, pins(solver), load);
   } catch (const ConvergenceError&) {
-    return out;  // hinges: a mechanism
+    return out;  // it has hinges: a mechanism
   }
   out.excess = work(load, u) / wall.true_j(poisson_ratio) - 1;
   for (const Vector3d& place_m : watched_m) out.moved_m.push_back(grid.movedAt(model.bodies[0].lattice, u, place_m));

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What the lattice must keep: momentum and energy.
+// Conservation by the lattice: momentum and energy.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -14,7 +14,7 @@ namespace viscera::bench {
 namespace {
 
 constexpr double kMomentumLimit = 1e-6, kDriftLimit = 1e-4;  ///< issue 3
-constexpr double kDrift_dt = 0.5;                            ///< dt_safe
+constexpr double kDrift_dt = 0.5;                            ///< [dt_safe]
 
 Field randomField(const Model& model, double size_m, uint32_t seed) {
   std::mt19937 random(seed);
@@ -26,7 +26,7 @@ Field randomField(const Model& model, double size_m, uint32_t seed) {
   return out;
 }
 
-/// |sum F| / sum |F|
+/// Returns |sum F| / sum |F|.
 double unbalance(const Field& force_n) {
   Vector3d sum = Vector3d::Zero();
   double sizes = 0;
@@ -37,8 +37,8 @@ double unbalance(const Field& force_n) {
   return sum.norm() / sizes;
 }
 
-/// Total energy from velocities of half a substep before [J]: kinetic 1/2 m v- . v+, which for springs without their
-/// geometry is conserved exactly (physics.md 6, oracle 8).
+/// Returns the total energy from velocities of half a substep before [J]: kinetic 1/2 m v- . v+, which for springs
+/// without geometric nonlinearity is conserved exactly (physics.md 6, oracle 8).
 double energyOf(ReferenceSolver& solver, const HostState& state, double dt_s) {
   for (uint32_t slot : solver.active) solver.u_m[slot] = xyz(state.displacement_m[slot]);
   double kinetic = 0;
@@ -57,9 +57,9 @@ double mean(const std::vector<double>& values, size_t first, size_t last) {
   return sum / static_cast<double>(last - first);
 }
 
-/// Energy at the end of each tick [J].
+/// Returns the energy at the end of each tick [J].
 std::vector<double> energies(const Experiment& experiment, Backend backend) {
-  const std::unique_ptr<Ticks> solver = solverOn(backend, experiment.model, experiment.scene);
+  const std::unique_ptr<TissueStepper> solver = solverOn(backend, experiment.model, experiment.scene);
   solver->writeState(experiment.start);
   ReferenceSolver reference(experiment.model, Vector3d::Zero(), 1);
   std::vector<double> out;
@@ -81,7 +81,7 @@ void measureMomentum(Report& report) {
     for (double nu : {0.25, 0.45}) {
       for (double size : {1e-3, 0.1, 1.0}) {
         MaterialConfig material = withPoisson({}, nu);
-        material.drag_per_s = material.dashpot_ratio = 0;
+        material.mass_damping_per_s = material.stiffness_damping_ratio = 0;
         const Model model = blockModel({6, 5, 4}, kBeamSpacing_m, material);
         const double found = unbalance(forcesOn(backend, model, randomField(model, size * kBeamSpacing_m, 1)));
         table.add({nameOf(backend), nu, size, found});
@@ -96,7 +96,7 @@ void measureMomentum(Report& report) {
 void measureEnergyDrift(Report& report) {
   const int ticks = report.isShort() ? 20 : 1000, substeps = 1000;
   MaterialConfig material;
-  material.drag_per_s = material.dashpot_ratio = 0;
+  material.mass_damping_per_s = material.stiffness_damping_ratio = 0;
   Experiment experiment = experimentOf(beamModel({2, 2, 3}, material), kDrift_dt * substeps, ticks);
   experiment.start = stateOf(experiment.model, bent(experiment.model, 0.1 * kBeamSpacing_m));
   experiment.scene.solver.substeps = substeps;
@@ -108,7 +108,7 @@ void measureEnergyDrift(Report& report) {
     const std::vector<double> energy = energies(experiment, backend);
     Series series{nameOf(backend), {}, {}, Series::Style::kLines};
     for (size_t t = 0; t < energy.size(); ++t) {
-      series.x.push_back(static_cast<double>(t + 1));  // substeps is a thousand
+      series.x.push_back(static_cast<double>(t + 1));  // in thousands of substeps
       series.y.push_back(energy[t] / energy.front() - 1);
     }
     plot.series.push_back(series);

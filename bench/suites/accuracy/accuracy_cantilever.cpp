@@ -13,7 +13,7 @@ namespace {
 Model cantilever(const MaterialConfig& material) {
   return beamModel({3, 3, 15}, material);
 }
-/// A shell of one to two cells.
+/// Returns a shell of one to two cells.
 Model dome(const MaterialConfig& material) {
   return domeModel(6, 1.6, kBeamSpacing_m, material);
 }
@@ -24,31 +24,32 @@ struct Tissue {
   double poisson_ratio;
   int tick_in_dt_safe;
   Vector3d pull_m_per_s2;
-  double truth_error;  ///< what Richardson may still correct: well below the errors that are told apart
+  double truth_error;  ///< accepted residual of Richardson extrapolation: well below the errors that are compared
   const char *stem, *title;
 };
-// m/s2: a tenth of the beam's length, a twentieth of the dome's radius.
+// m/s2: deflects the beam by a tenth of its length, the dome by a twentieth of its radius.
 const Vector3d kAcross(1, 0, 0), kAside(25, 0, 0);
 constexpr double kBeamTruth = 1e-6, kDomeTruth = 1e-4;  // below float32's error; a tenth of leapfrog's
-// Of stiff, nearly incompressible tissue a tick of 1/60 s is some hundred substeps.
+// For stiff, nearly incompressible tissue a tick of 1/60 s has about a hundred substeps.
 const Tissue kTissues[] = {
-    {cantilever, 0.25, 32, kAcross, kBeamTruth, "cantilever", "Cantilever of 3x3x15 cells, bent and let go"},
+    {cantilever, 0.25, 32, kAcross, kBeamTruth, "cantilever", "Cantilever of 3x3x15 cells, bent and released"},
     {cantilever, 0.49, 128, kAcross, kBeamTruth, "cantilever_049", "Cantilever at nu 0.49, ticks of 128 dt_safe"},
-    {dome, 0.25, 32, kAside, kDomeTruth, "shell", "Dome of 6 cells' radius, wall 1 to 2 cells, drawn aside and let go"},
+    {dome, 0.25, 32, kAside, kDomeTruth, "shell",
+     "Dome of 6 cells' radius, wall 1 to 2 cells, pulled sideways and released"},
     {dome, 0.49, 128, kAside, kDomeTruth, "shell_049", "The same dome at nu 0.49, ticks of 128 dt_safe"}};
 constexpr int kTicks = 8;
-constexpr int kTruthSubsteps = 16;       ///< per dt_safe
-constexpr double kMeasured = 4.0 / 3;    ///< dt_safe: what solver.measured_limit takes at nu 1/4
-constexpr double kDrag_per_s = 4;        ///< a scene's default
+constexpr int kTruthSubsteps = 16;       ///< number per dt_safe
+constexpr double kMeasured = 4.0 / 3;    ///< [dt_safe] substep of solver.measured_limit at nu 1/4
+constexpr double kDrag_per_s = 4;        ///< default of scenes
 constexpr double kLeapfrogLimit = 1e-4;  ///< physics.md 2 found 1e-5 for smooth motion
 
-/// Substeps per tick of a length in dt_safe.
+/// Returns the number of substeps per tick for a length in dt_safe.
 int substepsOf(const Tissue& tissue, double in_dt_safe) {
   return static_cast<int>(std::lround(tissue.tick_in_dt_safe / in_dt_safe));
 }
 
-/// The last is leapfrog's longest substep.
-/// @param leapfrog_alone  cells of a law know no other integrator
+/// Returns the methods; the last is leapfrog's longest substep.
+/// @param leapfrog_alone  cells of a law support no other integrator
 std::vector<Method> methods(const Tissue& tissue, bool leapfrog_alone, bool short_form) {
   std::vector<Method> out;
   for (Integrator integrator : {Integrator::kLeapfrog, Integrator::kVerletPaper}) {
@@ -66,26 +67,26 @@ std::vector<Method> methods(const Tissue& tissue, bool leapfrog_alone, bool shor
   return out;
 }
 
-/// A body bent by gravity, which ends at time 0.
+/// Measures a body that gravity has bent and that is released at time 0.
 void measure(Report& report, const Tissue& tissue) {
   const std::string stem = tissue.stem;
   report.stage(stem + ", truth in float64");
   MaterialConfig material = withPoisson({}, tissue.poisson_ratio);
-  material.drag_per_s = kDrag_per_s;
-  material.dashpot_ratio = 0;  // verlet_paper knows none
+  material.mass_damping_per_s = kDrag_per_s;
+  material.stiffness_damping_ratio = 0;  // verlet_paper does not support dashpots
   Experiment experiment = experimentOf(tissue.make(material), tissue.tick_in_dt_safe, kTicks);
   experiment.start = stateOf(experiment.model, sag(experiment.model, tissue.pull_m_per_s2));
   const int substeps = kTruthSubsteps * tissue.tick_in_dt_safe;
   const Track fine = runReference(experiment, substeps);
   const Track truth = extrapolated(runReference(experiment, substeps / 2), fine, 2);
   const double left = misfit(experiment.model, fine, truth).max;
-  report.note("truth: float64 leapfrog at dt_safe/16 and /8, extrapolated; dt_safe/16 alone is off by " +
+  report.note("truth: float64 leapfrog at dt_safe/16 and /8, extrapolated; dt_safe/16 alone differs by " +
               Cell(left).text(3) + "; " + Cell(experiment.duration_s()).text(3) + " s simulated\n");
   const std::vector<Method> tried = methods(tissue, material.law == Law::kNeoHookean, report.isShort());
   const std::vector<std::vector<Misfit>> errors =
       drawWorkPrecision(report, experiment, truth, tried, stem, tissue.title);
-  report.checkAtMost(stem + ": what is left of dt in the truth", left, tissue.truth_error);
-  if (tissue.make != cantilever) return;  // a dome has waves that no substep near dt_safe follows as well
+  report.checkAtMost(stem + ": remaining error of dt in the truth", left, tissue.truth_error);
+  if (tissue.make != cantilever) return;  // a dome has waves that substeps near dt_safe do not resolve as well
   for (size_t b = 0; b < errors.size(); ++b) {
     const std::string name = nameOf(report.backends()[b]) + ": " + stem + ": rms error of leapfrog at ";
     report.checkAtMost(name + "0.8 dt_safe", errors[b][0].rms, kLeapfrogLimit);

@@ -13,25 +13,25 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kLimit = 1e-6;  ///< issue 3: of max displacement
+constexpr double kLimit = 1e-6;  ///< issue 3: relative to the largest displacement
 constexpr int kSubstepsPerTick = 100;
-constexpr double kTip_m = 2e-3;           ///< start: bent by that much
+constexpr double kTip_m = 2e-3;           ///< initial deflection of the tip [m]
 constexpr double kGravity_m_per_s2 = 1;   ///< across the beam
-constexpr double kSpacing_m = 1.0 / 256;  ///< so that float32 knows every rest position at origin 0 exactly
+constexpr double kSpacing_m = 1.0 / 256;  ///< float32 represents every rest position at origin 0 exactly
 
-/// What is run.
+/// A configuration.
 struct Case {
-  double drag_per_s = 0;
-  double origin_m = 0;  ///< the beam is moved by as much along x, and two and three times along y and z
+  double mass_damping_per_s = 0;
+  double origin_m = 0;  ///< offset of the beam along x; twice and three times this along y and z
   double dt_in_dt_safe = 0.5;
-  bool compensated = false;  ///< Kahan's sums of u and v
+  bool compensated = false;  ///< whether Kahan's sums of u and v are used
 };
 
-/// A bent beam that is let go under gravity across it.
+/// Returns a bent beam that is released under gravity across it.
 Experiment letGo(const Case& c, int substeps) {
   MaterialConfig material;
-  material.drag_per_s = c.drag_per_s;
-  material.dashpot_ratio = 0;
+  material.mass_damping_per_s = c.mass_damping_per_s;
+  material.stiffness_damping_ratio = 0;
   Model model = blockModel({2, 2, 8}, kSpacing_m, material, [](const Vector3i& node) { return node.z() == 0; });
   const Field start = bent(model, kTip_m);
   model.bodies[0].lattice.origin_m = c.origin_m * Vector3d(1, 2, 3);
@@ -42,7 +42,7 @@ Experiment letGo(const Case& c, int substeps) {
   return out;
 }
 
-/// Float64 with the substep that the kernels have, which is rounded to float32.
+/// Runs float64 with the substep of the kernels, which is rounded to float32.
 Track sameSubstep(const Experiment& experiment, ReferenceIntegrator integrator) {
   Experiment rounded = experiment;
   const double dt_s = 1 / (experiment.scene.solver.tick_hz * kSubstepsPerTick);
@@ -50,7 +50,7 @@ Track sameSubstep(const Experiment& experiment, ReferenceIntegrator integrator) 
   return runReference(rounded, kSubstepsPerTick, integrator);
 }
 
-/// Of the displacements at the ends of all ticks.
+/// Returns the hash of the displacements at the ends of all ticks.
 uint64_t hashOf(const Track& track) {
   StateHash hash;
   for (const Field& u_m : track.u_m) {
@@ -61,7 +61,7 @@ uint64_t hashOf(const Track& track) {
   return hash.value();
 }
 
-/// What is compared: each with its own truth of the same substep.
+/// A variant, compared with its own reference at the same substep.
 struct Variant {
   Integrator integrator;
   bool compensated;
@@ -71,7 +71,7 @@ constexpr Variant kVariants[] = {{Integrator::kLeapfrog, false, "displacement"},
                                  {Integrator::kLeapfrog, true, "displacement, compensated"},
                                  {Integrator::kVerletPaper, false, "position"}};
 
-/// Displacements (leapfrog) against positions (verlet_paper), near and far from the origin.
+/// Compares displacements (leapfrog) with positions (verlet_paper), near and far from the origin.
 class Variables {
  public:
   Variables(Report& report, int substeps)
@@ -90,7 +90,7 @@ class Variables {
                 {"max error", "", 3},
                 {"fingerprint"}}) {}
 
-  /// All variants with one drag; checks what is promised of it.
+  /// Runs all variants with one drag and checks the guaranteed limits.
   void run(double drag) {
     std::fill(worst_.begin(), worst_.end(), 0);
     for (const Variant& variant : kVariants) {
@@ -124,7 +124,7 @@ class Variables {
       if (origin == 0) first = hash;
       table_.add({nameOf(report_.backends()[b]), nameOf(variant.integrator), variant.state, drag, origin, error.rms,
                   error.max, StateHash::text(hash)});
-      if (traitsOf(variant.integrator).own_positions) continue;  // nothing is promised
+      if (traitsOf(variant.integrator).own_positions) continue;  // has no guaranteed limit
       if (variant.compensated == (drag == 0)) worst_[b] = worse(worst_[b], error.max);
       same_[b] = same_[b] && hash == first;
     }
@@ -132,12 +132,12 @@ class Variables {
 
   Report& report_;
   int substeps_;
-  std::vector<double> worst_;  ///< [backends] of this drag
-  std::vector<bool> same_;     ///< [backends]
+  std::vector<double> worst_;  ///< [backends] for this drag
+  std::vector<bool> same_;     ///< [backends] whether hashes are equal
   Table table_;
 };
 
-/// What Kahan's sums gain where substeps are short.
+/// Measures the gain of Kahan's sums for short substeps.
 void compareSums(Report& report, int substeps) {
   Table table(
       "Compensated sums of u and v (leapfrog) against plain ones, after " + std::to_string(substeps) + " substeps",

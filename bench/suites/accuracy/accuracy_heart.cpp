@@ -7,7 +7,7 @@
 #include "bench/harness/specimens/clamp.h"
 #include "bench/harness/work_precision.h"
 #include "bench/suites/accuracy/accuracy_parts.h"
-#include "viscera/tools/hands.h"
+#include "viscera/tools/tools.h"
 
 namespace viscera::bench {
 
@@ -15,14 +15,14 @@ namespace {
 
 constexpr double kTick_hz = 60;
 constexpr double kProbeRadius_m = 0.012;
-constexpr double kGrabRadius = 1.57;  ///< spacings: all neighbours of a node, and none at its limit
-constexpr double kPress_m = 0.006;    ///< how deep the probe goes
+constexpr double kGrabRadius = 1.57;  ///< [spacings]: includes all neighbours of a node, and none close to its boundary
+constexpr double kPress_m = 0.006;    ///< depth of the probe [m]
 constexpr double kPull_m = 0.01;
 
 constexpr double kAccuracyHeartLeapfrogLimit =
-    1e-2;  ///< of the longest substep; contact is met and left between substeps
+    1e-2;  ///< for the longest substep; contact begins and ends between substeps
 
-/// Press from tick 0, hold, withdraw; grab, pull, let go; the rest is free.
+/// Phases: press from tick 0, hold, withdraw; grab, pull, release; the rest is free.
 constexpr int kPressed = 8, kWithdraw = 12, kWithdrawn = 16, kGrab = 18, kPulled = 28, kLetGo = 30,
               kAccuracyHeartTicks = 40;
 
@@ -31,8 +31,8 @@ Scene heartScene(bool short_form) {
   heart.source = TissueSource::kPhantom;
   heart.spacing_m = short_form ? 0.01 : 0.008;
   heart.skin = SkinSource::kVolume;
-  heart.material.dashpot_ratio = 0;    // verlet_paper knows none
-  heart.material.law = Law::kSprings;  // the one that all integrators step
+  heart.material.stiffness_damping_ratio = 0;  // verlet_paper does not support dashpots
+  heart.material.law = Law::kSprings;          // the law that all integrators support
   heart.fixed.push_back(clampAbove(0.03));
   StylusConfig probe, grab;
   probe.probe.radius_m = kProbeRadius_m;
@@ -44,13 +44,13 @@ Scene heartScene(bool short_form) {
   return scene;
 }
 
-/// From 0 at `begin` to 1 at `end`, at rest at both.
+/// Returns a smooth ramp from 0 at `begin` to 1 at `end`, with zero slope at both.
 double ramp(int tick, int begin, int end) {
   const double s = std::clamp(static_cast<double>(tick - begin) / (end - begin), 0.0, 1.0);
   return s * s * (3 - 2 * s);
 }
 
-/// Where the node is, that lies farthest along a direction [m].
+/// Returns the position of the node that is farthest along a direction [m].
 Vector3d farthest(const Experiment& experiment, const Vector3d& direction) {
   const Lattice& lattice = experiment.model.bodies[0].lattice;
   Vector3d best = Vector3d::Zero();
@@ -64,7 +64,7 @@ Vector3d farthest(const Experiment& experiment, const Vector3d& direction) {
   return best;
 }
 
-/// The probe comes from the patient's left, the grab takes the apex.
+/// Returns the samples: the probe comes from the patient's left, the grab takes the apex.
 StylusSamples samplesAt(int tick, const Vector3d& side, const Vector3d& apex) {
   StylusSamples out;
   const double gap_m = kPress_m;  // the probe starts and ends clear of the tissue
@@ -80,7 +80,7 @@ StylusSamples samplesAt(int tick, const Vector3d& side, const Vector3d& apex) {
 Experiment abusedHeart(bool short_form) {
   Experiment out;
   out.scene = heartScene(short_form);
-  out.scene.solver.governor = false;
+  out.scene.solver.stability_monitor = false;
   out.scene.solver.tick_hz = kTick_hz;
   out.scene.solver.sleep_distance_m = 1e6;
   out.model = buildModel(out.scene);
@@ -106,7 +106,7 @@ std::vector<Method> methods(const Experiment& experiment, bool short_form) {
   }
   for (int iterations : short_form ? std::vector<int>{5} : std::vector<int>{2, 5, 10, 20, 50}) {
     for (double dt : implicit_dt) {
-      if (dt * 10 < iterations) continue;  // many iterations of short substeps: far beyond leapfrog's work
+      if (dt * 10 < iterations) continue;  // many iterations of short substeps are far more work than leapfrog
       const Method method{Integrator::kPd, substepsFor(experiment, dt), iterations};
       if (!out.empty() && out.back() == method) continue;
       out.push_back(method);
@@ -125,12 +125,12 @@ void measureHeartPrecision(Report& report) {
   const Track truth = runReference(experiment, substeps);
   const double left = misfit(experiment.model, runReference(experiment, (substeps + 1) / 2), truth).rms;
   report.note("heart: " + std::to_string(experiment.model.activeNodes()) +
-              " nodes, pressed, grabbed, pulled and let go in " + Cell(experiment.duration_s()).text(3) +
+              " nodes, pressed, grabbed, pulled and released within " + Cell(experiment.duration_s()).text(3) +
               " s; truth: float64 leapfrog at dt_safe/" + Cell(divisor).text(2) +
-              ", which is off from twice that substep by " + Cell(left).text(3) + " rms\n");
+              ", which differs from twice that substep by " + Cell(left).text(3) + " rms\n");
   const std::vector<std::vector<Misfit>> errors =
       drawWorkPrecision(report, experiment, truth, methods(experiment, report.isShort()), "heart",
-                        "Heart, pressed, grabbed, pulled and let go");
+                        "Heart, pressed, grabbed, pulled and released");
   for (size_t b = 0; b < errors.size(); ++b) {
     report.checkAtMost(nameOf(report.backends()[b]) + ": heart: rms error of leapfrog at its longest substep",
                        errors[b][0].rms, kAccuracyHeartLeapfrogLimit);

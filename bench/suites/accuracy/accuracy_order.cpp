@@ -12,46 +12,46 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kTolerance = 0.1;  ///< issue 3: of a slope
+constexpr double kTolerance = 0.1;  ///< issue 3: tolerance of a slope
 constexpr int kAccuracyOrderTicks = 4;
 constexpr double kTickInDtSafe = 32;
-constexpr int kAccuracyOrderTruthSubsteps = 1024;  ///< per tick
-constexpr double kBend_m = 5e-4;                   ///< of the tip: a thirtieth of the length
+constexpr int kAccuracyOrderTruthSubsteps = 1024;  ///< number per tick
+constexpr double kBend_m = 5e-4;                   ///< deflection of the tip [m]: a thirtieth of the length
 constexpr double kAccuracyOrderDrag_per_s = 20;
 constexpr double kDashpot = 0.2;
 
-/// Forces that the truth must know.
+/// Damping that the reference must include.
 struct Damping {
-  double drag_per_s = 0, dashpot_ratio = 0;
+  double mass_damping_per_s = 0, stiffness_damping_ratio = 0;
 };
 
-/// Integrator, damping and iterations of one row, and what is expected of it.
+/// Integrator, damping and iterations of one row, and the expected order.
 struct Row {
   std::string name;
   Method longest;
   Damping damping;
   int halvings;
-  double order;                  ///< that must be reached; 0: shown only
-  bool whole_first_kick = true;  ///< verlet_paper: as printed; else from the velocity half a substep before
+  double order;                  ///< order that must be reached; 0: shown only
+  bool whole_first_kick = true;  ///< verlet_paper: as printed; otherwise from the velocity half a substep before
 };
 
 Experiment swing(const Damping& damping) {
   MaterialConfig material;
-  material.drag_per_s = damping.drag_per_s;
-  material.dashpot_ratio = damping.dashpot_ratio;
+  material.mass_damping_per_s = damping.mass_damping_per_s;
+  material.stiffness_damping_ratio = damping.stiffness_damping_ratio;
   Experiment out = experimentOf(beamModel({2, 2, 4}, material), kTickInDtSafe, kAccuracyOrderTicks);
   out.start = stateOf(out.model, bent(out.model, kBend_m));
   return out;
 }
 
-/// dt -> 0. A dashpot takes the velocity of half a substep ago: its error is of first order.
+/// Extrapolates to dt -> 0. A dashpot uses the velocity of half a substep before, so its error is of first order.
 Track truthOf(const Experiment& experiment, const Damping& damping) {
-  const int order = damping.dashpot_ratio > 0 ? 1 : 2;
+  const int order = damping.stiffness_damping_ratio > 0 ? 1 : 2;
   return extrapolated(runReference(experiment, kAccuracyOrderTruthSubsteps / 2),
                       runReference(experiment, kAccuracyOrderTruthSubsteps), order);
 }
 
-/// The velocity half a substep before the start, from which position Verlet's first whole kick is of second order.
+/// Sets the velocity half a substep before the start, for which position Verlet's first full kick is of second order.
 void stagger(Experiment& experiment, int substeps) {
   ReferenceSolver solver(experiment.model, Vector3d::Zero(), 1);
   for (uint32_t slot : solver.active) solver.u_m[slot] = xyz(experiment.start.displacement_m[slot]);
@@ -63,7 +63,7 @@ void stagger(Experiment& experiment, int substeps) {
   }
 }
 
-/// Errors for the longest substep and its halves.
+/// Returns errors for the longest substep and its repeated halves.
 std::vector<double> errorsOf(Backend backend, const Row& row, const Experiment& experiment, const Track& truth) {
   std::vector<double> errors;
   for (int i = 0; i <= row.halvings; ++i) {
@@ -95,7 +95,7 @@ std::vector<Row> rowsOf(bool short_form) {
   };
 }
 
-constexpr size_t kColors = 8;  ///< of gnuplot; the last rows would lie on earlier curves
+constexpr size_t kColors = 8;  ///< of gnuplot; further rows would coincide with earlier curves
 
 class OrderTable {
  public:
@@ -146,7 +146,7 @@ void measureOrder(Report& report) {
   std::map<std::pair<double, double>, std::pair<Experiment, Track>> known;
   for (const Row& row : rowsOf(report.isShort())) {
     report.stage("order, " + row.name);
-    const auto key = std::make_pair(row.damping.drag_per_s, row.damping.dashpot_ratio);
+    const auto key = std::make_pair(row.damping.mass_damping_per_s, row.damping.stiffness_damping_ratio);
     if (known.count(key) == 0) {
       const Experiment experiment = swing(row.damping);
       known[key] = {experiment, truthOf(experiment, row.damping)};

@@ -6,21 +6,21 @@
 
 namespace viscera::bench {
 
-// The measurements of the accuracy suite (docs/accuracy.md).
+// The measurements of the accuracy suite (docs/verification.md).
 
-/// Error against dt -> 0 as the substep is halved, per integrator and kind of drag.
+/// Measures the error against dt -> 0 as the substep is halved, per integrator and kind of drag.
 void measureOrder(Report& report);
-/// Kernels against float64 with the same substep, near and far from the origin; positions against displacements.
+/// Compares kernels with float64 at the same substep, near and far from the origin; and positions with displacements.
 void measureFloat32(Report& report);
-/// |sum F| / sum |F| of a free block in a random state.
+/// Measures |sum F| / sum |F| of a free block in a random state.
 void measureMomentum(Report& report);
-/// Energy of an undamped block over many substeps.
+/// Measures the energy of an undamped block over many substeps.
 void measureEnergyDrift(Report& report);
-/// Error against work, cantilever: integrator x substep x iterations.
+/// Measures error against work for a cantilever: integrator x substep x iterations.
 void measureCantileverPrecision(Report& report);
-/// Error of the heart under a probe by spacing, of springs and of the neo-Hookean law.
+/// Measures the error of the heart under a probe by spacing, for springs and the neo-Hookean law.
 void measureSpacing(Report& report);
-/// The same for the heart, pressed, grabbed, pulled and let go.
+/// Measures error against work for the heart: pressed, grabbed, pulled and released.
 void measureHeartPrecision(Report& report);
 
 }  // namespace viscera::bench

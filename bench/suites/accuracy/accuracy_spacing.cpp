@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// How fine must an organ be? A heart with thin walls and a solid ball under a probe's load, of springs and of the
-// neo-Hookean law, by number of nodes and by time.
+// Measures how fine an organ must be: a heart with thin walls and a solid ball under a probe's load, with springs and
+// the neo-Hookean law, by number of nodes and by time.
 #include <Eigen/IterativeLinearSolvers>
 #include <algorithm>
 #include <cmath>
@@ -15,16 +15,16 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kAccuracySpacingProbeRadius_m = 0.012;  ///< of the ball about the place that is pressed
-constexpr double kResidual = 1e-7;  ///< of conjugate gradients: the response is known to its square
+constexpr double kAccuracySpacingProbeRadius_m = 0.012;  ///< radius of the ball in which the load is distributed [m]
+constexpr double kResidual = 1e-7;  ///< tolerance of conjugate gradients: the response is accurate to its square
 // Issue 13.
-constexpr double kShareOfError = 0.2;  ///< of the error of springs at as many nodes, at 4 mm
-constexpr double kShareOfTime = 0.1;   ///< of the time of springs at an error of kWanted
+constexpr double kShareOfError = 0.2;  ///< relative to the error of springs with the same number of nodes, at 4 mm
+constexpr double kShareOfTime = 0.1;   ///< relative to the time of springs at an error of kWanted
 constexpr double kWanted = 0.01;
 constexpr double kJudged_m = 0.004;
-constexpr double kFinest_m = 0.0016;  ///< of what counts as the truth; tellStep() says how true it is
+constexpr double kFinest_m = 0.0016;  ///< spacing of the reference; tellStep() reports its accuracy
 
-/// Something that is held from above and pressed at some places of its side.
+/// A body that is fixed at its top and pressed at several positions on its side.
 struct Organ {
   std::string name;
   BodyConfig body;
@@ -49,19 +49,19 @@ Scene sceneOf(const Organ& organ, double spacing_m, Law law) {
   body.spacing_m = spacing_m;
   body.skin = SkinSource::kVolume;
   body.material.law = law;
-  body.material.drag_per_s = body.material.dashpot_ratio = 0;
+  body.material.mass_damping_per_s = body.material.stiffness_damping_ratio = 0;
   body.fixed.push_back(clampAbove(organ.held_z_m));
   Scene scene;
   scene.bodies.push_back(body);
   return scene;
 }
 
-/// Where an organ is pressed, and which way.
+/// Position and direction of a press.
 struct Press {
   Vector3d place_m, way;
 };
 
-/// The farthest places below the clamp in some directions, pressed against them.
+/// Returns the farthest positions below the clamp in several directions, pressed inwards.
 std::vector<Press> pressesOn(const Model& model) {
   const Lattice& lattice = model.bodies[0].lattice;
   std::vector<Press> out;
@@ -77,7 +77,8 @@ std::vector<Press> pressesOn(const Model& model) {
   return out;
 }
 
-/// One newton, spread over the tissue in a ball, most at its middle; each node by its mass. [slots]
+/// Returns a load of one newton, distributed over a ball with the maximum at its centre, and weighted by nodal mass.
+/// [slots]
 Field pressOn(const ReferenceSolver& solver, const Press& press) {
   Field out(solver.slots(), Vector3d::Zero());
   double sum = 0;
@@ -92,7 +93,7 @@ Field pressOn(const ReferenceSolver& solver, const Press& press) {
   return out;
 }
 
-/// Number of each component that may move, by degree of freedom; -1 of the others.
+/// Returns the index of each free component by degree of freedom; -1 for the others.
 std::vector<int> freePlaces(const ReferenceSolver& solver, int& free) {
   std::vector<int> place(static_cast<size_t>(solver.dofs()), -1);
   free = 0;
@@ -120,8 +121,8 @@ Eigen::SparseMatrix<double> freeStiffness(const ReferenceSolver& solver, const s
   return k;
 }
 
-/// How far each load's middle goes [m per N], infinitesimal, float64: load times displacement. Of tissue that hangs by
-/// a hinge it is anything, even negative.
+/// Returns the displacement at each load per force [m/N], infinitesimal, float64: load times displacement. It is
+/// arbitrary, even negative, if the tissue has a hinge.
 std::vector<double> responses(const Model& model, const std::vector<Press>& presses) {
   const ReferenceSolver solver(model, Vector3d::Zero(), 1);
   int free = 0;
@@ -142,15 +143,15 @@ std::vector<double> responses(const Model& model, const std::vector<Press>& pres
   return out;
 }
 
-/// What was found at one spacing, and at others within kPlaced of it, which lie otherwise on the organ.
+/// Errors at one spacing and at the factors of kPlaced, which place the lattice differently on the organ.
 struct Found {
-  double spacing_m = 0, nodes = 0, middle = 0, largest = 0;  ///< errors of all places and placings
-  std::vector<double> wall_s;  ///< [backends] per simulated second, leapfrog at half of dt_safe
+  double spacing_m = 0, nodes = 0, middle = 0, largest = 0;  ///< median and largest error of all placements
+  std::vector<double> wall_s;  ///< [backends] wall time per simulated second, leapfrog at half of dt_safe
 };
 const std::vector<double> kPlaced = {0.97, 1, 1.03};
 
-/// How far apart two responses are: of a logarithm, so that twice and half are alike. At most 1, which stands for
-/// anything beyond a factor of 2.7, as of tissue that hangs by a hinge.
+/// Returns the error of a response as a logarithm, so that twice and half are alike. At most 1, which represents any
+/// factor beyond 2.7, such as that of tissue with a hinge.
 double errorOf(double response, double truth) {
   return response > 0 ? std::min(std::abs(std::log(response / truth)), 1.0) : 1.0;
 }
@@ -172,7 +173,7 @@ Found measure(const Report& report, const Organ& organ, double spacing_m, Law la
   out.nodes = static_cast<double>(model.activeNodes());
   const Scene scene = plainScene(model, kSpecimenSubsteps);
   for (Backend backend : report.backends()) {
-    std::shared_ptr<Ticks> solver = solverOn(backend, model, scene);
+    std::shared_ptr<TissueStepper> solver = solverOn(backend, model, scene);
     const double dt_s = solver->dt_s();
     solver->writeState(wobbling(model, 0.02 * spacing_m, 0));
     const std::vector<Rate> rates =
@@ -182,7 +183,7 @@ Found measure(const Report& report, const Organ& organ, double spacing_m, Law la
   return out;
 }
 
-/// log y = a + b log x, through all points: errors of stairs jump, their trend does not.
+/// Fit of log y = a + b log x through all points: errors due to stairs jump, but their trend does not.
 struct Trend {
   double a = 0, b = 0;
   Trend(const std::vector<double>& x, const std::vector<double>& y) {
@@ -205,7 +206,7 @@ std::vector<double> column(const std::vector<Found>& rows, double Found::*member
   return out;
 }
 
-/// Errors at 4 mm at as many nodes, and times at 1 % of error, of the law over those of springs.
+/// Checks the ratios of the law to springs: errors at 4 mm with the same number of nodes, and times at 1 % error.
 void judge(Report& report, const Organ& organ, const std::vector<Found>& springs, const std::vector<Found>& law) {
   for (const auto& [name, member] : {std::pair("middle", &Found::middle), std::pair("largest", &Found::largest)}) {
     const Trend by_nodes(column(springs, &Found::nodes), column(springs, member));
@@ -228,7 +229,7 @@ void judge(Report& report, const Organ& organ, const std::vector<Found>& springs
   }
 }
 
-/// Curves of both kinds of tissue.
+/// Curves of both laws.
 struct Curves {
   Plot by_nodes, by_wall;
   explicit Curves(const Organ& organ)
@@ -251,7 +252,7 @@ struct Curves {
   }
 };
 
-/// Says how far what counts as the truth still moves with the spacing.
+/// Reports how far the reference still changes with the spacing.
 void tellStep(Report& report, const Organ& organ, const std::vector<Press>& presses, const std::vector<double>& truth) {
   constexpr double kCoarser = 1.25;
   const std::vector<double> before =

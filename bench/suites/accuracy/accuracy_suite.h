@@ -6,7 +6,8 @@
 
 namespace viscera::bench {
 
-/// What does time cost, and what does float32 (docs/accuracy.md)? Errors (a) and (b) of physics.md 7, never mixed.
+/// Measures the errors of time integration and of float32 (docs/verification.md): errors (a) and (b) of physics.md 7,
+/// separately.
 void accuracySuite(Report& report);
 
 }  // namespace viscera::bench

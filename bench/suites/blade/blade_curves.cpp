@@ -19,16 +19,17 @@ namespace viscera::bench {
 namespace {
 
 constexpr double kTick_hz = 240, kClear_m = 0.001, kMilli = 1e-3;
-// Of the first peak, what a needle feels behind the capsule: published 0.3, toughness and friction there ask for 0.15.
+// Limits of a needle's force behind the capsule, relative to the first peak: published 0.3; toughness and friction
+// there give 0.15.
 constexpr double kMostLeft = 0.5, kLeastLeft = 0.1;
-constexpr double kAllCarried = 0.99;  // of the capsule's toughness, by the lattice
+constexpr double kAllCarried = 0.99;  // share of the capsule's toughness that the lattice represents
 
-/// A force on the way.
+/// A force along the stroke.
 struct Moment {
   double time_s, gone_m, force_n;
 };
 
-/// Held at its bottom and sides; its top is at z = 0.
+/// Returns a block fixed at its bottom and sides; its top is at z = 0.
 Scene blockOf(const Vector3d& size_m, double spacing_m, const char* tissue, const StylusConfig& stylus) {
   Scene scene;
   BodyConfig body;
@@ -102,7 +103,7 @@ Moment largest(const std::vector<Moment>& moments, double from_m, double to_m) {
   return out;
 }
 
-/// The least mean over a millimetre: a force that changes its direction is 0 for a moment.
+/// Returns the smallest mean over a millimetre, since a force that changes direction is 0 for a moment.
 Moment leastAfter(const std::vector<Moment>& moments, double from_m, double to_m) {
   constexpr double kMean_m = 0.001;
   Moment out{0, 0, 1e300};
@@ -119,7 +120,7 @@ Moment leastAfter(const std::vector<Moment>& moments, double from_m, double to_m
   return out;
 }
 
-/// A needle of 1.3 mm in a liver with a capsule and a second membrane, of which a curve was published.
+/// A needle of 1.3 mm in a liver with a capsule and a second membrane, with a published curve.
 struct Published {
   static constexpr double kWidth_m = 0.0013, kFriction_n_per_m = 42, kInside = 76, kCapsule = 1085, kMembrane = 1315;
   static constexpr double kDeep_m = 0.036;
@@ -156,17 +157,17 @@ Series curveOf(const std::string& name, const std::vector<Moment>& moments, bool
 }  // namespace
 
 void bladeOnset(Report& report) {
-  Table table("A needle of 1.3 mm in liver, beside the published curve", {{"h", "mm"},
-                                                                          {"capsule carried", "", 2},
-                                                                          {"first peak", "N", 3},
-                                                                          {"at", "mm", 3},
-                                                                          {"then", "N", 2},
-                                                                          {"second peak", "N", 3},
-                                                                          {"at", "mm", 3},
-                                                                          {"at 36 mm", "N", 3},
-                                                                          {"trips"}});
+  Table table("A needle of 1.3 mm in liver, compared with the published curve", {{"h", "mm"},
+                                                                                 {"capsule carried", "", 2},
+                                                                                 {"first peak", "N", 3},
+                                                                                 {"at", "mm", 3},
+                                                                                 {"then", "N", 2},
+                                                                                 {"second peak", "N", 3},
+                                                                                 {"at", "mm", 3},
+                                                                                 {"at 36 mm", "N", 3},
+                                                                                 {"trips"}});
   Plot plot;
-  plot.title = "a needle of 1.3 mm goes into liver";
+  plot.title = "a needle of 1.3 mm is pushed into liver";
   plot.x_label = "depth of the point below the surface [mm]";
   plot.y_label = "force [N]";
   for (const double spacing_m : {0.004, 0.0028, 0.002}) {

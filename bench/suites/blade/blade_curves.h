@@ -6,8 +6,8 @@
 
 namespace viscera::bench {
 
-/// Parts of the suite: a needle in liver beside the published curve; a hand that presses a blade into tissues and draws
-/// it.
+/// Parts of the suite. Compares a needle in liver with the published curve (bladeOnset), and measures a user's stroke
+/// that presses a blade into tissues and draws it (bladeHand).
 void bladeOnset(Report& report);
 void bladeHand(Report& report);
 

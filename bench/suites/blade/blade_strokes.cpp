@@ -15,13 +15,13 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kBack_j = 1e-3;  // to a hand in a stroke, at most
+constexpr double kBack_j = 1e-3;  // largest energy returned to the user in a stroke [J]
 constexpr int kStrokes = 10000, kStrokesShort = 500;
-constexpr int kTissueLasts = 20;  // strokes, then it is made new
-constexpr double kAway_m = 0.08;  // there a hand turns back
+constexpr int kTissueLasts = 20;  // strokes after which the tissue is reset
+constexpr double kAway_m = 0.08;  // distance at which the motion is reversed [m]
 constexpr double kKilo = 1e3, kBladeStrokesMilli = 1e-3;
 
-/// On a plate, free elsewhere.
+/// Returns a block on a plate, otherwise free.
 Scene blockOf(double young_modulus_pa, double toughness_j_per_m2) {
   Scene scene;
   BodyConfig body;
@@ -42,7 +42,7 @@ Scene blockOf(double young_modulus_pa, double toughness_j_per_m2) {
   return scene;
 }
 
-/// A hand that appears anywhere, goes anywhere at up to 1 m/s by axis and turns about often.
+/// Random strokes: they start anywhere, move in any direction at up to 1 m/s per axis, and often reverse.
 class Strokes {
  public:
   explicit Strokes(const Scene& scene) : scene_(scene), model_(buildModel(scene)), solver_(model_, scene) {}
@@ -120,8 +120,8 @@ void bladeStrokes(Report& report) {
              strokes.back_j / kBladeStrokesMilli, strokes.back_at_once_j / kBladeStrokesMilli, strokes.nonfinite,
              strokes.trips});
   report.add(table, "strokes");
-  report.checkAtMost("energy given to a hand in a stroke", strokes.back_j, kBack_j);
-  report.checkAtMost("energy given to a hand at any time of a stroke", strokes.back_at_once_j, kBack_j);
+  report.checkAtMost("energy given to the device in a stroke", strokes.back_j, kBack_j);
+  report.checkAtMost("energy given to the device at any time of a stroke", strokes.back_at_once_j, kBack_j);
   report.checkAtMost("not finite", strokes.nonfinite, 0);
   report.checkAtMost("trips", strokes.trips, 0);
 }

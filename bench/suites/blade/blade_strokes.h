@@ -6,7 +6,8 @@
 
 namespace viscera::bench {
 
-/// Random strokes of a blade that tissue resists: what goes back to a hand, trips, what is not finite.
+/// Runs random strokes of a blade that tissue resists; measures the energy returned to the user, trips and non-finite
+/// values.
 void bladeStrokes(Report& report);
 
 }  // namespace viscera::bench

@@ -11,13 +11,13 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kForce = 0.05;    // of the force by the law
-constexpr double kRipple = 0.1;    // of J w
-constexpr double kLeastDet = 0.1;  // of a whole cell or triangle: nothing folds
-constexpr double kWork = 0.02;     // of the work: what is not parting, elastic, kinetic or damping
+constexpr double kForce = 0.05;    // relative to the law's force
+constexpr double kRipple = 0.1;    // relative to J w
+constexpr double kLeastDet = 0.1;  // for a whole cell or triangle: nothing is inverted
+constexpr double kWork = 0.02;     // share of the work that is not cutting, elastic, kinetic or damping
 constexpr double kBladeStructuresMilli = 1e-3;
 constexpr double kToughness_j_per_m2 = 100;
-constexpr double kSheet_m = 0.001;  // thick
+constexpr double kSheet_m = 0.001;  // thickness
 
 struct Kind {
   const char* name;
@@ -32,7 +32,7 @@ BladeTrial trialOf(const Kind& kind, double spacing_m, double carried, double an
   trial.toughness_j_per_m2 = kToughness_j_per_m2;
   trial.young_modulus_pa = kToughness_j_per_m2 / (carried * spacing_m);
   trial.angle_deg = angle_deg;
-  if (spacing_m > 0.002) {  // a kernel is nine springs wide: as much block beside it, and way to go
+  if (spacing_m > 0.002) {  // a kernel is nine springs wide: the block and the stroke are enlarged
     trial.length_m = 0.09;
     trial.width_m = 0.072;
     trial.stroke_m = 0.0675;

@@ -6,7 +6,7 @@
 
 namespace viscera::bench {
 
-/// The law of docs/cutting.md in sheets and explicit lattices.
+/// Measures the law of docs/cutting.md in sheets and explicit lattices.
 void bladeStructures(Report& report);
 
 }  // namespace viscera::bench

@@ -15,12 +15,12 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kBladeForce = 0.05;    // of the force by the law
-constexpr double kBladeRipple = 0.1;    // of J w
-constexpr double kBladeLeastDet = 0.1;  // of a whole cell: nothing folds
-constexpr double kBladeWork = 0.02;     // of the work: what is not parting, elastic, kinetic or damping
-constexpr double kCost = 0.1;           // of a tick
-constexpr double kBackends = 0.01;      // of the force: substeps follow the stretch a tick later on the GPU
+constexpr double kBladeForce = 0.05;    // relative to the law's force
+constexpr double kBladeRipple = 0.1;    // relative to J w
+constexpr double kBladeLeastDet = 0.1;  // for a whole cell: nothing is inverted
+constexpr double kBladeWork = 0.02;     // share of the work that is not cutting, elastic, kinetic or damping
+constexpr double kCost = 0.1;           // relative to a tick
+constexpr double kBackends = 0.01;      // relative to the force: on the GPU substeps follow the stretch one tick later
 constexpr double kBladeKilo = 1e3, kBladeMilli = 1e-3;
 
 Table forceTable(const std::string& title) {
@@ -43,7 +43,7 @@ Table forceTable(const std::string& title) {
                        {"least det F", "", 3}});
 }
 
-/// J w / (1 + xi^2), of the J that the lattice carries.
+/// Returns J w / (1 + xi^2), with the J that the lattice represents.
 double lawOf(const BladeTrial& trial) {
   return 1 / (1 + trial.slicing * trial.slicing);
 }
@@ -120,7 +120,7 @@ void speeds(Report& report) {
 }
 
 void slices(Report& report) {
-  Table table = forceTable("By slicing: the edge's way along itself over that across");
+  Table table = forceTable("By slicing: displacement of the edge along itself over that across it");
   for (const double spacing_m : {0.004, 0.002}) {
     if (report.isShort() && spacing_m < 0.004) continue;
     for (const double slicing : {0.0, 0.5, 1.0, 2.0}) {
@@ -135,7 +135,7 @@ void slices(Report& report) {
   report.add(table, "slicing");
 }
 
-/// Beside the same blade where nothing resists it.
+/// Compares with the same blade where tissue does not resist it.
 void cost(Report& report) {
   Table table("A substep while a blade cuts",
               {{"nodes"}, {"J/(E h)", "", 3}, {"resisted", "us"}, {"not", "us"}, {"more", "", 2}});
@@ -177,7 +177,7 @@ void addPair(const char* structure, BladeTrial trial, Table& table, Report& repo
   report.checkAtMost("trips on the GPU, " + of, gpu.trips, 0);
 }
 
-/// The law, and what a substep costs until its measurements have come, in the tick that took least.
+/// Measures the law and the cost of a substep until its measurements arrive, in the fastest tick.
 void onTheGpu(Report& report) {
   Table table("On the GPU backend", {{"structure"},
                                      {"h", "mm"},

@@ -6,7 +6,7 @@
 
 namespace viscera::bench {
 
-/// Forces and work of blades that the tissue resists, beside the law of docs/cutting.md.
+/// Compares forces and work of blades that tissue resists with the law of docs/cutting.md.
 void bladeSuite(Report& report);
 
 }  // namespace viscera::bench

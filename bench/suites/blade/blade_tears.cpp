@@ -11,7 +11,7 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kOff = 0.15;  // of the toughness that was asked for
+constexpr double kOff = 0.15;  // relative to the given toughness
 constexpr double kBladeTearsMilli = 1e-3;
 constexpr double kSpacings_m[] = {0.004, 0.002, 0.001};
 

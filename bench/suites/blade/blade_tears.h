@@ -6,7 +6,7 @@
 
 namespace viscera::bench {
 
-/// Part of bladeSuite(): tissue that is pulled apart, in a notched strip and a trouser test.
+/// Measures tissue that is torn by pulling: a notched strip and a trouser test. Part of bladeSuite().
 void bladeTears(Report& report);
 
 }  // namespace viscera::bench

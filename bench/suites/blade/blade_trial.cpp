@@ -25,18 +25,18 @@ namespace viscera::bench {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
-constexpr double kSteadyFrom = 0.7;   // of the stroke
-constexpr double kTickTravel = 0.25;  // of the spacing: ticks are short enough to see a cell go by
+constexpr double kSteadyFrom = 0.7;   // relative to the stroke
+constexpr double kTickTravel = 0.25;  // relative to the spacing: ticks are short enough to resolve a cell
 constexpr double kLeastTick_hz = 60;
-constexpr double kHeld = 0.49;                // of the spacing: rows of a sheet need not end where its rectangle does
-constexpr double kBladeTrialClear_m = 0.001;  // before the block
-constexpr double kOver_m = 0.003;             // of the blade above and below it
+constexpr double kHeld = 0.49;                // in spacings: rows of a sheet may end before its border
+constexpr double kBladeTrialClear_m = 0.001;  // distance before the block [m]
+constexpr double kOver_m = 0.003;             // length of the blade above and below it [m]
 
 Vector3d xyz(const layout::vec4& v) {
   return {v.x, v.y, v.z};
 }
 
-/// Held on all sides but that where the blade comes in; free above and below.
+/// Returns a block that is fixed on all sides except that where the blade enters; free above and below.
 Scene sceneOf(const BladeTrial& trial) {
   Scene scene;
   BodyConfig body;
@@ -68,7 +68,7 @@ Scene sceneOf(const BladeTrial& trial) {
   return scene;
 }
 
-/// Least area of a triangle without a cut spring, over that at rest.
+/// Returns the smallest area of a triangle without a cut spring, relative to rest.
 double leastVolume(const SpringNetwork& network, const HostState& state) {
   double least = 1;
   for (const std::array<uint32_t, 3>& slots : network.triangles) {
@@ -86,7 +86,7 @@ double leastVolume(const SpringNetwork& network, const HostState& state) {
   return least;
 }
 
-/// Least volume of a cell that is whole, over that at rest.
+/// Returns the smallest volume of a whole cell, relative to rest.
 double leastVolume(const Model& model, const HostState& state) {
   const std::optional<SpringNetwork>& network = model.bodies[0].network;
   if (network && !network->of_lattice) return leastVolume(*network, state);
@@ -106,7 +106,7 @@ double leastVolume(const Model& model, const HostState& state) {
   return least;
 }
 
-/// One way of the blade, tick by tick.
+/// One stroke of the blade, tick by tick.
 class Stroke {
  public:
   explicit Stroke(const BladeTrial& trial)
@@ -160,7 +160,7 @@ class Stroke {
     busy_us_.push_back(took_us / solver_->substeps());
   }
 
-  /// What drag and dashpots take at the moment.
+  /// Returns the current power of drag and dashpots.
   double damping_w() {
     const HostState state = solver_->readState();
     lattice_->nodes = state.nodes;
@@ -168,7 +168,7 @@ class Stroke {
     Field u_m, v_m_per_s;
     for (const layout::vec4& u : state.displacement_m) u_m.push_back(xyz(u));
     for (const layout::vec4& v : state.velocity_m_per_s) v_m_per_s.push_back(xyz(v));
-    const double drag_w = 2 * scene_.bodies[0].material.drag_per_s * static_cast<double>(last_.kinetic_j);
+    const double drag_w = 2 * scene_.bodies[0].material.mass_damping_per_s * static_cast<double>(last_.kinetic_j);
     return drag_w + 2 * lattice_->dissipation(u_m, v_m_per_s);
   }
 
@@ -200,9 +200,9 @@ class Stroke {
   BladeTrial trial_;
   Scene scene_;
   Model model_;
-  std::unique_ptr<Ticks> solver_;
+  std::unique_ptr<TissueStepper> solver_;
   Vector3d go_, way_, at_;
-  std::optional<ReferenceLattice> lattice_;  ///< for what damping takes
+  std::optional<ReferenceLattice> lattice_;  ///< used for the power of damping
   double damped_j_ = 0, gone_m_ = 0, force_unit_n_ = 0;
   layout::TickStats last_{};
   std::vector<double> steady_, busy_us_;

@@ -16,11 +16,11 @@ namespace viscera::bench {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kSides = 16;           // of the rim: a circle to within 1 %
+constexpr int kSides = 16;           // sides of the rim: a circle to within 1 %
 constexpr double kDrag_per_s = 150;  // about twice the sheet's lowest frequency
-constexpr double kSettle_s = 0.3;    // e^-20 of what swings
-constexpr double kOpening = 0.05;    // of the law
-constexpr double kUncut = 1e-3;      // of the opening: nothing moves before the cut
+constexpr double kSettle_s = 0.3;    // oscillations decay by e^-20
+constexpr double kOpening = 0.05;    // relative to the law
+constexpr double kUncut = 1e-3;      // relative to the opening: nothing moves before the cut
 constexpr double kReasonable = 12;   // spacings in half a slit
 constexpr double kYoungModulus_pa = 20e3;
 
@@ -28,7 +28,7 @@ Scene sceneOf(const SlitTrial& trial) {
   Scene scene;
   BodyConfig body;
   const double radius_m = trial.radius * trial.half_m;
-  const double side_m = 2 * trial.spacing_m * (std::ceil(radius_m / trial.spacing_m) + 2);  // a node in the middle
+  const double side_m = 2 * trial.spacing_m * (std::ceil(radius_m / trial.spacing_m) + 2);  // has a node at its centre
   const bool is_sheet = trial.structure == Structure::kSurface;
   body.source = is_sheet ? TissueSource::kSheet : TissueSource::kBox;
   body.structure = trial.structure;
@@ -37,7 +37,7 @@ Scene sceneOf(const SlitTrial& trial) {
   body.spacing_m = trial.spacing_m;
   body.material.young_modulus_pa = kYoungModulus_pa;
   if (!is_sheet) body.material.poisson_ratio = trial.poisson_ratio;
-  body.material.drag_per_s = kDrag_per_s;
+  body.material.mass_damping_per_s = kDrag_per_s;
   body.material.prestress.strain = trial.strain;
   for (int side = 0; side < kSides; ++side) {
     const double angle = 2 * kPi * side / kSides;
@@ -62,7 +62,8 @@ double poissonOf(const SlitTrial& trial) {
   return trial.structure == Structure::kSurface ? 1.0 / 3 : trial.poisson_ratio;
 }
 
-/// In the middle [m]. The stress of a sheet that wants to be shorter by e both ways is E e / (1 - nu).
+/// Returns the opening in the centre [m]. The stress of a sheet with a prestrain e in both directions is
+/// E e / (1 - nu).
 double lawOf(const SlitTrial& trial) {
   const double nu = poissonOf(trial), kappa = (3 - nu) / (1 + nu);
   const double rim = (4 / (kappa - 1) + kappa + 3 / kappa) / 4;
@@ -105,7 +106,7 @@ class Slit {
   Vector3d rest(uint32_t slot) const { return restPosition(model_.bodies[0], slot); }
   const std::vector<uint32_t>& slots() const { return model_.bodies[0].lattice.active_slots; }
 
-  /// The rows of nodes on both sides of the blade's plane, which is as near to the middle as may be.
+  /// Finds the rows of nodes on both sides of the blade's plane, which is as close to the centre as possible.
   void findRows() {
     const double close = 1e-3 * trial_.spacing_m;
     above_m_ = below_m_ = trial_.spacing_m;
@@ -135,7 +136,8 @@ class Slit {
     return out;
   }
 
-  /// How far the row at y has gone along y, at x: between its nodes, the mean through the thickness [m].
+  /// Returns the displacement along y of the row at y, at x: interpolated between its nodes, mean through the thickness
+  /// [m].
   double sideAt(double y, double x, const HostState& state) const {
     double weights = 0, sum = 0;
     for (const uint32_t slot : slots()) {
@@ -185,14 +187,14 @@ void prestressSlits(Report& report) {
                {"x = 0.5 a", "", 3},
                {"x = 0.8 a", "", 3},
                {"moved uncut", "", 2}});
-  for (const double fine : {3.5, 6.5, 12.5, 24.5}) {  // ends of the slit half way between nodes
+  for (const double fine : {3.5, 6.5, 12.5, 24.5}) {  // the ends of the slit are half way between nodes
     if (report.isShort() && fine > 7) continue;
     SlitTrial trial;
     trial.spacing_m = trial.half_m / fine;
     addRow(trial, "triangles", table, report);
     if (fine > 13) continue;
     trial.structure = Structure::kLattice;
-    trial.thickness_m = trial.spacing_m;  // and a nearer rim: they cost ten times as much
+    trial.thickness_m = trial.spacing_m;  // and the rim is closer: these cost ten times as much
     trial.radius = 4;
     addRow(trial, "lattice", table, report);
     trial.poisson_ratio = 0.45;

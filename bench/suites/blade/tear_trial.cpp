@@ -16,22 +16,23 @@ namespace {
 
 constexpr double kSlit_m = 0.03;
 constexpr double kTearTrialTick_hz = 100;
-constexpr double kBeside = 0.31;                            // of the spacing: the slit is off rows of nodes
-constexpr double kTearTrialHeld = 0.4;                      // of the spacing
-constexpr double kBlade_m = 0.05;                           // long
-constexpr double kCrumb = 0.05;                             // of the nodes
-constexpr double kStripDrag = 200;                          // 1/s: what is let go does not swing
-constexpr double kStripTime_s = 0.5;                        // to go on in
-constexpr double kRuns = 0.6;                               // of the way ahead
-constexpr double kLinear = 16.0 / 15;                       // 1 / (1 - nu^2) of a held strip, nu 1/4: where to look
-constexpr double kLeast = 0.5, kMost = 2.5, kFound = 0.03;  // of what is looked for; its least share
-constexpr double kLong_m = 0.096, kShort_m = 0.064;         // strips whose energies are compared
-constexpr double kSpeed_m_per_s = 0.05;                     // of each leg
-constexpr double kLongest = 3;                              // ways of a leg, over the plate's length
-constexpr double kGrip_m = 0.0055;                          // holds nothing of the other leg
-constexpr double kLegs_m = 0.024;                           // wide, both
-constexpr double kFrom_m = 0.006, kTo_m = 0.012;            // off the slit's end, off the plate's: where forces count
-constexpr double kMean_m = 0.004;                           // of a tear that goes as fast as a leg
+constexpr double kBeside = 0.31;                            // offset of the slit from rows of nodes [spacings]
+constexpr double kTearTrialHeld = 0.4;                      // [spacings]
+constexpr double kBlade_m = 0.05;                           // length
+constexpr double kCrumb = 0.05;                             // share of the nodes
+constexpr double kStripDrag = 200;                          // 1/s: suppresses oscillations after release
+constexpr double kStripTime_s = 0.5;                        // time for the slit to grow
+constexpr double kRuns = 0.6;                               // share of the remaining length
+constexpr double kLinear = 16.0 / 15;                       // 1 / (1 - nu^2) of a clamped strip, nu 1/4: search start
+constexpr double kLeast = 0.5, kMost = 2.5, kFound = 0.03;  // range of the search; its final relative width
+constexpr double kLong_m = 0.096, kShort_m = 0.064;         // lengths of strips for the energy difference
+constexpr double kSpeed_m_per_s = 0.05;                     // speed of each leg
+constexpr double kLongest = 3;                              // displacement of a leg over the plate's length
+constexpr double kGrip_m = 0.0055;                          // radius that does not reach the other leg
+constexpr double kLegs_m = 0.024;                           // width of both legs
+constexpr double kFrom_m = 0.006, kTo_m = 0.012;            // distances from the slit's end and from the plate's,
+                                                            // between which forces count
+constexpr double kMean_m = 0.004;                           // length of tear per mean
 
 BodyConfig bodyOf(const TearTrial& trial) {
   BodyConfig body;
@@ -44,7 +45,7 @@ BodyConfig bodyOf(const TearTrial& trial) {
   return body;
 }
 
-/// The first stylus cuts, all hold where they are told to.
+/// Returns a scene in which the first stylus cuts and all can grip.
 Scene sceneOf(const BodyConfig& body) {
   Scene scene;
   scene.bodies.push_back(body);
@@ -62,7 +63,7 @@ Scene sceneOf(const BodyConfig& body) {
   return scene;
 }
 
-/// A plate and what steps it.
+/// A plate and its solver.
 struct Plate {
   explicit Plate(const Scene& scene) : model(buildModel(scene)), solver(model, scene) {}
 
@@ -71,7 +72,7 @@ struct Plate {
     while (solver.pollStats(stats, true)) {
     }
   }
-  /// Along x, from its end, by a blade that nothing resists.
+  /// Cuts the slit along x, from the plate's end, with a blade that meets no resistance.
   void slit(const TearTrial& trial) {
     ToolMotions motions;
     motions[0].mode = ToolMode::kCut;
@@ -81,7 +82,7 @@ struct Plate {
     motions[0].to.position_m.x() = kSlit_m - 0.5 * trial.length_m;
     step(motions);
   }
-  /// The farthest node along x that has lost a spring [m].
+  /// Returns the farthest x of a node that has lost a spring [m].
   double tip_m() const {
     double out = -1;
     const HostState state = solver.readState();
@@ -98,7 +99,7 @@ struct Plate {
   layout::TickStats stats{};
 };
 
-/// Pieces of few nodes, by springs.
+/// Returns the number of pieces with few nodes, connected by springs.
 size_t Plate::crumbs() const {
   const Lattice& lattice = model.bodies[0].lattice;
   const HostState state = solver.readState();
@@ -126,7 +127,7 @@ size_t Plate::crumbs() const {
 
 Scene stripOf(const TearTrial& trial) {
   BodyConfig body = bodyOf(trial);
-  body.material.drag_per_s = kStripDrag;
+  body.material.mass_damping_per_s = kStripDrag;
   const double inner = 0.5 * trial.width_m - kTearTrialHeld * trial.spacing_m;
   for (const double side : {1.0, -1.0}) {
     FixedConfig fixed;
@@ -137,7 +138,7 @@ Scene stripOf(const TearTrial& trial) {
   return sceneOf(body);
 }
 
-/// Everything stretched across the slit, held sides with it.
+/// Stretches everything across the slit, including the fixed sides.
 void strain(Plate& plate, double strain) {
   HostState state = plate.solver.readState();
   for (const uint32_t slot : plate.model.bodies[0].lattice.active_slots) {
@@ -157,7 +158,7 @@ bool runs(const TearTrial& trial, double at_strain, size_t& crumbs) {
   return plate.tip_m() + 0.5 * trial.length_m > kSlit_m + kRuns * (trial.length_m - kSlit_m);
 }
 
-/// Of a strip without a slit that does not tear, held at a strain, per length and thickness [J/m2].
+/// Returns the elastic energy of a strip without slit or tearing, at a strain, per length and thickness [J/m2].
 double storedPerArea(TearTrial trial, double at_strain) {
   trial.toughness_j_per_m2 = 0;
   double energy_j[2];
@@ -171,7 +172,7 @@ double storedPerArea(TearTrial trial, double at_strain) {
   return (energy_j[1] - energy_j[0]) / ((kLong_m - kShort_m) * trial.thickness_m);
 }
 
-/// In every tick while the tear goes on, over half of toughness times thickness.
+/// Returns the force in every tick while the tear grows, over half of toughness times thickness.
 std::vector<double> legForces(const TearTrial& trial, Plate& plate) {
   ToolMotions motions;
   for (const size_t s : {0, 1}) {

@@ -10,13 +10,13 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kWidth_m = 0.02, kLength_m = 0.06;  // of a round bar along x
-constexpr double kTurn = M_PI / 2;                   // of one end against the other, bent or twisted
+constexpr double kWidth_m = 0.02, kLength_m = 0.06;  // size of a round bar along x
+constexpr double kTurn = M_PI / 2;                   // rotation of one end against the other, bent or twisted
 
-/// A bar with round ends and shallow grooves around it.
+/// Returns a bar with round ends and shallow grooves around it.
 TriangleMesh roundBar(int around, int up) {
   return closedMesh(around, up, [](const Vector3d& d) {
-    const double flat = std::pow(std::abs(d.z()), 1.5) * (d.z() < 0 ? -1 : 1);  // more rings near the middle
+    const double flat = std::pow(std::abs(d.z()), 1.5) * (d.z() < 0 ? -1 : 1);  // more rings near the centre
     const double groove =
         1 - 0.05 * (1 + std::cos(9 * M_PI * flat)) / 2 - 0.03 * (1 + std::cos(6 * std::atan2(d.y(), d.x()))) / 2;
     const double reach = std::sqrt(std::max(0.0, 1 - std::pow(std::abs(flat), 6)));
@@ -26,7 +26,7 @@ TriangleMesh roundBar(int around, int up) {
   });
 }
 
-/// Pure bending: cross-sections stay plane, the middle keeps its length.
+/// Pure bending: cross-sections stay plane, the centre line keeps its length.
 Vector3d bent(const Vector3d& x) {
   const double radius_m = kLength_m / kTurn, angle = x.x() / radius_m, from_centre_m = radius_m - x.z();
   return {from_centre_m * std::sin(angle), x.y(), radius_m - from_centre_m * std::cos(angle)};
@@ -35,8 +35,8 @@ Vector3d twisted(const Vector3d& x) {
   const double angle = kTurn * x.x() / kLength_m, c = std::cos(angle), s = std::sin(angle);
   return {x.x(), c * x.y() - s * x.z(), s * x.y() + c * x.z()};
 }
-/// Boussinesq's displacements under a force on an elastic half space (nu = 1/4), which acts a quarter of the width
-/// above the bar; scaled so that the bar's top goes down by an eighth of its width.
+/// Boussinesq's displacements under a force on an elastic half space (nu = 1/4) that acts a quarter of the width above
+/// the bar. They are scaled so that the bar's top sinks by an eighth of its width.
 Vector3d indented(const Vector3d& x) {
   constexpr double kNu = 0.25, kAbove_m = kWidth_m / 4, kDepth_m = kWidth_m / 8;
   const auto shape = [&](const Vector3d& p) {
@@ -93,7 +93,7 @@ void measureMappingErrors(Report& report) {
       {"cells"}, {"deformation"}, {"cells across", "", 3}, {"mapping"}, {"vertices that have it", "%", 3}};
   for (const Column& column : errorColumns()) columns.push_back(column);
   Table table(
-      "error of the mapping, nodes in place: a round bar with grooves, bent by 90 deg, twisted by 90 deg, indented",
+      "error of the mapping with exact nodes: a round bar with grooves, bent by 90 deg, twisted by 90 deg, indented",
       columns);
   const TriangleMesh mesh = report.isShort() ? roundBar(48, 64) : roundBar(96, 192);
   for (const int across : report.isShort() ? std::vector<int>{2, 4} : std::vector<int>{2, 4, 8, 16}) {

@@ -12,20 +12,19 @@ namespace viscera::bench {
 
 namespace {
 
-// The fine lattice is the unit of length: a bar along x, twice as long as it is wide.
-constexpr double kBent = 0.8, kTwisted = 1.0;  // rad, of one end against the other
-constexpr double kIndented = 1.0 / 8;          // of the width
-constexpr double kPatch = 0.3;                 // radius of what is pushed, of the width
+// The spacing of the fine lattice is the unit of length: a bar along x, twice as long as it is wide.
+constexpr double kBent = 0.8, kTwisted = 1.0;  // rotation of one end against the other [rad]
+constexpr double kIndented = 1.0 / 8;          // relative to the width
+constexpr double kPatch = 0.3;                 // radius of the pushed patch, relative to the width
 constexpr int kLoadSteps = 4;
-constexpr int kFiner = 4;  // times: cells of the truth beside those of the lattice that is judged
+constexpr int kFiner = 4;  // refinement of the reference over the lattice that is measured
 
-/// A bar of cells of the neo-Hookean law in equilibrium, in float64: the truth for lattices whose nodes are some of its
-/// own.
+/// A bar of neo-Hookean cells in equilibrium, in float64: the reference for lattices with a subset of its nodes.
 class FineBar {
  public:
   explicit FineBar(int width) : width_(width), model_(modelOf(width)), solver_(model_, Vector3d::Zero(), 1) {}
 
-  /// @param placed  where a held node goes
+  /// Solves with fixed nodes. @param placed  returns the position of a fixed node
   template <class IsHeld, class Placed>
   void hold(IsHeld isHeld, Placed placed) {
     std::fill(solver_.u_m.begin(), solver_.u_m.end(), Vector3d::Zero());
@@ -67,7 +66,7 @@ class FineBar {
            return Vector3d(x - kIndented * width_ * (1 - 0.5 * r * r) * Vector3d::UnitZ());
          });
   }
-  /// Between the nodes, as its own cells have it.
+  /// Returns the deformed position, interpolated within the cells.
   Vector3d operator()(const Vector3d& x) const {
     const Vector3i most = model_.bodies[0].lattice.nodes_per_axis - Vector3i::Constant(2);
     const Vector3i cell = x.array().floor().cast<int>().max(0).min(most.array());
@@ -93,7 +92,7 @@ class FineBar {
   ReferenceSolver solver_;
 };
 
-/// The bar's surface with grooves of up to a twelfth of its width, none of it outside.
+/// Returns the bar's surface with grooves of up to a twelfth of its width, all inside the bar.
 TriangleMesh groovedBar(int width, int around, int up) {
   const Vector3d half(width, 0.5 * width, 0.5 * width);
   return closedMesh(around, up, [&](const Vector3d& d) {

@@ -6,13 +6,13 @@
 
 namespace viscera::bench {
 
-// The measurements of the egve suite, one file each (docs/mappings.md).
+// The measurements of the egve suite, one file each (docs/surface.md).
 
-/// Time of each mapping: 50,000 faces on 20,000 nodes, 10,000 on 18 (EGVE 3.4).
+/// Measures the time of each mapping: 50,000 faces on 20,000 nodes, 10,000 on 18 (EGVE 3.4).
 void measureMappingTimes(Report& report);
-/// Error of each mapping where nodes are exactly where they should be: bending, twist and indentation in closed form.
+/// Measures the error of each mapping with exact nodes: bending, twist and indentation in closed form.
 void measureMappingErrors(Report& report);
-/// The same in the equilibria of a lattice four times finer, in float64.
+/// Measures the errors in equilibria of a lattice four times finer, in float64.
 void measureFinerErrors(Report& report);
 
 }  // namespace viscera::bench

@@ -6,7 +6,7 @@
 
 namespace viscera::bench {
 
-/// EGVE's experiments with its mappings: what each costs, and, which the paper has not, how far each is off.
+/// Runs EGVE's experiments on its mappings: the cost of each, and its error, which the paper does not report.
 void egveSuite(Report& report);
 
 }  // namespace viscera::bench

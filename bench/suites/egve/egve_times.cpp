@@ -16,16 +16,16 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kDearest = 1.3;  // EGVE 3.4: 6.67 ms over 5.26 ms
+constexpr double kDearest = 1.3;  // limit, from EGVE 3.4: 6.67 ms over 5.26 ms
 constexpr double kPaperConstantMs = 5.26, kPaperInterpolatedMs = 6.67;
-constexpr int kMapsPerTick = 4;  // of the GPU, whose queue is waited for once in a tick
+constexpr int kMapsPerTick = 4;  // on the GPU, where each tick waits once for the queue
 
-/// What is mapped.
+/// A mesh and its lattice.
 struct Subject {
   std::string name;
   Solid solid;
   TriangleMesh mesh;
-  bool is_papers = false;  ///< has the size of EGVE's timings
+  bool is_papers = false;  ///< whether it has the size of EGVE's timings
 };
 
 Deformation swaying(double size_m) {
@@ -34,14 +34,15 @@ Deformation swaying(double size_m) {
   };
 }
 
-/// A spacing at which something that falls with its power has a size wanted. @param sizeAt  of a spacing
+/// Returns the spacing at which a size that falls with a power of it has a given value.
+/// @param sizeAt  returns the size at a spacing
 double spacingFor(double start_m, double wanted, double power, const std::function<double(double)>& sizeAt) {
   double spacing_m = start_m;
   for (int i = 0; i < 4; ++i) spacing_m *= std::pow(sizeAt(spacing_m) / wanted, 1 / power);
   return spacing_m;
 }
 
-/// The built-in heart with cells in part, as scenes have it by default.
+/// Returns the built-in heart with partially filled cells, the default of scenes.
 Subject heart(bool is_short) {
   const Phantom p = heartPhantom(0.1, 1);
   const double nodes = is_short ? 2000 : 20000, faces = is_short ? 5000 : 50000;
@@ -56,7 +57,7 @@ Subject heart(bool is_short) {
   return {"heart", solidAt(node_spacing_m), meshAt(skin_spacing_m), !is_short};
 }
 
-/// A lumpy thing of about 10,000 faces on 18 nodes, for EGVE's dragon.
+/// Returns a lumpy object of about 10,000 faces on 18 nodes, in place of EGVE's dragon.
 Subject dragon() {
   Subject out{"18 nodes", {}, {}, false};
   out.solid.spacing_m = 0.02;
@@ -76,7 +77,7 @@ double sizeOf(const Subject& subject) {
 
 Candidate onHost(const Subject& subject, const std::shared_ptr<Model>& model) {
   const auto surface = std::make_shared<HostSurface>(*model);
-  const auto mesh = std::make_shared<ShownMesh>();
+  const auto mesh = std::make_shared<VisibleMesh>();
   const auto state =
       std::make_shared<StateSnapshot>(movedState(*model, surface->shownBricks(), swaying(sizeOf(subject))));
   return {"cpu", 1, [=] {
@@ -85,7 +86,7 @@ Candidate onHost(const Subject& subject, const std::shared_ptr<Model>& model) {
           }};
 }
 
-/// A surface on the GPU with a body that sways, and a camera that sees all of it.
+/// A surface on the GPU with an oscillating body, and a camera with all of it in view.
 struct Drawn {
   std::shared_ptr<Surface> surface;
   std::shared_ptr<StateMirror> mirror;
@@ -102,7 +103,7 @@ struct Drawn {
   }
   void map() const {
     StateView view = mirror->view();
-    view.stale_bricks = 0;  // everything is mapped each time
+    view.stale_bricks = 0;  // maps everything each time
     surface->follow(view);
   }
 };
@@ -123,7 +124,7 @@ Candidate pictureOf(const Drawn& drawn) {
           }};
 }
 
-/// Milliseconds of each mapping, in turn; of a picture too where the backend is the GPU.
+/// Times of each mapping in turn [ms]; on the GPU also of an image.
 struct Times {
   std::vector<double> map_ms, picture_ms;
 };
@@ -185,7 +186,8 @@ void measureSubject(Report& report, const Subject& subject, Backend backend, Tab
 
 void measureMappingTimes(Report& report) {
   Table table(
-      "time of a mapping: approximate normals of nodes, places and normals of vertices; on the GPU also with a picture "
+      "time of a mapping: approximate normals of nodes, positions and normals of vertices; on the GPU also with a "
+      "picture "
       "(640 x 480)",
       {{"body"},
        {"faces", "", 8},

@@ -13,7 +13,7 @@ namespace viscera::bench {
 
 namespace {
 
-/// Free memory of the card [bytes], where the driver tells; 0: it does not.
+/// Returns the free memory of the card [bytes]; 0 if the driver does not report it.
 double freeBytes() {
   constexpr GLenum kFreeKilobytes = 0x9049;  // GPU_MEMORY_INFO_CURRENT_AVAILABLE_VIDMEM_NVX
   GLint count = 0, kilobytes = 0;
@@ -25,7 +25,7 @@ double freeBytes() {
   return 1024.0 * kilobytes;
 }
 
-/// What a thing holds in buffers [bytes]. @param make  gives it, by a pointer
+/// Returns the buffer size of an object [bytes]. @param make  creates it and returns a pointer
 template <class Make>
 double bytesOf(const Make& make) {
   const size_t before = gpu::bufferBytes();
@@ -58,11 +58,11 @@ void measureBytes(Report& report) {
   report.stage("memory of a heart");
   const Scene scene = pigHeartScene(report.isShort() ? 1500 : 42745, 0.2);
   const Model heart = buildModel(scene);
-  add("node of a heart of springs with two styluses and the governor", static_cast<double>(heart.activeNodes()),
-      solverOf(heart, scene));
+  add("node of a heart of springs with two styluses and the stability monitor",
+      static_cast<double>(heart.activeNodes()), solverOf(heart, scene));
   add("face of its skin", static_cast<double>(heart.skinTriangles()),
       bytesOf([&] { return std::make_unique<Surface>(heart); }));
-  if (free == 0) report.note("This driver does not tell how much memory is free.\n");
+  if (free == 0) report.note("This driver does not report how much memory is free.\n");
   report.add(table, "bytes");
 }
 

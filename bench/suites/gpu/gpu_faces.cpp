@@ -18,15 +18,15 @@ namespace viscera::bench {
 namespace {
 
 constexpr double kRadius_m = 0.05;
-constexpr size_t kSoftwareUpTo = 1000000;  // faces; a software rasteriser draws more of them in seconds
-/// What a face takes in host memory until its skin is in buffers [bytes]: the peak of memory at ten million of them,
-/// over these.
+constexpr size_t kSoftwareUpTo = 1000000;  // number of faces; a software rasteriser takes seconds for more
+/// Host memory per face until its mesh is in buffers [bytes]: the peak of memory at ten million faces, divided by their
+/// number.
 constexpr double kBytesPerFace = 350;
-// Of a vertex: its binding in; position and normal out. Of a face drawn: its indices, and half a vertex of position,
-// normal, colour and place at rest.
+// Per vertex: its binding in; position and normal out. Per drawn face: its indices, and half a vertex with position,
+// normal, colour and rest position.
 constexpr double kMappedBytes = 96 + 12 + 4, kDrawnBytes = 12 + 0.5 * (12 + 4 + 4 + 16);
 
-/// A ball of cells. @param cells  along its diameter
+/// Returns a ball of cells. @param cells  along its diameter
 Solid ballOf(int cells) {
   Solid out;
   out.spacing_m = 2 * kRadius_m / cells;
@@ -44,7 +44,7 @@ Solid ballOf(int cells) {
   return out;
 }
 
-/// A sphere with dents. @param faces  wanted; nearly met
+/// Returns a sphere with dents. @param faces  approximate number
 TriangleMesh skinOf(size_t faces) {
   const int around = 2 * static_cast<int>(std::sqrt(0.25 * static_cast<double>(faces)));
   return closedMesh(around, around / 2 + 1, [](const Vector3d& d) {
@@ -57,9 +57,9 @@ Vector3d swaying(const Vector3d& x_m) {
   return x_m + 0.1 * kRadius_m * Vector3d(std::sin(30 * x_m.y()), std::sin(30 * x_m.z()), 0.3);
 }
 
-/// Why a skin is not measured here; empty: it is.
+/// Returns why a mesh is not measured here; empty if it is.
 std::string reasonAgainst(size_t faces, const gpu::Context& context) {
-  if (faces > kSoftwareUpTo && context.isSoftware()) return "the renderer is software, which draws so many in seconds";
+  if (faces > kSoftwareUpTo && context.isSoftware()) return "the renderer is software, which would take seconds";
   const double needs = kBytesPerFace * static_cast<double>(faces), has = availableBytes();
   if (needs > has)
     return "they need " + Cell(1e-9 * needs).text(2) + " GB of the host's memory, of which " +
@@ -71,7 +71,7 @@ struct Times {
   double vertices, map_s, draw_s;
 };
 
-/// @throws GpuError  no memory
+/// Measures a mesh. @throws GpuError  out of memory
 Times measureSkin(Report& report, size_t faces, int cells) {
   const Model model = mappedModel(ballOf(cells), skinOf(faces), Mapping::kAuto);
   Surface surface(model);
@@ -83,7 +83,7 @@ Times measureSkin(Report& report, size_t faces, int cells) {
   Renderer renderer({camera}, {});
   const auto map = [&] {
     StateView view = mirror.view();
-    view.stale_bricks = 0;  // everything is mapped each time
+    view.stale_bricks = 0;  // maps everything each time
     surface.follow(view);
   };
   map();
@@ -109,7 +109,7 @@ Times measureSkin(Report& report, size_t faces, int cells) {
 void measureFaces(Report& report) {
   const double copy = gpuCopyRate(report.isShort() ? 32 : 256);
   const CameraConfig camera;
-  const int cells = report.isShort() ? 16 : 42;  // some 40,000 nodes
+  const int cells = report.isShort() ? 16 : 42;  // about 40,000 nodes
   Table table("skin of a ball of " + std::to_string(cells) + " cells across, all of it mapped, and drawn at " +
                   std::to_string(camera.width_px) + " x " + std::to_string(camera.height_px),
               {{"faces", "", 8},
@@ -124,7 +124,7 @@ void measureFaces(Report& report) {
     report.stage("skin of " + std::to_string(faces) + " faces");
     const double count = static_cast<double>(faces);
     std::string against = reasonAgainst(faces, *report.context());
-    if (against.empty() && report.isShort() && faces > 100000) against = "the short form measures one";
+    if (against.empty() && report.isShort() && faces > 100000) against = "the short form measures only one size";
     std::optional<Times> times;
     if (against.empty()) {
       try {
@@ -145,7 +145,8 @@ void measureFaces(Report& report) {
     plot.series[1].y.push_back(1e3 * times->draw_s);
   }
   report.note(
-      "Bytes are what must be moved once: a binding in, a position and a normal out; indices and vertices in.\n");
+      "Bytes are the data that must be moved once: a binding in, a position and a normal out; indices and vertices "
+      "in.\n");
   report.add(table, "faces");
   if (plot.series[0].x.size() > 1) report.add(plot, "faces");
 }

@@ -16,10 +16,10 @@ struct Way {
 };
 constexpr Way kWays[] = {{"nothing", Wanted::kNothing, false},
                          {"skin and image, in flight", Wanted::kSurfaceAndImages, false},
-                         {"nothing, every tick waited for", Wanted::kNothing, true},
-                         {"skin and image, every tick waited for", Wanted::kSurfaceAndImages, true}};
+                         {"nothing, waiting for every tick", Wanted::kNothing, true},
+                         {"skin and image, waiting for every tick", Wanted::kSurfaceAndImages, true}};
 
-/// A session whose skin and whose one picture may be asked for after every tick.
+/// Returns a session with outputs after every tick: its surface mesh and its only image.
 Scene viewedHeart(int nodes) {
   Scene scene = pigHeartScene(nodes, 0.2);
   scene.solver.backend = Backend::kGpu;
@@ -35,7 +35,7 @@ void measureFlight(Report& report) {
   Session session(viewedHeart(nodes), *report.context());
   const Pressing pressing(session);
   Table table(
-      "read-back of a heart of " + std::to_string(nodes) + " nodes, 60 ticks/s of simulated time, as fast as it goes",
+      "read-back of a heart of " + std::to_string(nodes) + " nodes, 60 ticks/s of simulated time, as fast as possible",
       {{"read back after each tick"}, {"tick", "ms", 3}, {"read back", "per tick", 3}, {"overtaken", "per tick", 3}});
   for (const Way& way : kWays) {
     report.stage(std::string("read-back: ") + way.name);
@@ -59,7 +59,7 @@ StylusSamples noHands() {
   return {};
 }
 
-/// What the solver's stages take of a tick, by the GPU's clock.
+/// Adds the times of the solver's stages per tick, by the GPU's clock.
 void addStages(Session& session, Wanted wanted, double seconds, Table& table) {
   gpu::StageClock clock;
   const auto begun_with = session.tick();
@@ -79,8 +79,8 @@ void measureLive(Report& report) {
   constexpr int kMillion = 1000000, kFew = 3000, kOnSoftware = 10000;
   const int nodes = report.isShort() ? kFew : report.context()->isSoftware() ? kOnSoftware : kMillion;
   Scene scene = viewedHeart(nodes);
-  scene.bodies[0].material.law = Law::kAuto;  // as scenes have it
-  scene.solver.sleep_speed_m_per_s = 0;       // what comes to rest is measured like what moves
+  scene.bodies[0].material.law = Law::kAuto;  // default of scenes
+  scene.solver.sleep_speed_m_per_s = 0;       // keeps tissue at rest awake, so that it is measured like moving tissue
   report.stage("live: building");
   Session session(scene, *report.context());
   Table table("a heart of 10 cm, E " + Cell(1e-3 * scene.bodies[0].material.young_modulus_pa).text(3) +
@@ -108,7 +108,8 @@ void measureLive(Report& report) {
                static_cast<double>(speed.work.skipped) / speed.ticks});
     addStages(session, wanted, report.isShort() ? kShortSeconds : kStagesSeconds, stages);
   }
-  if (!report.isShort() && nodes != kMillion) report.note("The renderer is software: not a million nodes.\n");
+  if (!report.isShort() && nodes != kMillion)
+    report.note("The renderer is software, so a million nodes are skipped.\n");
   report.add(table, "live");
   report.add(stages, "live_stages");
 }

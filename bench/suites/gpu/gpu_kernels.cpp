@@ -16,32 +16,33 @@ namespace {
 constexpr double kGiga = 1e-9;
 constexpr int kTicks = 8, kRounds = 5;
 
-/// What a kernel's text asks for per node or cell: float32 operations (a fused multiply-add is two; a root or a
-/// division one), and bytes that must come from memory and go there if every other read is served by caches.
+/// Work of a kernel per node or cell: float32 operations (a fused multiply-add is two; a root or a division one), and
+/// bytes of memory traffic if every repeated read hits a cache.
 struct Cost {
   double flop, bytes;
 };
 
-// leapfrog.comp, spring.glsl. A spring: w 3, e 3, L 6, direction 3, extension 14, k 1, force 7. With a dashpot
-// it is predicted: dv 3, where the ends will be 6, is it mild 14, damping 7.
+// leapfrog.comp, spring.glsl. A spring: w 3, e 3, L 6, direction 3, extension 14, k 1, force 7. With a dashpot it is
+// predicted: dv 3, predicted ends 6, test for mild states 14, damping 7.
 // A node: acceleration 6, drag 3, velocity 17, displacement 6.
 constexpr double kSpringFlop = 37, kPredictedFlop = 30, kNodeFlop = 32;
-// cell_forces.comp, of a full cell without stiffening: where its corners will be 48, their motion 90
-// (cell_motion.glsl), moments and ratios 22, cofactors and e 46, s 69, bending 78, stress 75, derivatives by the motion
-// 162, and what four pairs of corners feel 21 each. A node adds 3 for each of its eight cells, and looks at no springs.
+// cell_forces.comp, of a full cell without stiffening: predicted corners 48, their deformation modes 90
+// (cell_modes.glsl), moments and ratios 22, cofactors and e 46, s 69, curvature correction 78, stress 75, derivatives
+// by the modes 162, and forces of four pairs of corners 21 each. A node adds 3 for each of its eight cells, and has no
+// springs.
 constexpr double kLawFlop = 48 + 90 + 22 + 46 + 69 + 78 + 75 + 162 + 4 * 21, kCornersFlop = 8 * 3;
-// A list's entry, the node's bits, and vectors of four floats: u and v in and out; u and v in; 8 forces of a cell.
+// An entry of the list, the node's bits, and vectors of four floats: u and v in and out; u and v in; 8 forces of a
+// cell.
 constexpr double kListed = 4 + 8, kVector = 16, kCellForces = 8 * kVector;
 // Tables: of nine springs; of a mass and a depth; of a cell.
 constexpr double kSpringTables = 9 * 4, kMassTables = 8, kCellTables = 16;
 
-/// What the tissue is made of.
+/// Material of the tissue.
 struct Tissue {
   const char* name;
-  double dashpot_ratio, poisson_ratio;
-  bool parts;  ///< strengths of springs and cells and masses in tables, as where parts differ or cells are tissue in
-               ///< part
-  bool probe;  ///< one is there, beyond reach
+  double stiffness_damping_ratio, poisson_ratio;
+  bool parts;  ///< whether tables have strengths and masses, as with parts or partially filled cells
+  bool probe;  ///< whether there is a probe, out of reach
 };
 constexpr Tissue kTissues[] = {{"springs", 0, 0.25, false, false},
                                {"springs, dashpot", 0.2, 0.25, false, false},
@@ -50,7 +51,7 @@ constexpr Tissue kTissues[] = {{"springs", 0, 0.25, false, false},
                                {"the same, tables", 0.2, 0.45, true, false},
                                {"the same, tables, a probe", 0.2, 0.45, true, true}};
 
-/// Springs have nu 1/4.
+/// Returns whether the tissue has the neo-Hookean law; springs have nu 1/4.
 bool isOfLaw(const Tissue& tissue) {
   return tissue.poisson_ratio != 0.25;
 }
@@ -62,7 +63,7 @@ Cost costOfStep(const Tissue& tissue) {
     out.bytes += kCellForces;
     return out;
   }
-  out.flop += 18 * (kSpringFlop + (tissue.dashpot_ratio > 0 ? kPredictedFlop : 0));
+  out.flop += 18 * (kSpringFlop + (tissue.stiffness_damping_ratio > 0 ? kPredictedFlop : 0));
   if (tissue.parts) out.bytes += kSpringTables;
   return out;
 }
@@ -72,9 +73,9 @@ Cost costOfCells(const Tissue& tissue) {
 }
 
 Specimen specimenWith(const Tissue& tissue, int edge) {
-  const MaterialConfig material = withPoisson(specimenMaterial(tissue.dashpot_ratio), tissue.poisson_ratio);
+  const MaterialConfig material = withPoisson(specimenMaterial(tissue.stiffness_damping_ratio), tissue.poisson_ratio);
   Specimen cube = cubeOf(edge, material);
-  if (tissue.parts) {  // one that no cell belongs to, so that nothing else changes
+  if (tissue.parts) {  // a part without cells, so that nothing else changes
     Body& body = cube.model.bodies[0];
     body.lattice.part_names.emplace_back("none");
     body.parts.push_back({"none"});
@@ -83,7 +84,7 @@ Specimen specimenWith(const Tissue& tissue, int edge) {
   return cube;
 }
 
-/// Seconds per substep of the stages of a tick, each in the best of the rounds.
+/// Returns the seconds per substep of the stages of a tick, each in the best of the rounds.
 std::array<double, gpu::kStages> timeStages(const Specimen& cube) {
   GpuSolver solver(cube.model, cube.scene);
   solver.writeState(cube.start);
@@ -115,7 +116,7 @@ struct Limits {
   double copy, fma;
 };
 
-/// Rates over intensity, under the roof that the limits make.
+/// Rates against arithmetic intensity, below the roof given by the limits.
 struct Roofline {
   Series step{"a node's step", {}, {}, Series::Style::kPoints}, cells{"cells", {}, {}, Series::Style::kPoints};
 
@@ -132,7 +133,7 @@ struct Roofline {
   }
 };
 
-/// What one kernel took.
+/// Time of one kernel.
 struct Timed {
   const Tissue* tissue;
   const char* kernel;
@@ -140,7 +141,7 @@ struct Timed {
   Cost cost;
 };
 
-/// Kernels of a cube in the order in which they run.
+/// Returns the kernels of a cube in the order of execution.
 std::vector<Timed> timeKernels(const Tissue& tissue, int edge) {
   const Specimen cube = specimenWith(tissue, edge);
   const double nodes = static_cast<double>(cube.nodes());
@@ -179,13 +180,13 @@ void measureKernels(Report& report) {
       for (const Timed& timed : timeKernels(tissue, edge)) kernels.push_back(timed);
     }
   }
-  const Limits after = measureLimits(report);  // what else the machine did meanwhile is seen, and left out
+  const Limits after = measureLimits(report);  // a second measurement excludes other load of the machine
   const Limits limits{std::max(before.copy, after.copy), std::max(before.fma, after.fma)};
   Table measured("limits of this GPU", {{"of"}, {"before", "", 3}, {"after", "", 3}, {"unit"}});
   measured.add({"copies, read and written", kGiga * before.copy, kGiga * after.copy, "GB/s"});
   measured.add({"multiply-adds in registers", kGiga * before.fma, kGiga * after.fma, "GFLOP/s"});
   report.add(measured, "limits");
-  Table table("kernels of a substep of leapfrog on cubes, and what share of the limits they reach",
+  Table table("kernels of a substep of leapfrog on cubes, and their share of the limits",
               {{"nodes", "", 8},
                {"tissue"},
                {"kernel"},
@@ -199,8 +200,8 @@ void measureKernels(Report& report) {
   Roofline roofline;
   for (const Timed& timed : kernels) addRow(table, roofline, timed, limits);
   report.note(
-      "Operations and bytes are counted in the kernels' text; bytes are those that no cache can spare, so that bodies "
-      "which fit in a cache may pass the copy rate. The larger of either limit counts.\n");
+      "Operations and bytes are counted in the kernels' text. Bytes are those that no cache can save, so bodies that "
+      "fit in a cache may exceed the copy rate. The larger share of the two limits counts.\n");
   report.add(table, "kernels");
   report.add(roofline.plot(limits, report.context()->renderer()), "roofline");
 }

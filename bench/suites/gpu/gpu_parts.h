@@ -6,17 +6,17 @@
 
 namespace viscera::bench {
 
-// Parts of the gpu suite that have files of their own.
+// Parts of the gpu suite in separate files.
 
-/// Kernels of leapfrog by the GPU's clock, as shares of its copy and multiply-add rates.
+/// Measures kernels of leapfrog by the GPU's clock, as shares of its copy and multiply-add rates.
 void measureKernels(Report& report);
-/// Milliseconds of mapping and of drawing skins of 0.1, 1 and 10 million faces.
+/// Measures the time of mapping and drawing surface meshes of 0.1, 1 and 10 million faces [ms].
 void measureFaces(Report& report);
-/// What read-back costs a tick while it is in flight, and where every tick waits for it.
+/// Measures the cost of read-back per tick while it is in flight, and if every tick waits for it.
 void measureFlight(Report& report);
-/// Is a heart of a million nodes stepped in real time, with its skin and 60 pictures a second?
+/// Measures whether a heart of a million nodes runs in real time, with its surface mesh and 60 images a second.
 void measureLive(Report& report);
-/// Bytes of a node and of a face in OpenGL buffers.
+/// Measures the OpenGL buffer size per node and per face [bytes].
 void measureBytes(Report& report);
 
 }  // namespace viscera::bench

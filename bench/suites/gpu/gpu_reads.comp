@@ -1,10 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// gpu_reads.comp - what it costs to gather the 18 neighbours of a node, by the way in which they are read.   Owner: bench/suites/gpu/gpu_suite.cpp
+// gpu_reads.comp - gathers the 18 neighbours of a node, to measure the cost of different reads.
+// Owner: bench/suites/gpu/gpu_suite.cpp
 // in  state [nodes] of a cube, line by line     out  sums [nodes]
 // Features, one of: STORAGE (vec4 in a storage buffer), TEXELS (vec4 by texel fetches), IMAGES (vec4 by image loads),
-// PACKED (three floats in a storage buffer), HALVES (three 16-bit floats, too coarse to step with: what the bytes cost).
+// PACKED (three floats in a storage buffer), HALVES (three 16-bit floats, too coarse for stepping: shows the effect of
+// size).
 layout(local_size_x = GROUP_SIZE) in;
 uniform int edge;
 

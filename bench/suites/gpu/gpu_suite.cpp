@@ -27,8 +27,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr uint32_t kGroupSizes[] = {32, 64, 128, 256, 512, 1024};
 constexpr int kLeastSubsteps = 200, kMostSubsteps = 100000;
-constexpr double kLongest_s = 30;     // of a group size, where the renderer is slow
-constexpr double kReadsApart = 1e-5;  // of sums of 18 float32 numbers below 1, whichever way they were read
+constexpr double kLongest_s = 30;     // for a group size, on a slow renderer
+constexpr double kReadsApart = 1e-5;  // tolerance of sums of 18 float32 numbers below 1, however they are read
 
 double secondsOf(const std::function<void()>& work) {
   gpu::awaitGpu("the start of a measurement");
@@ -60,14 +60,14 @@ void measureGroupSizes(Report& report) {
   size_t differ = 0, tried = 0;
   for (const uint32_t size : kGroupSizes) {
     if (size > most) {
-      report.note("Groups of " + std::to_string(size) + " are more than this driver has.\n");
+      report.note("Groups of " + std::to_string(size) + " exceed the limit of this driver.\n");
       continue;
     }
     report.stage("groups of " + std::to_string(size));
     GpuSolver solver(cube.model, cube.scene, {{}, size});
     solver.writeState(cube.start);
     stepTicks(solver, 2);  // drivers compile at the first use
-    if (ticks == 0) {      // the same for all
+    if (ticks == 0) {      // the same number for all
       const double tick_s = secondsOf([&] { stepTicks(solver, 2); }) / 2;
       const double substeps = report.isShort() ? kLeastSubsteps : kSpecimenSubsteps * kLongest_s / tick_s;
       ticks = static_cast<int>(std::clamp<double>(substeps, kLeastSubsteps, kMostSubsteps)) / kSpecimenSubsteps;
@@ -93,7 +93,7 @@ void measureGroupSizes(Report& report) {
 
 struct GpuWay {
   const char *name, *feature;
-  size_t bytes;  ///< of a node
+  size_t bytes;  ///< bytes per node
 };
 constexpr GpuWay kGpuWays[] = {{"vec4, storage buffer", "STORAGE", 16},
                                {"vec4, texel fetches", "TEXELS", 16},
@@ -101,7 +101,7 @@ constexpr GpuWay kGpuWays[] = {{"vec4, storage buffer", "STORAGE", 16},
                                {"three floats, storage buffer", "PACKED", 12},
                                {"three half floats, storage buffer", "HALVES", 8}};
 
-uint16_t halfOf(float value) {  // of 0 and normal numbers between 2^-14 and 1
+uint16_t halfOf(float value) {  // valid for 0 and normal numbers between 2^-14 and 1
   uint32_t bits;
   std::memcpy(&bits, &value, sizeof bits);
   const int exponent = static_cast<int>(bits >> 23 & 0xff) - 112;
@@ -110,7 +110,7 @@ uint16_t halfOf(float value) {  // of 0 and normal numbers between 2^-14 and 1
                              static_cast<uint16_t>(exponent << 10 | (bits >> 13 & 0x3ff));
 }
 
-/// Numbers below 1, the same whatever way they are read.
+/// Returns numbers below 1 that are the same for all ways of reading.
 std::vector<float> stateFor(const GpuWay& way, size_t nodes) {
   std::vector<float> out(way.bytes / sizeof(float) * nodes, 0.0f);
   for (size_t i = 0; i < nodes; ++i) {
@@ -131,7 +131,7 @@ void measureReads(Report& report) {
   const size_t nodes = static_cast<size_t>(edge) * static_cast<size_t>(edge) * static_cast<size_t>(edge);
   const double copy = gpuCopyRate(report.isShort() ? 32 : 256);
   Table table(
-      "reading 18 neighbours and the node itself, cube of " + std::to_string(nodes) + " nodes, no arithmetic beside",
+      "reading 18 neighbours and the node itself, cube of " + std::to_string(nodes) + " nodes, no other arithmetic",
       {{"way"},
        {"bytes of a node"},
        {"pass", "ms", 3},
@@ -181,7 +181,7 @@ void measureReads(Report& report) {
       "the caches for. Copy rate: " +
       Cell(1e-9 * copy).text(3) + " GB/s.\n");
   report.add(table, "reads");
-  report.checkAtMost("sums of neighbours read in one way and another, difference", apart, kReadsApart);
+  report.checkAtMost("sums of neighbours read with different methods, difference", apart, kReadsApart);
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 
 namespace viscera::bench {
 
-/// One GPU: what kernels may be tuned by (sizes of work groups, with equal states for all of them; ways in which
-/// neighbours are read), what share of its limits they reach, large skins, read-back, memory (docs/gpu.md).
+/// Measures one GPU: tuning options of kernels (sizes of work groups, with equal states for all of them; ways to read
+/// neighbours), the share of its limits that they reach, large surface meshes, read-back, memory (docs/gpu.md).
 void gpuSuite(Report& report, gpu::Context& context);
 
 }  // namespace viscera::bench

@@ -11,7 +11,7 @@ namespace viscera::bench {
 
 namespace {
 
-/// physics.md 6, oracle 7: tip over Timoshenko's, at nu = 1/4.
+/// physics.md 6, oracle 7: tip deflection over Timoshenko's, at nu = 1/4.
 struct Known {
   int depth;  ///< [cells]
   double ratio;
@@ -21,7 +21,8 @@ constexpr double kLimit = 0.005;  ///< issue 3: relative
 constexpr int kSlenderness = 5;   ///< length over depth
 constexpr int kShortDepth = 4;
 
-/// Deflection of the tip under unit load over that of Timoshenko's beam of the same E, nu, depth and length.
+/// Returns the deflection of the tip under unit load, relative to Timoshenko's beam with the same E, nu, depth and
+/// length.
 double tipRatio(int depth, const MaterialConfig& material) {
   const int length = kSlenderness * depth;
   const Model model = blockModel({length, depth, depth}, 1, material, [](const Vector3i& n) { return n.x() == 0; });
@@ -35,7 +36,7 @@ double tipRatio(int depth, const MaterialConfig& material) {
     tip.push_back(slot);
     eighths += massEighths(lattice.nodes[slot]);
   }
-  // Spread evenly over the end face: every node takes what its share of the face is.
+  // The load is uniform over the end face: every node has its share of the face.
   for (uint32_t slot : tip) load[slot].z() = massEighths(lattice.nodes[slot]) / eighths;
   const Field u = solveLinear(solver, {}, load);
   double deflection = 0;

@@ -13,13 +13,13 @@ namespace {
 
 constexpr int kMasses = 16;
 constexpr int kSamples = 100;
-constexpr double kAmplitude = 1e-3;  ///< of the spacing; along its axis a chain is linear at any amplitude
-constexpr double kPhaseStep = 1.2;   ///< between samples, at most: small phases are lost in float32's rounding
+constexpr double kAmplitude = 1e-3;  ///< relative to the spacing; along its axis a chain is linear at any amplitude
+constexpr double kPhaseStep = 1.2;   ///< largest phase between samples: small phases are lost in float32's rounding
 constexpr double kMaterialChainsLimit = 1e-4;  ///< issue 3: relative
 
 enum class End { kFixed, kFree };
 
-/// Unit masses along z on unit springs, the lower end fixed; a free end has half a mass.
+/// Returns unit masses along z with unit springs, the lower end fixed; a free end has half a mass.
 Model chain(End end) {
   const int count = end == End::kFixed ? kMasses + 2 : kMasses + 1;
   Model model = blockModel({1, 1, count - 1}, 1, unitMaterial());
@@ -40,7 +40,7 @@ Model chain(End end) {
   return model;
 }
 
-/// Wave number of mode p times the spacing.
+/// Returns the wave number of mode p times the spacing.
 double waveNumber(End end, int p) {
   return end == End::kFixed ? p * M_PI / (kMasses + 1) : (2 * p - 1) * M_PI / (2 * kMasses);
 }
@@ -48,7 +48,7 @@ double waveNumber(End end, int p) {
 double measuredFrequency(Backend backend, const Model& model, double q, double omega) {
   const double dt_s = plainScene(model, 1).solver.dt_fraction * safeTimeStep(model);
   const int stride = std::max(1, static_cast<int>(kPhaseStep / phasePerSubstep(omega, dt_s)));
-  const std::unique_ptr<Ticks> solver = solverOn(backend, model, plainScene(model, stride));
+  const std::unique_ptr<TissueStepper> solver = solverOn(backend, model, plainScene(model, stride));
   const Lattice& lattice = model.bodies[0].lattice;
   Field shape(model.slots(), Vector3d::Zero());
   for (uint32_t slot : lattice.active_slots) shape[slot].z() = kAmplitude * std::sin(q * lattice.nodeAt(slot).z());

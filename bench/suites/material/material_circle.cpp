@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Large bending: a beam whose ends are turned until it is a circle.
+// Large bending: the ends of a beam are rotated until it is a circle.
 #include <algorithm>
 #include <cmath>
 
@@ -14,9 +14,9 @@ namespace {
 
 constexpr int kMaterialCircleSlenderness =
     40;                                ///< length over depth: strain of the outermost fibre is pi / 40 in a circle
-constexpr int kSteps = 24;             ///< to the full circle
-constexpr double kMomentLimit = 0.03;  ///< of E I kappa: ours; fibres strained by 8 % are not linear
-constexpr double kBalanced = 1e-4;     ///< of the largest force: Newton's last digits cost hundreds of steps
+constexpr int kSteps = 24;             ///< number of steps to the full circle
+constexpr double kMomentLimit = 0.03;  ///< relative to E I kappa: our choice; fibres strained by 8 % are not linear
+constexpr double kBalanced = 1e-4;     ///< relative to the largest force: Newton's last digits cost hundreds of steps
 constexpr double kKernelLimit = 1e-3;  ///< kernels against the reference in the same state, float32 rounding
 
 /// A beam along x, n cells deep and wide, bent about y.
@@ -24,12 +24,12 @@ class BentBeam {
  public:
   BentBeam(int depth, Law law) : depth_(depth), length_(kMaterialCircleSlenderness * depth), model_(modelOf(law)) {}
 
-  /// Bends it by turning its ends by half the angle each, in small steps. @return moment over E I kappa
+  /// Bends it by rotating its ends by half the angle each, in small steps. @return moment over E I kappa
   double bend(double angle) {
     while (angle_ < angle - 1e-9) {
       const double before = angle_;
       angle_ = std::min(angle, angle_ + 2 * M_PI / kSteps);
-      for (uint32_t slot : solver_.active) {  // on along the circle, keeping what sections do beside
+      for (uint32_t slot : solver_.active) {  // moves sections along the circle and keeps their other displacements
         const Vector3d rest = solver_.restPosition(slot);
         solver_.u_m[slot] += bentPlace(rest, angle_) - bentPlace(rest, before);
       }
@@ -38,7 +38,7 @@ class BentBeam {
         const Vector3d rest = solver_.restPosition(slot);
         if (rest.x() > 1e-9 && rest.x() < length_ - 1e-9) continue;
         const Vector3d u = bentPlace(rest, angle_) - rest;
-        // Sections stay plane and on their line; they are free to thin across and along y.
+        // Sections stay plane and on their line; they are free to contract across and along y.
         ends.push_back({slot, 0, u.x()});
         ends.push_back({slot, 2, u.z()});
         if (std::abs(rest.y() - depth_ / 2.0) < 0.6) ends.push_back({slot, 1, 0});
@@ -57,14 +57,14 @@ class BentBeam {
     material.law = law;
     return blockModel({length_, depth_, depth_}, 1, material);
   }
-  /// Onto a circle of curvature angle / length; the middle of the depth keeps its length.
+  /// Maps a point onto a circle of curvature angle / length; the mid-plane keeps its length.
   Vector3d bentPlace(const Vector3d& rest, double angle) const {
     if (angle == 0) return rest;
     const double radius = length_ / angle, turn = (rest.x() / length_ - 0.5) * angle;
     const double r = radius + rest.z() - depth_ / 2.0;
     return {length_ / 2.0 + r * std::sin(turn), rest.y(), depth_ / 2.0 + r * std::cos(turn) - radius};
   }
-  /// What the end at x = length is turned with, about y, over E I kappa.
+  /// Returns the moment about y on the end at x = length, over E I kappa.
   double momentOf(const Field& force_n) const {
     Vector3d middle = Vector3d::Zero(), moment = Vector3d::Zero();
     int count = 0;

@@ -15,16 +15,16 @@ namespace {
 
 constexpr double kSpacing_m = 0.005, kGravity_m_per_s2 = 9.81;
 constexpr double kTick_hz = 60;
-constexpr double kSlides = 0.03;    ///< of the acceleration by Coulomb's law: the block sways while it slides
-constexpr double kStays_m = 5e-4;   ///< what a block that stays may settle and creep: a tenth of a spacing
-constexpr double kStands_m = 5e-3;  ///< how far a box of a stack may be from where it was put: a spacing, its own sag
-                                    ///< and the distance that contacts keep included
+constexpr double kSlides = 0.03;    ///< relative to Coulomb's acceleration: a sliding block oscillates
+constexpr double kStays_m = 5e-4;   ///< accepted settling and creep of a block that sticks [m]: a tenth of a spacing
+constexpr double kStands_m = 5e-3;  ///< accepted offset of a box in a stack from its initial position [m]: a spacing,
+                                    ///< including its own sag and the contact distance
 constexpr double kRests_m_per_s = 5e-3;
 
 MaterialConfig stiffTissue() {
   MaterialConfig material;
   material.young_modulus_pa = 1e5;
-  material.drag_per_s = 0;  // which would slow what slides
+  material.mass_damping_per_s = 0;  // it would slow down sliding
   return material;
 }
 
@@ -39,7 +39,7 @@ Scene onPlane(double friction, double slope_deg) {
   return scene;
 }
 
-/// Mean of positions and velocities of a body, by mass.
+/// Mean position and velocity of a body, weighted by mass.
 struct Middle {
   Vector3d at_m = Vector3d::Zero(), speed_m_per_s = Vector3d::Zero();
 };
@@ -57,12 +57,12 @@ Middle middleOf(const Model& model, size_t b, const HostState& state) {
   return {out.at_m / eighths, out.speed_m_per_s / eighths};
 }
 
-/// A block of 4 x 4 x 2 cells put onto the slope, its speed along it given.
+/// A block of 4 x 4 x 2 cells on the slope, with a given initial speed along it.
 struct Slide {
-  double start_s, end_s;         ///< what is looked at
-  double speed_m_per_s = 0;      ///< at the start
-  double acceleration_m_per_s2;  ///< out: mean, down the slope
-  double way_m;                  ///< out
+  double start_s, end_s;         ///< time span that is evaluated [s]
+  double speed_m_per_s = 0;      ///< initial speed [m/s]
+  double acceleration_m_per_s2;  ///< result: mean, down the slope [m/s2]
+  double way_m;                  ///< result: displacement [m]
 };
 void slide(Backend backend, double friction, double slope_deg, Slide& run) {
   const Model model = blockModel({4, 4, 2}, kSpacing_m, stiffTissue());
@@ -76,7 +76,7 @@ void slide(Backend backend, double friction, double slope_deg, Slide& run) {
     state.displacement_m[slot] = vec4(turn * rest - rest);
     state.velocity_m_per_s[slot] = vec4(run.speed_m_per_s * down);
   }
-  const std::unique_ptr<Ticks> solver = solverOn(backend, model, scene);
+  const std::unique_ptr<TissueStepper> solver = solverOn(backend, model, scene);
   solver->writeState(state);
   const auto run_to = [&](double& time_s, double end_s) {
     for (; time_s < end_s - 0.5 / kTick_hz; time_s += 1 / kTick_hz) solver->step({});
@@ -89,14 +89,14 @@ void slide(Backend backend, double friction, double slope_deg, Slide& run) {
 }
 
 void measureSlopes(Report& report) {
-  constexpr double kFriction = 0.4, kSlope = 0.05;  // tangent: so much below and above it
-  Table table("A block of 4x4x2 cells on a slope, friction 0.4, and on a plane, pushed", {{"backend"},
-                                                                                          {"slope", "tangent"},
-                                                                                          {"friction"},
-                                                                                          {"speed", "m/s"},
-                                                                                          {"by Coulomb", "m/s2"},
-                                                                                          {"measured", "m/s2"},
-                                                                                          {"way", "m"}});
+  constexpr double kFriction = 0.4, kSlope = 0.05;  // slopes have tangents this much below and above the friction
+  Table table("A block of 4x4x2 cells on a slope, friction 0.4, and pushed on a plane", {{"backend"},
+                                                                                         {"slope", "tangent"},
+                                                                                         {"friction"},
+                                                                                         {"speed", "m/s"},
+                                                                                         {"by Coulomb", "m/s2"},
+                                                                                         {"measured", "m/s2"},
+                                                                                         {"way", "m"}});
   for (Backend backend : report.backends()) {
     report.stage("slopes, " + nameOf(backend));
     double worst = 0, crept = 0;
@@ -117,15 +117,15 @@ void measureSlopes(Report& report) {
       worst = std::max(worst, std::abs(run.acceleration_m_per_s2 / law - 1));
     }
     const std::string name = nameOf(backend) + ": contact: ";
-    report.checkAtMost(name + "acceleration of what slides over Coulomb's, less 1", worst, kSlides);
-    report.checkAtMost(name + "way in half a second on a slope below the friction angle [m]", crept, kStays_m);
+    report.checkAtMost(name + "acceleration of a sliding block over Coulomb's, minus 1", worst, kSlides);
+    report.checkAtMost(name + "displacement in half a second on a slope below the friction angle [m]", crept, kStays_m);
   }
   report.add(table, "slopes");
 }
 
 constexpr int kBoxes = 3, kHigh = 3;
 
-/// Each as wide as the one below, a little above where it will rest.
+/// Returns boxes of equal width, each slightly above its rest position on the one below.
 Model stackedBoxes() {
   constexpr double kGap_m = 0.2 * kSpacing_m;
   Model model;
@@ -138,9 +138,9 @@ Model stackedBoxes() {
   return model;
 }
 
-/// @return farthest that a box is from its place [m], fastest box [m/s]
+/// Measures a stack. @return largest offset of a box [m], largest speed of a box [m/s]
 std::array<double, 2> measureStack(Backend backend, Integrator integrator, Table& table) {
-  constexpr double kTime_s = 2, kImplicit = 5;  // of dt_safe
+  constexpr double kTime_s = 2, kImplicit = 5;  // kImplicit in units of dt_safe
   const bool is_explicit = traitsOf(integrator).is_explicit;
   Scene scene = onPlane(0.5, 0);
   scene.collision.enabled = true;
@@ -148,7 +148,7 @@ std::array<double, 2> measureStack(Backend backend, Integrator integrator, Table
   scene.solver.integrator = integrator;
   if (!is_explicit) scene.solver.dt_fraction = kImplicit;
   const Model model = stackedBoxes();
-  const std::unique_ptr<Ticks> solver = solverOn(backend, model, scene);
+  const std::unique_ptr<TissueStepper> solver = solverOn(backend, model, scene);
   std::vector<Middle> first;
   for (size_t b = 0; b < kBoxes; ++b) first.push_back(middleOf(model, b, solver->readState()));
   for (int t = 0; t < kTime_s * kTick_hz; ++t) solver->step({});
@@ -165,7 +165,7 @@ std::array<double, 2> measureStack(Backend backend, Integrator integrator, Table
   return {moved, fastest};
 }
 
-/// With implicit integrators too; the short form leaves these to the CPU.
+/// Measures stacks, also with implicit integrators; in the short form, these on the CPU only.
 void measureStacks(Report& report) {
   Table table("Three boxes on each other on a plane, after two seconds", {{"backend"},
                                                                           {"integrator"},
@@ -180,7 +180,7 @@ void measureStacks(Report& report) {
       const std::string name = nameOf(backend) + ": stack, " + std::string(traitsOf(integrator).name);
       report.stage(name);
       const auto [moved_m, fastest_m_per_s] = measureStack(backend, integrator, table);
-      report.checkAtMost(name + ": farthest that a box is from its place [m]", moved_m, kStands_m);
+      report.checkAtMost(name + ": largest distance of a box from its place [m]", moved_m, kStands_m);
       report.checkAtMost(name + ": fastest box [m/s]", fastest_m_per_s, kRests_m_per_s);
     }
   }

@@ -11,40 +11,41 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kSlope = 1.0 / 8;       ///< radius of the contact a over R: Hertz is for small ones. d = a^2 / R
-constexpr double kHertzLimit = 0.01;     ///< no number in issue 3; from kFineContact spacings on
+constexpr double kSlope = 1.0 / 8;       ///< contact radius a over R: Hertz is valid for small ones. d = a^2 / R
+constexpr double kHertzLimit = 0.01;     ///< not in issue 3; from kFineContact spacings on
 constexpr int kFineContact = 4;          ///< [spacings]
-constexpr double kReactionLimit = 1e-3;  ///< no number in issue 3
-/// Of a probe thinner than a cell: over a node alone the lattice is that much softer than a half-space, between four,
-/// which all go down with it, that much stiffer.
+constexpr double kReactionLimit = 1e-3;  ///< not in issue 3
+/// Range for a probe thinner than a cell. Over a single node the lattice is this much softer than a half-space; between
+/// four nodes, which all sink with it, this much stiffer.
 constexpr double kThinLeast = 0.6, kThinMost = 5;
-/// Nodes at several springs under a thin tip keep a little of their approach, and are moved back in every substep:
-/// small waves go down to the plate, and its force is a mean of ticks (docs/material.md, Thin probes).
+/// Nodes at several springs under a thin tip keep a small part of their approach and are moved back in every substep.
+/// Small waves travel down to the plate, so its force is a mean over ticks (docs/material.md, Thin probes).
 constexpr int kThinTicks = 100;
 
 struct Indentation {
-  double contact, radius, depth;  ///< [spacings] by Hertz
+  double contact, radius, depth;  ///< [spacings], by Hertz
 };
 
 Indentation indentation(int contact) {
   return {static_cast<double>(contact), contact / kSlope, contact * kSlope};
 }
 
-/// Springs at nu 1/4, else the neo-Hookean law.
+/// Returns springs at nu 1/4, otherwise the neo-Hookean law.
 MaterialConfig materialOf(double nu) {
   return withPoisson(unitMaterial(), nu);
 }
 
-/// A block on a plate. @param half_width  of the block, and its height [cells]
+/// Returns a block on a plate. @param half_width  of the block, and its height [cells]
 Model plateBlock(const MaterialConfig& material, int half_width) {
   return blockModel({2 * half_width, 2 * half_width, half_width}, 1, material,
                     [](const Vector3i& n) { return n.z() == 0; });
 }
 
-/// A sphere that sinks into the middle of a block on a plate, on a backend, and rests there.
+/// A sphere that sinks into the centre of a block on a plate, on a backend, and rests there.
 class Indenter {
  public:
-  /// @param aside  of the middle, where a node is [cells]   @param ticks  in which forces are read
+  /// @param aside  offset from the centre, where a node is [cells]
+  /// @param ticks  number of ticks over which forces are averaged
   Indenter(Backend backend, double nu, int half_width, const Indentation& press,
            const Vector3d& aside = Vector3d::Zero(), int ticks = 1)
       : backend_(backend),
@@ -52,9 +53,9 @@ class Indenter {
         top_(Vector3d(half_width, half_width, half_width + press.radius) + aside),
         press_(press) {
     settle(nu, half_width);
-    // With drag a substep's kick, which is what the probe undoes, is smaller than the force by 1 + gamma dt/2: the
-    // reaction is read in a tick without.
-    const std::unique_ptr<Ticks> solver = solverOn(backend_, model_, scene(model_, kTickSubsteps));
+    // With drag a substep's kick, which the probe cancels, is smaller than the force by 1 + gamma dt/2. The reaction is
+    // measured in a tick without drag.
+    const std::unique_ptr<TissueStepper> solver = solverOn(backend_, model_, scene(model_, kTickSubsteps));
     solver->writeState(state_, true);
     const ReferenceLattice lattice(model_);
     for (int tick = 0; tick < ticks; ++tick) {
@@ -62,10 +63,10 @@ class Indenter {
       plate_n_ += plateForce(lattice, solver->readState()) / ticks;
     }
   }
-  /// Means of the ticks: of what the probe feels, and of what the plate does at their ends.
+  /// Returns means over the ticks: of the reaction on the probe, and (below) of the plate's force at their ends.
   double reaction_n() const { return reaction_n_; }
   double plate_n() const { return plate_n_; }
-  /// The same while the drag is on, and what the drag should make of it.
+  /// Returns the reaction with drag, and (below) the factor expected from drag.
   double dragged_n() const { return dragged_n_; }
   double dragFactor() const { return drag_factor_; }
   int touched() const { return static_cast<int>(stats_.touched[0]); }
@@ -73,23 +74,23 @@ class Indenter {
  private:
   static constexpr int kTickSubsteps = 10;
 
-  /// The slowest motion, shear of the height H, has omega_1 = pi/2 c_s/H. Drag 2 omega_1 settles fastest; the tool
-  /// takes two of its periods, and in six more e^(-omega_1 t) falls to 1e-16.
+  /// Settles the block. The slowest motion, shear of the height H, has omega_1 = pi/2 c_s/H. Drag 2 omega_1 settles
+  /// fastest; the tool takes two of its periods, and in six more e^(-omega_1 t) falls to 1e-16.
   void settle(double nu, int height) {
     MaterialConfig material = materialOf(nu);
     const double c_s = std::sqrt(material.young_modulus_pa / (2 * (1 + nu))), period_s = 4 * height / c_s;
-    material.drag_per_s = 4 * M_PI / period_s;
+    material.mass_damping_per_s = 4 * M_PI / period_s;
     const Model dragged = plateBlock(material, height);
-    const std::unique_ptr<Ticks> solver = solverOn(backend_, dragged, scene(dragged, kTickSubsteps));
+    const std::unique_ptr<TissueStepper> solver = solverOn(backend_, dragged, scene(dragged, kTickSubsteps));
     const int sinking = static_cast<int>(2 * period_s / (kTickSubsteps * solver->dt_s())), ticks = 4 * sinking;
     for (int tick = 0; tick < ticks; ++tick) {
       dragged_n_ =
           move(*solver, std::min(1.0, static_cast<double>(tick) / sinking), std::min(1.0, (tick + 1.0) / sinking));
     }
-    drag_factor_ = 1 / (1 + material.drag_per_s * solver->dt_s() / 2);
+    drag_factor_ = 1 / (1 + material.mass_damping_per_s * solver->dt_s() / 2);
     state_ = solver->readState();
   }
-  /// What the plate feels, by the float64 forces in a state that the backend ended in [N].
+  /// Returns the force on the plate, by the float64 forces in the backend's final state [N].
   static double plateForce(const ReferenceLattice& lattice, const HostState& state) {
     Field u(state.displacement_m.size(), Vector3d::Zero());
     for (uint32_t slot : lattice.active) u[slot] = xyz(state.displacement_m[slot]);
@@ -106,8 +107,8 @@ class Indenter {
     out.styluses = {stylus};
     return out;
   }
-  /// One tick. @param from, to  shares of the depth   @return reaction [N]
-  double move(Ticks& solver, double from, double to) {
+  /// Steps one tick. @param from, to  shares of the depth   @return reaction [N]
+  double move(TissueStepper& solver, double from, double to) {
     ToolMotions motions{};
     motions[0].mode = ToolMode::kProbe;
     motions[0].present = true;
@@ -138,7 +139,7 @@ void measureHertz(Report& report) {
     for (int contact : report.isShort() ? std::vector<int>{1, 2, 4} : std::vector<int>{1, 2, 3, 4, 6, 8}) {
       report.stage("indentation of a half-space, nu " + Cell(nu).text(3) + ", a/h " + std::to_string(contact));
       const Indentation press = indentation(contact);
-      const LinearContact block(contact + 4, 1, materialOf(nu), Surroundings::kHalfSpace, 1.5 * contact + 1);
+      const LinearContact block(contact + 4, 1, materialOf(nu), FarField::kHalfSpace, 1.5 * contact + 1);
       const LinearContact::Result found = block.press(press.radius, press.depth);
       const double ratio = found.force_n / hertzForce(materialOf(nu), press.radius, press.depth);
       table.add({nu, press.radius, press.contact, found.touched, ratio});
@@ -153,7 +154,7 @@ void measureHertz(Report& report) {
   report.checkAtMost("Hertz, half-space, a >= 4 h: largest |F/F_Hertz - 1|", worst, kHertzLimit);
 }
 
-/// Rows of one Poisson's ratio on all backends. @return the worst imbalance [backends]
+/// Adds the rows of one Poisson's ratio on all backends. @return largest imbalance [backends]
 std::vector<double> probeRows(Report& report, double nu, int half_width, Table& table, Plot& plot) {
   const std::vector<Backend>& backends = report.backends();
   std::vector<double> worst(backends.size());
@@ -163,7 +164,7 @@ std::vector<double> probeRows(Report& report, double nu, int half_width, Table& 
   for (int contact : report.isShort() ? std::vector<int>{2} : std::vector<int>{2, 3, 4}) {
     const Indentation press = indentation(contact);
     const double hertz = hertzForce(materialOf(nu), press.radius, press.depth);
-    const LinearContact block(half_width, 1, materialOf(nu), Surroundings::kBonded, 1.5 * contact + 1);
+    const LinearContact block(half_width, 1, materialOf(nu), FarField::kBonded, 1.5 * contact + 1);
     const double linear = block.press(press.radius, press.depth).force_n;
     in_theory.x.push_back(contact), in_theory.y.push_back(linear / hertz);
     for (size_t b = 0; b < backends.size(); ++b) {
@@ -210,7 +211,7 @@ void measureProbe(Report& report) {
   }
 }
 
-/// Tips of about a cell's size, over a node and between nodes.
+/// Measures tips of about a cell's size, over a node and between nodes.
 void measureThin(Report& report) {
   constexpr double kNu = 0.25;
   const int half_width = report.isShort() ? 4 : 6;

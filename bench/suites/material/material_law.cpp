@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The neo-Hookean law beside an independent finite element program: a clamped block pulled, squeezed and sheared, and a
-// sphere pressed into a block.
+// The neo-Hookean law compared with an independent finite element program: a clamped block in tension, compression and
+// shear, and a sphere pressed into a block.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,19 +16,19 @@ namespace viscera::bench {
 
 namespace {
 
-// CalculiX 2.20, C3D10, neo-Hooke: a block of 24 x 24 x 36 mm, E 20 kPa, ends clamped, the upper one moved by these
-// shares of the height. Forces have two digits behind the point.
+// CalculiX 2.20, C3D10, neo-Hooke: a block of 24 x 24 x 36 mm, E 20 kPa, ends clamped, the upper one displaced by these
+// shares of the height. Forces have two decimals.
 constexpr std::array<double, 4> kShares = {0.1, 0.2, 0.35, 0.5};
 struct ClampedBlock {
   const char* name;
-  int axis;  ///< along which the upper end moves
+  int axis;  ///< axis along which the upper end moves
   double sign;
   int reads;  ///< axis of the force
   double nu;
-  std::array<double, 4> force_n;  ///< 0: it had ended before
-  double least, most;             ///< share of CalculiX's force that passes up to 35 %
+  std::array<double, 4> force_n;  ///< 0: CalculiX had stopped before
+  double least, most;             ///< accepted ratio to CalculiX's force, up to 35 %
 };
-// Between the plates a sheared block pulls a tenth of what it resists with: what space costs shows more.
+// Between the plates, the force of a sheared block is a tenth of its resistance, so the spatial error is larger.
 constexpr double kLeast = 0.97, kMost = 1.04, kLeastBetween = 0.93, kMostBetween = 1.07;
 constexpr ClampedBlock kBlocks[] = {
     {"pulled", 2, 1, 2, 0.3, {1.09, 2.01, 3.14, 4.07}, kLeast, kMost},
@@ -40,21 +40,21 @@ constexpr ClampedBlock kBlocks[] = {
     {"pulled", 2, 1, 2, 0.49, {1.20, 2.21, 3.46, 4.51}, kLeast, kMost},
     {"squeezed", 2, -1, 2, 0.49, {1.49, 3.41, 7.69, 13.8}, kLeast, kMost}};
 constexpr double kYoung_pa = 20e3, kDensity_kg_per_m3 = 1060, kLawSpacing_m = 0.003;
-constexpr int kBlockWide = 8, kBlockHigh = 12;  ///< cells of 3 mm
-constexpr double kLoadStep = 0.05;              ///< of the height, between equilibria
-constexpr double kLargestShare = 0.36;          ///< up to which forces are held to limits
+constexpr int kBlockWide = 8, kBlockHigh = 12;  ///< number of cells of 3 mm
+constexpr double kLoadStep = 0.05;              ///< relative to the height, between equilibria
+constexpr double kLargestShare = 0.36;          ///< largest share at which forces are checked
 
 MaterialConfig lawMaterial(double nu) {
   MaterialConfig material;
   material.young_modulus_pa = kYoung_pa;
   material.poisson_ratio = nu;
   material.density_kg_per_m3 = kDensity_kg_per_m3;
-  material.drag_per_s = material.dashpot_ratio = 0;
+  material.mass_damping_per_s = material.stiffness_damping_ratio = 0;
   material.law = Law::kNeoHookean;
   return material;
 }
 
-/// Forces of a clamped block whose upper end has moved by kShares of the height [N].
+/// Returns the forces of a clamped block with its upper end displaced by kShares of the height [N].
 std::array<double, 4> forcesOf(const ClampedBlock& block, Backend backend) {
   const Model model = blockModel({kBlockWide, kBlockWide, kBlockHigh}, kLawSpacing_m, lawMaterial(block.nu),
                                  [](const Vector3i& n) { return n.z() == 0; });
@@ -72,7 +72,7 @@ std::array<double, 4> forcesOf(const ClampedBlock& block, Backend backend) {
           moved.push_back({slot, axis, axis == block.axis ? block.sign * share * kBlockHigh * kLawSpacing_m : 0});
       }
       StaticsOptions options;
-      options.tolerance = 1e-6;  // of forces that are looked at to a thousandth
+      options.tolerance = 1e-6;  // forces are compared to a thousandth
       solveStatics(solver, moved, {}, options);
     }
     const Field force_n = forcesOn(backend, model, solver.u_m);
@@ -112,7 +112,7 @@ void measureBlocks(Report& report, Backend backend) {
   report.add(table, "law_blocks_" + nameOf(backend));
 }
 
-// A block of 60 x 60 x 30 mm on a plate, a sphere of 15 mm pressed into its middle, without friction.
+// A block of 60 x 60 x 30 mm on a plate, with a sphere of 15 mm pressed into its centre, without friction.
 constexpr double kBall_m = 0.015;
 constexpr int kBallWide = 20, kBallHigh = 10;
 struct Pressed {
@@ -122,21 +122,21 @@ constexpr Pressed kPressed[] = {
     {0.3, 1.0e-3, 0.13}, {0.3, 2.1e-3, 0.414}, {0.3, 3.45e-3, 0.930}, {0.3, 6e-3, 2.33}, {0.45, 6e-3, 2.47}};
 constexpr double kLeastPressed = 0.95, kMostPressed = 1.03;
 
-/// @return what a probe feels that was pressed in and rests [N]
+/// Returns the static force on a probe that was pressed in [N].
 double pressedForce(const Pressed& press, Backend backend) {
   constexpr int kTickSubsteps = 10;
   MaterialConfig material = lawMaterial(press.nu);
-  // Shear of the height, the slowest motion, damped as fast as it can be; the probe takes two of its periods.
+  // Shear of the height, the slowest motion, is critically damped; the probe takes two of its periods.
   const double c_s = std::sqrt(kYoung_pa / (2 * (1 + press.nu)) / kDensity_kg_per_m3);
   const double period_s = 4 * kBallHigh * kLawSpacing_m / c_s;
-  material.drag_per_s = 4 * M_PI / period_s;
+  material.mass_damping_per_s = 4 * M_PI / period_s;
   const Model model = blockModel({kBallWide, kBallWide, kBallHigh}, kLawSpacing_m, material,
                                  [](const Vector3i& n) { return n.z() == 0; });
   Scene scene = plainScene(model, kTickSubsteps);
   StylusConfig stylus;
   stylus.probe.radius_m = kBall_m;
   scene.styluses = {stylus};
-  const std::unique_ptr<Ticks> solver = solverOn(backend, model, scene);
+  const std::unique_ptr<TissueStepper> solver = solverOn(backend, model, scene);
   const Vector3d top = kLawSpacing_m * Vector3d(kBallWide / 2.0, kBallWide / 2.0, kBallHigh) + Vector3d(0, 0, kBall_m);
   const double tick_s = kTickSubsteps * solver->dt_s();
   const int sinking = static_cast<int>(2 * period_s / tick_s);
@@ -177,7 +177,7 @@ void measurePressed(Report& report, Backend backend) {
 }  // namespace
 
 void measureLaw(Report& report) {
-  report.stage("law beside finite elements");
+  report.stage("law compared with finite elements");
   for (const Backend backend : report.backends()) {
     measureBlocks(report, backend);
     measurePressed(report, backend);

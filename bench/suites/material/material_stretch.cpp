@@ -32,7 +32,7 @@ std::vector<PrescribedDof> stretched(const Lattice& lattice, double axial) {
   return out;
 }
 
-/// Pull on the face z = 0 over its area at rest [k/h]. @param force_n  [slots]
+/// Returns the force on the face z = 0 over its area at rest [k/h]. @param force_n  [slots]
 double stressOf(const Lattice& lattice, const Field& force_n) {
   double sum = 0;
   for (uint32_t slot : lattice.active_slots) {

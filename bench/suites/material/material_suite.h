@@ -6,7 +6,7 @@
 
 namespace viscera::bench {
 
-/// Is the lattice the material that its E, nu and density say (docs/material.md)?
+/// Measures whether the lattice is a material with the given E, nu and density (docs/material.md).
 void materialSuite(Report& report);
 
 }  // namespace viscera::bench

@@ -13,15 +13,15 @@ namespace {
 
 constexpr double kStrain = 1e-4;
 constexpr double kMaterialTensionSpacing_m = 0.005;
-constexpr double kMaterialTensionLimit = 1e-3;  ///< issue 3: of E over E asked, and of nu
-/// Stiffness of an infinite rod with paper weights over the one asked (physics.md 1).
+constexpr double kMaterialTensionLimit = 1e-3;  ///< issue 3: for E relative to the given E, and for nu
+/// Stiffness of an infinite rod with paper weights, relative to the given one (physics.md 1).
 struct PaperExcess {
   int thickness;
   double factor;
 };
 constexpr PaperExcess kPaperExcess[] = {{1, 2.667}, {2, 1.733}, {4, 1.344}};
 
-/// A square bar along z, pulled by its end faces, which stay plane and are free to contract.
+/// A square bar along z, pulled at its end faces, which stay plane and are free to contract.
 struct Bar {
   int thickness, length;  ///< [cells]
   MaterialConfig material;
@@ -31,7 +31,7 @@ struct Elastic {
   double young_pa, poisson;
 };
 
-/// What a bar is made of. Springs have nu 1/4 only.
+/// Material of a bar. Springs have nu 1/4 only.
 struct TensionKind {
   const char* name;
   Law law;
@@ -46,7 +46,7 @@ MaterialConfig tissue(double nu, const TensionKind& kind) {
   material.poisson_ratio = nu;
   material.law = kind.law;
   material.weights = kind.weights;
-  material.drag_per_s = material.dashpot_ratio = 0;
+  material.mass_damping_per_s = material.stiffness_damping_ratio = 0;
   return material;
 }
 
@@ -58,14 +58,14 @@ std::vector<PrescribedDof> pulled(const Lattice& lattice, const Bar& bar) {
     if (z == bar.length) out.push_back({slot, 2, kStrain * bar.length * kMaterialTensionSpacing_m});
   }
   const auto slotOf = [&](int x) { return static_cast<uint32_t>(lattice.slotAt({x, 0, 0})); };
-  // No rigid motion is left: two nodes of one edge keep it in place.
+  // Two nodes of one edge remove the remaining rigid motions.
   for (const PrescribedDof& pin : {PrescribedDof{slotOf(0), 0, 0}, {slotOf(0), 1, 0}, {slotOf(bar.thickness), 1, 0}}) {
     out.push_back(pin);
   }
   return out;
 }
 
-/// Mean of a displacement component over the nodes for which `where` holds.
+/// Returns the mean of a displacement component over the nodes for which `where` holds.
 template <class Where>
 double mean(const Lattice& lattice, const Field& u_m, int axis, Where where) {
   double sum = 0;
@@ -78,7 +78,7 @@ double mean(const Lattice& lattice, const Field& u_m, int axis, Where where) {
   return sum / count;
 }
 
-/// What an extensometer on the middle half of the bar and a force gauge at its end say.
+/// Returns the results of an extensometer on the middle half of the bar and a force gauge at its end.
 /// @param force_n  [slots] elastic forces
 Elastic elasticOf(const Lattice& lattice, const Bar& bar, const Field& u_m, const Field& force_n) {
   const int low = bar.length / 4, high = bar.length - low, middle = bar.length / 2, n = bar.thickness;
@@ -95,12 +95,12 @@ Elastic elasticOf(const Lattice& lattice, const Bar& bar, const Field& u_m, cons
   return {pull / (std::pow(n * kMaterialTensionSpacing_m, 2) * strain), -widening / strain};
 }
 
-/// With paper weights the ends of a bar are stiffer than its middle: it must be long.
+/// Returns the length of a bar. With paper weights its ends are stiffer than its middle, so it must be long.
 int lengthOf(int thickness) {
   return thickness == 8 ? 3 * thickness : std::max(16, 5 * thickness);
 }
 
-/// Of one bar, by the float64 reference and by the forces of backends in the same state.
+/// Results of one bar, by the float64 reference and by the forces of backends in the same state.
 struct Measured {
   Elastic reference;
   std::vector<Elastic> on;  ///< [backends]
@@ -118,7 +118,7 @@ Measured measure(const Bar& bar, const std::vector<Backend>& backends) {
   return out;
 }
 
-/// All bars: rows of the table, curves of the plot, the worst of each error.
+/// Tests of all bars: rows of the table, curves of the plot, largest errors.
 class TensionTests {
  public:
   explicit TensionTests(const std::vector<Backend>& backends)
@@ -159,7 +159,7 @@ class TensionTests {
   Table table;
   Plot plot;
   double worst_young = 0, worst_poisson = 0, worst_paper = 0;
-  std::vector<double> worst_on;  ///< [backends] of E by their forces
+  std::vector<double> worst_on;  ///< [backends] error of E by their forces
 
  private:
   static std::vector<Column> columnsFor(const std::vector<Backend>& backends) {

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Walls, rods, rings and shells of few cells, aligned, turned and shifted: errors of space.
+// Walls, rods, rings and shells of few cells, aligned, rotated and shifted: spatial errors.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -14,16 +14,16 @@ namespace viscera::bench {
 
 namespace {
 
-// Issue 13, at nu 1/4: compliance over the true one, less 1. At other nu twice as much.
+// Issue 13, at nu 1/4: compliance relative to the true one, minus 1. At other nu twice as much.
 constexpr double kAlignedOne = 0.02, kTurnedTwo = 0.03, kTurnedThree = 0.01, kRingTwo = 0.07, kRingThree = 0.02;
 constexpr double kRodSix = 0.01, kRodScatter = 0.005;
 constexpr double kOtherNu = 2;
-/// Distance from the calculation that found the cells: one percentage point.
+/// Accepted distance from the calculation with which the cells were designed: one percentage point.
 constexpr double kTableLimit = 0.01;
-/// Kernels against the reference, which has their constants: rounding of float32 at strains of 1e-4.
+/// Kernels against the reference, which has the same constants: rounding of float32 at strains of 1e-4.
 constexpr double kMaterialWallsKernelLimit = 2e-3;
 
-/// A square beam along x under a load across it, cos(2 pi x / length); Timoshenko's compliance.
+/// Returns a square beam along x under a load across it, cos(2 pi x / length), with Timoshenko's compliance.
 Wall beam(double thickness, double length) {
   Wall out;
   out.name = "beam";
@@ -42,7 +42,7 @@ Wall beam(double thickness, double length) {
   return out;
 }
 
-/// A wall made of a body of revolution about z, whose half section is centred on z = 0.
+/// Returns a wall from a body of revolution about z with its half section centred on z = 0.
 Wall revolved(const std::string& name, double thickness, const Revolution& body, const Vector3d& half_m,
               std::function<bool(double r, double z)> inside) {
   Wall out;
@@ -64,7 +64,7 @@ Wall revolved(const std::string& name, double thickness, const Revolution& body,
   return out;
 }
 
-/// Between two radii, of a length along z.
+/// Returns a tube between two radii, with a length along z.
 Wall tube(const std::string& name, double inner, double outer, double length, double thickness, int waves,
           std::function<Vector3d(double r, double z)> load) {
   Revolution body;
@@ -77,12 +77,13 @@ Wall tube(const std::string& name, double inner, double outer, double length, do
                   [=](double r, double z) { return r < outer && r >= inner && std::abs(z) < length / 2; });
 }
 
-/// Ovalised: wall 4 of a tube of radius 15, length 8.
+/// Returns a ring that is ovalised: wall 4 of a tube of radius 15, length 8.
 Wall ring() {
   return tube("ring", 11, 15, 8, 4, 2, [](double, double) { return Vector3d(1, 0, 0); });
 }
 
-/// Bent as a beam. A load across z has a radial part with cos theta and one around with -sin theta.
+/// Returns a tube that is bent as a beam. A load across z has a radial component with cos theta and a circumferential
+/// one with -sin theta.
 Wall bentTube(const std::string& name, double inner, double outer, double length, double thickness) {
   return tube(name, inner, outer, length, thickness, 1, [length](double, double z) {
     const double c = std::cos(2 * M_PI * z / length);
@@ -90,14 +91,14 @@ Wall bentTube(const std::string& name, double inner, double outer, double length
   });
 }
 
-/// A round plate, bent by a load along its axis.
+/// Returns a round plate that a load along its axis bends.
 Wall plate() {
   constexpr double kRadius = 8, kThickness = 2;
   return tube("plate", 0, kRadius, kThickness, kThickness, 0,
               [](double r, double) { return Vector3d(0, 0, 1 - 2 * r * r / (kRadius * kRadius)); });
 }
 
-/// A sphere of mean radius 40 and wall 8, pinched by two caps of 25 degrees.
+/// Returns a sphere of mean radius 40 and wall 8, pinched at two caps of 25 degrees.
 Wall shell() {
   constexpr double kRadius = 40, kWall = 8, kCap = 25 * M_PI / 180;
   Revolution body;
@@ -115,7 +116,8 @@ Wall shell() {
                   [](double r, double z) { return std::abs(std::hypot(r, z) - kRadius) < kWall / 2; });
 }
 
-/// Half a sphere of mean radius 30 and wall 3, its rim square to the wall; ovalised, or a whole one under pressure.
+/// Returns half a sphere of mean radius 30 and wall 3, with its rim perpendicular to the wall; ovalised, or a whole
+/// sphere under pressure.
 Wall bowl(bool whole) {
   constexpr double kRadius = 30, kWall = 3;
   Revolution body;
@@ -141,11 +143,11 @@ Wall bowl(bool whole) {
 /// One kind of wall at one thickness.
 struct Row {
   Wall wall;
-  double cells;  ///< that its thickness is
+  double cells;  ///< thickness in cells
   bool turn;
   double nu = 0.25;
-  double limit = 0;                  ///< of |compliance / true - 1|; 0: shown only
-  std::optional<double> table = {};  ///< what the calculation found, to be met within kTableLimit
+  double limit = 0;                  ///< limit of |compliance / true - 1|; 0: shown only
+  std::optional<double> table = {};  ///< result of the design calculation, to be met within kTableLimit
 };
 
 std::string labelOf(const Row& row) {
@@ -202,7 +204,7 @@ std::vector<Row> rods(bool short_form) {
   return out;
 }
 
-/// Runs rows with random shifts, and checks what is asked of the default material.
+/// Runs rows with random shifts, and checks the limits of the default material.
 class WallTests {
  public:
   explicit WallTests(Report& report) : report_(report), table_(tableFor(report.backends())) {}
@@ -288,7 +290,7 @@ class WallTests {
   std::vector<double> worst_kernel_ = std::vector<double>(report_.backends().size());
 };
 
-/// Places on the middle of a ring's wall, all around and closed.
+/// Returns positions on the mid-surface of a ring's wall, around the whole ring and closed.
 std::vector<Vector3d> ringMiddle() {
   constexpr int kPlaces = 96;
   constexpr double kRadius_m = 13;
@@ -300,7 +302,7 @@ std::vector<Vector3d> ringMiddle() {
   return out;
 }
 
-/// Displacements less the motion in the plane that bends nothing.
+/// Returns displacements without the rigid motion in the plane.
 Field withoutTurn(const std::vector<Vector3d>& places, Field moved) {
   Vector3d mean = Vector3d::Zero();
   double turn = 0, count = 0;
@@ -317,8 +319,8 @@ Field withoutTurn(const std::vector<Vector3d>& places, Field moved) {
   return moved;
 }
 
-/// What a tube of one cell looks like when it is ovalised: the finer one's motion is drawn as a fifth of the radius,
-/// all others as many times too large.
+/// Draws the shape of an ovalised tube of one cell. The motion of the finer one is scaled to a fifth of the radius, all
+/// others by the same factor.
 void drawRing(Report& report, bool is_turned) {
   const std::string placed = is_turned ? "turned" : "aligned";
   report.stage("walls, the shape of a ring, " + placed);
@@ -332,7 +334,7 @@ void drawRing(Report& report, bool is_turned) {
   double scale = 0;
   const auto add = [&](const std::string& name, double cells, Series::Style style) {
     const Field bent = bendWall(wall, placing, wall.thickness_m / cells, 0.25, {}, places).moved_m;
-    if (bent.empty()) return;  // fallen apart
+    if (bent.empty()) return;  // the lattice falls apart
     const Field moved = withoutTurn(places, bent);
     if (scale == 0) scale = 0.2 * places[0].norm() / largestNorm(moved);
     Series series{name, {}, {}, style};

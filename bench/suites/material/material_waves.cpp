@@ -12,37 +12,38 @@ namespace viscera::bench {
 
 namespace {
 
-// A plane wave is exact in an unbounded lattice only: at a free side the tissue widens. But one substep carries news
-// from a node to the next and no farther, so in a free block a node d nodes from the surface moves for d substeps
-// exactly as in an unbounded lattice. Only those are looked at.
+// A plane wave is exact in an unbounded lattice only: at a free side the tissue widens. But a substep transmits changes
+// to adjacent nodes only. So in a free block, a node d nodes from the surface moves for d substeps exactly as in an
+// unbounded lattice. Only those nodes are evaluated.
 constexpr int kSubsteps = 12;
 constexpr double kMaterialWavesStrain = 1e-5;    ///< so small that springs and cells are linear
-constexpr double kMaterialWavesPhaseStep = 1.5;  ///< between samples, at most
+constexpr double kMaterialWavesPhaseStep = 1.5;  ///< largest phase between samples
 constexpr double kMaterialWavesLimit = 1e-4;     ///< issue 3: relative
 
 struct Wave {
-  int axis;  ///< of the displacement: 2 longitudinal, 0 transverse; it travels along z
+  int axis;  ///< axis of the displacement: 2 longitudinal, 0 transverse; the wave travels along z
   double q;  ///< wave number times spacing
 };
 
-/// E for which mu h = 1 N/m at h = 1 m.
+/// Returns a material with mu h = 1 N/m at h = 1 m.
 MaterialConfig waveMaterial(double nu) {
   MaterialConfig material = withPoisson(unitMaterial(), nu);
   material.young_modulus_pa = 2 * (1 + nu);
   return material;
 }
 
-/// Long-wave speed [m/s]: c_p or c_s, with mu = rho = 1.
+/// Returns the long-wave speed [m/s]: c_p or c_s, with mu = rho = 1.
 double speedOf(double nu, const Wave& wave) {
   return wave.axis == 2 ? std::sqrt(2 + 2 * nu / (1 - 2 * nu)) : 1;
 }
 
-/// Of the lattice: along an axis a row of cells, of springs or of a law, is a chain of springs c^2 m/h^2.
+/// Returns the lattice's frequency: along an axis a row of cells, of springs or of a law, is a chain of springs c^2
+/// m/h^2.
 double formula(double nu, const Wave& wave) {
   return 2 * speedOf(nu, wave) * std::sin(wave.q / 2);
 }
 
-/// A free block of cells and the solver on it, for one nu.
+/// A free block of cells and its solver, for one nu.
 class WaveTank {
  public:
   WaveTank(Backend backend, double nu, int cells)
@@ -56,7 +57,7 @@ class WaveTank {
     }
   }
 
-  /// Frequency of a standing wave [rad/s]. @param expected  about as much
+  /// Returns the frequency of a standing wave [rad/s]. @param expected  approximate value
   double measure(const Wave& wave, double expected) {
     const double phase = phasePerSubstep(expected, solver_->dt_s());
     const int stride = std::clamp(static_cast<int>(kMaterialWavesPhaseStep / phase), 1, kSubsteps / 2);
@@ -71,7 +72,7 @@ class WaveTank {
   }
 
  private:
-  /// Largest in the middle of the block.
+  /// Returns a standing wave with its maximum at the centre of the block.
   Field standing(const Wave& wave) const {
     const Lattice& lattice = model_.bodies[0].lattice;
     Field u(model_.slots(), Vector3d::Zero());
@@ -88,17 +89,17 @@ class WaveTank {
   }
 
   Model model_;
-  std::unique_ptr<Ticks> solver_;
+  std::unique_ptr<TissueStepper> solver_;
   int middle_;
-  std::vector<uint32_t> inner_;  ///< slots that know nothing of the surface yet
+  std::vector<uint32_t> inner_;  ///< slots that the surface does not affect yet
 };
 
-/// Measures waves of every kind on one backend: rows of the table, points of the diagram.
+/// Measures all kinds of waves on one backend: rows of the table, points of the diagram.
 class WaveTests {
  public:
   WaveTests(Report& report, Table& table) : report_(report), table_(table) {}
 
-  /// @return points of longitudinal and transverse waves
+  /// Measures a backend. @return points of longitudinal and transverse waves
   std::array<Series, 2> run(Backend backend) {
     const bool brief = report_.isShort();
     std::array<Series, 2> found = {{{nameOf(backend) + ": longitudinal, all nu", {}, {}, Series::Style::kPoints},

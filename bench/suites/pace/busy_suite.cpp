@@ -17,20 +17,20 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// On two cores, two threads over the same in an idle machine. One thread of three at a lower priority takes next to
-// nothing; two of four of the same priority leave half.
+// Least rates of two threads on two cores, relative to an idle machine. One competing thread of low priority takes next
+// to nothing; two of equal priority leave half.
 constexpr double kBesideLow = 0.9, kBesideTwo = 0.45;
-// Two threads over one under the same load: at least what one has, but for what trying the other number costs
-// (helping_threads.h) and what two measurements under load differ by.
+// Least ratio of two threads to one under the same load. Two should be no slower, except for the cost of trying the
+// other number (thread_count_tuner.h) and the variation between two measurements under load.
 constexpr double kAlone = 0.95;
-constexpr double kSettle_s = 0.3;  // until the system has spread what is new over the processors
+constexpr double kSettle_s = 0.3;  // time for the system to distribute new processes over the cores
 constexpr int kRounds = 2;
-constexpr double kWarmUp_s = 1.5;  // until the heart hangs and swings as it does later
+constexpr double kWarmUp_s = 1.5;  // time for the heart to sag and oscillate as later
 constexpr double kSwing_m = 0.002, kDepth_m = 0.003, kTurn = 6.283185307179586;
 
 struct Busy {
   Load load;
-  double least_of_idle = 0;  ///< two threads; 0: not judged
+  double least_of_idle = 0;  ///< for two threads; 0: not checked
 };
 
 std::vector<Busy> loadsOf(bool short_form) {
@@ -42,7 +42,7 @@ std::vector<Busy> loadsOf(bool short_form) {
   return out;
 }
 
-/// The scene `heart` of the demo.
+/// Returns the scene `heart` of the demo.
 Scene demoScene() {
   Scene scene = pigHeartScene(1000, 0.1);
   BodyConfig heart;
@@ -56,7 +56,7 @@ Scene demoScene() {
   return scene;
 }
 
-/// The scene stepped on so many threads, with a probe that goes in and out of the heart's side.
+/// The scene with a number of threads and a probe that moves in and out of the heart's side.
 class Stepping {
  public:
   Stepping(const Model& model, Scene scene, int threads, std::string name) : name_(std::move(name)) {
@@ -80,7 +80,7 @@ class Stepping {
     seconds_ += took.count();
     substeps_ += static_cast<double>(solver_->substepsDone() - before);
   }
-  /// Substeps per second since the last time.
+  /// Returns the substeps per second since the last call.
   double takeRate() {
     const double rate = substeps_ / seconds_;
     substeps_ = seconds_ = 0;
@@ -105,7 +105,7 @@ class Stepping {
   Vector3d side_m_, tip_m_;
 };
 
-/// Substeps per second of each, in turn.
+/// Returns the substeps per second of each, measured in turn.
 std::vector<double> ratesOf(std::vector<Stepping>& ways, double seconds) {
   for (int round = 0; round < kRounds; ++round) {
     for (Stepping& way : ways) way.run(seconds);
@@ -132,7 +132,7 @@ void busySuite(Report& report) {
     way.takeRate();
   }
   Table table(
-      "heart of " + std::to_string(model.activeNodes()) + " nodes, a probe in it, beside busy processes, on " +
+      "heart of " + std::to_string(model.activeNodes()) + " nodes with a probe in it, next to busy processes, on " +
           std::to_string(there) + " processors",
       {{"busy processes"}, {"stepped by"}, {"rate", "substeps/s", 3}, {"over idle", "", 2}, {"over 1 thread", "", 2}});
   std::vector<double> idle;

@@ -6,18 +6,18 @@
 #include "bench/harness/rate.h"
 #include "bench/harness/specimens/specimen.h"
 #include "bench/suites/pace/cut_parts.h"
-#include "solver/ticks/ticks.h"
+#include "solver/ticks/tissue_stepper.h"
 #include "viscera/session/session.h"
 
 namespace viscera::bench {
 
 namespace {
 
-constexpr double kSofter = 0.25;     // so that four substeps are a tick of 1 ms, the shortest there is
-constexpr int kSubsteps = 4;         // per picture, as the paper's
-constexpr double kLongest_m = 0.08;  // of the incision: from below the held top to the apex
-constexpr double kDeep_m = 0.045;    // of the blade, from the front of the heart inwards
-constexpr double kSlowest = 2;       // a picture of a wounded heart over one of the whole heart, blade away
+constexpr double kSofter = 0.25;     // so that four substeps are a tick of 1 ms, the shortest possible
+constexpr int kSubsteps = 4;         // per image, as in the paper
+constexpr double kLongest_m = 0.08;  // length of the incision: from below the fixed top to the apex
+constexpr double kDeep_m = 0.045;    // depth of the blade, from the front of the heart inwards
+constexpr double kSlowest = 2;       // time of an image of a cut heart relative to an uncut one, with the blade away
 
 Scene incisionScene(int nodes, Backend backend) {
   Scene scene = pigHeartScene(nodes, 0.2);
@@ -33,7 +33,7 @@ Scene incisionScene(int nodes, Backend backend) {
   return scene;
 }
 
-/// A blade that looks into the heart from its front, at a length of the incision.
+/// Returns a blade that points into the heart from its front, at a length of the incision.
 StylusSamples bladeAt(double front_m, double length_m) {
   StylusSamples out;
   out[0].valid = true;
@@ -51,16 +51,16 @@ uint64_t springsOf(const Session& session) {
   return count;
 }
 
-/// Pictures per second, one after every tick, by the median time from a tick's start to its picture.
+/// Returns images per second, one after every tick, by the median time from a tick's start to its image.
 template <class Samples>
 double picturesPerSecond(Session& session, int ticks, Samples samples) {
-  Wants wants;
+  FrameRequest wants;
   wants.cameras = {true};
   std::vector<double> took_s;
   for (int t = 0; t < ticks; ++t) {
     const auto start = std::chrono::steady_clock::now();
     session.step(samples(t), wants);
-    session.drain();  // as the paper: a picture of every four substeps, none is left out
+    session.drain();  // as in the paper: an image after every four substeps, without skipping
     took_s.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   return 1 / median(took_s);
@@ -100,7 +100,7 @@ void measureBackend(Report& report, gpu::Context& context, Backend backend, Tabl
 }  // namespace
 
 void measureIncision(Report& report, gpu::Context& context) {
-  Table table("pictures (640 x 480) per second by length of an incision, four substeps per picture, none left out",
+  Table table("pictures (640 x 480) per second by length of an incision, four substeps per picture, none skipped",
               {{"backend"},
                {"incision", "mm", 3},
                {"springs cut", "%", 3},

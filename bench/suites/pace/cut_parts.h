@@ -7,7 +7,7 @@
 
 namespace viscera::bench {
 
-/// VR05 figure 11 as they did it: pictures of a heart in which a blade draws a longer and longer incision.
+/// Measures VR05 figure 11 by its method: images of a heart in which a blade cuts a growing incision.
 void measureIncision(Report& report, gpu::Context& context);
 
 }  // namespace viscera::bench

@@ -13,9 +13,9 @@ namespace viscera::bench {
 namespace {
 
 constexpr unsigned kSeed = 11;
-constexpr double kDearest = 1.25;  // cost of a node of a body with cuts over that of a whole one
+constexpr double kDearest = 1.25;  // cost of a node of a cut body relative to an uncut one
 
-/// Takes a share of the springs out of a state, from both ends, drawn by lot.
+/// Removes a random share of the springs from a state, at both ends.
 void cutAtRandom(const Lattice& lattice, double share, std::vector<layout::NodeBits>& nodes) {
   std::mt19937 random(kSeed);
   std::uniform_real_distribution<double> draw(0, 1);
@@ -30,8 +30,8 @@ void cutAtRandom(const Lattice& lattice, double share, std::vector<layout::NodeB
 /// One backend with all shares, one after the other, on one solver.
 struct Runner {
   std::string name;
-  std::shared_ptr<Ticks> solver;
-  std::vector<double> rates;  ///< substeps/s by share
+  std::shared_ptr<TissueStepper> solver;
+  std::vector<double> rates;  ///< [shares] substeps/s
 };
 
 void measureShares(Report& report, const Specimen& specimen, const std::vector<double>& shares,
@@ -85,7 +85,7 @@ void cutSuite(Report& report, gpu::Context& context) {
   }
   report.add(table, "shares");
   report.add(plot, "shares");
-  report.checkAtMost("cut over whole body, cost at the dearest share, cpu", dearest, kDearest);
+  report.checkAtMost("cut over whole body, cost at the most expensive share, cpu", dearest, kDearest);
 }
 
 }  // namespace viscera::bench

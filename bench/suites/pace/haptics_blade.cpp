@@ -15,22 +15,22 @@ namespace viscera::bench {
 namespace {
 
 constexpr double kLength_m = 0.06, kAcross_m = 0.04, kThick_m = 0.012, kSpacing_m = 0.004, kOver_m = 0.003;
-constexpr double kTip_m = 0.008;       ///< for the model's first guess of a stiffness
+constexpr double kTip_m = 0.008;       ///< size for the model's initial stiffness [m]
 constexpr double kGivesWay_m = 0.003;  ///< J / E
-constexpr double kActive_mj = 1;       ///< energy that the loop may give beyond what it got
-constexpr double kLevel = 0.1;         ///< of J w
-constexpr double kStatic = 0.02;       ///< of the simulator's force, held
+constexpr double kActive_mj = 1;       ///< energy that the loop may give in addition to what it received
+constexpr double kLevel = 0.1;         ///< relative to J w
+constexpr double kStatic = 0.02;       ///< relative to the simulator's force, while held
 
-/// What is judged; the others are to be seen in the table: softened stiffness creeps up (docs/haptics.md 4).
+/// Range of the checks; other cases are shown in the table: softened stiffness creeps up (docs/haptics.md 4).
 constexpr double kSwift_hz = 1000, kShort_s = 0.002, kLight_kg = 0.5;
 
-/// Where the hand wants the edge, in front of the block's face or in it, at these times [s].
+/// Intended position of the edge at a time [s], in front of the block's face or in it.
 struct Key {
   double time_s, depth_m;
 };
 constexpr Key kWay[] = {{0, -0.01},    {0.4, 0.004},  {1.6, 0.004}, {1.7, 0.006}, {2.9, 0.006},
                         {3.1, 0.0125}, {4.6, 0.0425}, {6, 0.0425},  {6.5, -0.02}, {7, -0.02}};
-constexpr double kFirst_s = 1.6, kSecond_s = 2.9, kLook_s = 0.4;  ///< holds end, and what is looked at of them
+constexpr double kFirst_s = 1.6, kSecond_s = 2.9, kLook_s = 0.4;  ///< ends of the holds, and evaluated time of each
 constexpr double kLevelFrom_s = 3.6, kLevelTo_s = 4.6;            ///< while it cuts
 constexpr double kStops_s = 6, kEnd_s = 7;
 
@@ -46,7 +46,7 @@ struct BladeTrial {
   double young_modulus_pa, toughness_j_per_m2, mass_kg, delay_s, poses_hz;
 };
 
-/// Held on all sides but that where the blade comes in; free above and below.
+/// Returns a block that is fixed on all sides except that where the blade enters; free above and below.
 Scene sceneOf(const BladeTrial& trial) {
   Scene scene;
   scene.environment.gravity_m_per_s2.setZero();
@@ -85,11 +85,11 @@ class Trial : public HeldTrial {
       look();
     }
   }
-  double stiffness(const Looked LookedHold::*force) const {
+  double stiffness(const Probed ProbedHold::*force) const {
     return ((looks_[1].*force).mean() - (looks_[0].*force).mean()) / (looks_[1].depth.mean() - looks_[0].depth.mean());
   }
-  const LookedHold& level() const { return looks_[2]; }
-  const LookedHold& held() const { return looks_[1]; }
+  const ProbedHold& level() const { return looks_[2]; }
+  const ProbedHold& held() const { return looks_[1]; }
   double least_mj() const { return 1e3 * least_j_; }
   double most_j() const { return most_j_; }
   double observed_mj() const { return 1e3 * loop_.felt(0).least_j; }
@@ -113,11 +113,11 @@ class Trial : public HeldTrial {
   }
 
   double least_j_ = 0, most_j_ = 0;
-  LookedHold looks_[3];
+  ProbedHold looks_[3];
 };
 
 Table tableOf() {
-  return Table("a device in a hand pushes a blade into 12 mm of tissue: two holds while the edge is stuck, a cut, out",
+  return Table("a held device pushes a blade into 12 mm of tissue: two holds while the edge sticks, a cut, and out",
                {{"tissue", "kPa", 3},
                 {"J", "J/m2", 3},
                 {"delay", "ms", 3},
@@ -155,7 +155,7 @@ void hapticsBlade(Report& report) {
           const double level = run.level().force.mean() / unit_n;
           const double swing = (run.level().force.most - run.level().force.least) / unit_n;
           table.add({young_modulus_pa / 1e3, trial.toughness_j_per_m2, 1e3 * delay_s, mass_kg, poses_hz,
-                     run.stiffness(&LookedHold::force), run.stiffness(&LookedHold::ticks), 100 * held,
+                     run.stiffness(&ProbedHold::force), run.stiffness(&ProbedHold::ticks), 100 * held,
                      run.level().force.mean(), level, run.level().ticks.mean() / unit_n, swing, run.least_mj(),
                      run.observed_mj(), 1e3 * run.most_j()});
           if (poses_hz < kSwift_hz || delay_s > kShort_s || mass_kg > kLight_kg) continue;

@@ -6,8 +6,8 @@
 
 namespace viscera::bench {
 
-/// A device in a hand pushes a blade into tissue that resists it (docs/cutting.md): stiff while the edge is stuck,
-/// level while it cuts, passive.
+/// Measures a held device that pushes a blade into tissue that resists it (docs/cutting.md): stiff while the edge is
+/// stuck, constant while it cuts, passive.
 void hapticsBlade(Report& report);
 
 }  // namespace viscera::bench

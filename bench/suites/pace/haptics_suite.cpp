@@ -12,13 +12,13 @@
 namespace viscera::bench {
 namespace {
 
-/// What is asked of every cell of the matrix.
-constexpr double kStaticError = 0.02;  ///< of the simulator's force
-constexpr double kFelt_n = 0.05;       ///< of needles and threads: held forces below that are not judged by their share
-constexpr double kFree_n = 0.05;       ///< what a hand in free motion may be told
-constexpr double kHapticsActive_mj = 1;    ///< energy that the loop may give beyond what it got
-constexpr double kHapticsSwift_hz = 1000;  ///< poses of a driver that keeps pace with the loop
-/// A swing that is larger in both is a limit cycle: what a fingertip notices, and two steps of the encoder.
+/// Limits for every cell of the matrix.
+constexpr double kStaticError = 0.02;      ///< relative to the simulator's force
+constexpr double kFelt_n = 0.05;           ///< least held force of needles and sutures that is checked
+constexpr double kFree_n = 0.05;           ///< largest force in free motion
+constexpr double kHapticsActive_mj = 1;    ///< energy that the loop may give in addition to what it received
+constexpr double kHapticsSwift_hz = 1000;  ///< rate of a driver that is as fast as the loop
+/// An oscillation that exceeds both is a limit cycle: the threshold of a fingertip, and two steps of the encoder.
 constexpr double kSwing_n = 0.05, kSwing_mm = 0.02;
 
 bool cycles(const HapticOutcome& outcome) {
@@ -32,17 +32,17 @@ struct Matrix {
 
 const std::vector<double> kPoses_hz = {1000, 250, 100, 60};
 
-/// Of Young's modulus, the stiffest [kPa]: felt at 660 N/m by the ball, which is what the loop is made for. Stiffer
-/// tissue is for a swift driver (docs/haptics.md 6).
+/// Largest Young's modulus [kPa]: the ball feels it as 660 N/m, for which the loop is designed. Stiffer tissue needs a
+/// fast driver (docs/haptics.md 6).
 constexpr double kStiffest_kpa = 60;
 
-/// Every device and every tissue, by drivers of four rates.
+/// Returns every device and every tissue, with drivers of four rates.
 Matrix matrixOf(bool short_form) {
   if (short_form) return {{1, kStiffest_kpa}, {0, 10}, {0.05, 2}, {1000, 100}};
   return {{1, 10, 30, kStiffest_kpa}, {0, 2, 5, 10}, {0.05, 0.2, 0.7, 2}, kPoses_hz};
 }
 
-/// What may befall a hand in contact.
+/// Returns the events during contact.
 Matrix eventsOf(bool short_form) {
   const std::vector<HapticEvent> all = {HapticEvent::kStall, HapticEvent::kLeap, HapticEvent::kClutch,
                                         HapticEvent::kUnheard};
@@ -82,8 +82,8 @@ void add(Table& table, const HapticTrial& trial, const HapticOutcome& outcome, c
 /// The worst of all cells.
 struct Worst {
   double error = 0, free_n = 0;
-  double swift_mj = 0;  ///< least energy by a driver as swift as the loop
-  double least_mj = 0;  ///< by any, beyond what no loop could hear of
+  double swift_mj = 0;  ///< least energy with a driver as fast as the loop
+  double least_mj = 0;  ///< least energy with any driver, beyond what no loop could avoid
   int cycling = 0;
   void note(double poses_hz, const HapticOutcome& outcome) {
     error = std::max(error, outcome.static_error);
@@ -94,7 +94,7 @@ struct Worst {
   }
 };
 
-/// One tissue behind one delay, by one driver: all masses.
+/// Measures one tissue with one delay and one driver, for all masses.
 void measure(const Matrix& matrix, const HapticTrial& of_all, Table& table, Worst& worst, Series& series) {
   for (double mass : matrix.mass_kg) {
     HapticTrial trial = of_all;
@@ -107,8 +107,8 @@ void measure(const Matrix& matrix, const HapticTrial& of_all, Table& table, Wors
   }
 }
 
-/// All cells at a rate.
-/// @param swings  of the stiffest tissue, a curve per delay; of the swiftest driver
+/// Measures all cells at a rate.
+/// @param swings  plot of the stiffest tissue with the fastest driver, a curve per delay
 Worst measure(Report& report, const Matrix& matrix, double rate_hz, Table& table, Plot& swings) {
   Worst worst;
   HapticTrial trial;
@@ -135,13 +135,13 @@ Worst measure(Report& report, const Matrix& matrix, double rate_hz, Table& table
   return worst;
 }
 
-/// Fewer cells than of a probe: a trial has three holds and more.
+/// Returns fewer cells than for a probe, since a trial has three or more holds.
 Matrix sutureOf(bool short_form) {
   if (short_form) return {{100}, {10}, {0.1, 2}, {1000, 100}};
   return {{1, 10, 100}, {0, 2, 10}, {0.05, 0.2, 2}, {1000, 100}};
 }
 
-/// A needle or a thread, at all stages of its way. A force that is too small to be felt has no share that is off.
+/// Measures a needle or a suture at all stages of its stroke. Forces that are too small to feel have no relative error.
 Worst measureSuture(Report& report, HapticTool tool, const char* name, Table& table) {
   Worst worst;
   const Matrix matrix = sutureOf(report.isShort());
@@ -179,7 +179,7 @@ void suture(Report& report, HapticTool tool, const char* name, const std::string
   report.checkAtMost(what + "static force off the simulator's [1]", worst.error, kStaticError);
   report.checkAtLeast(what + "least energy that a device has given, poses of 1000 Hz [mJ]", worst.swift_mj,
                       -kHapticsActive_mj);
-  report.checkAtLeast(what + "the same, any poses, beyond what a loop so late can hear of [mJ]", worst.least_mj,
+  report.checkAtLeast(what + "the same, any poses, beyond the delay of the loop [mJ]", worst.least_mj,
                       -kHapticsActive_mj);
   report.checkAtMost(what + "force in free motion [N]", worst.free_n, kFree_n);
 }
@@ -191,14 +191,14 @@ void needle(Report& report) {
       "and drawn back out");
 }
 
-void thread(Report& report) {
-  suture(report, HapticTool::kThread, "thread",
-         "the same device pulls a thread, its other end held, against a bite of six channels in 9 mm of tissue");
+void suture(Report& report) {
+  suture(report, HapticTool::kSuture, "suture",
+         "the same device pulls a suture, its other end held, against a bite of six channels in 9 mm of tissue");
 }
 
 void probe(Report& report) {
   Plot swings;
-  swings.title = "what a held device goes on to swing by, tissue of 60 kPa";
+  swings.title = "remaining oscillation of a held device, tissue of 60 kPa";
   swings.x_label = "mass of the device [kg]";
   swings.y_label = "half of peak to peak [N]";
   swings.log_x = swings.log_y = true;
@@ -211,12 +211,12 @@ void probe(Report& report) {
 
   Plot none;
   Table befallen = tableOf(
-      "what befalls it in contact: 150 ms without ticks and the hand 3 cm away; the base 15 mm "
-      "higher and back; the clutch; a driver that is away for 150 ms");
+      "events in contact: 150 ms without ticks and the hand 3 cm away; the base 15 mm "
+      "higher and back; the clutch; a driver that stops for 150 ms");
   const Worst events = measure(report, eventsOf(report.isShort()), 1000, befallen, none);
   report.add(befallen, "events");
 
-  Table plain = tableOf("the first with the ticks' forces as they come, once per tick");
+  Table plain = tableOf("the first, with the forces of ticks, once per tick");
   const Matrix some = report.isShort() ? Matrix{{kStiffest_kpa}, {0}, {0.05}, {1000}}
                                        : Matrix{{10, kStiffest_kpa}, {0, 10}, {0.05, 0.2, 0.7, 2}, {1000}};
   const Worst without = measure(report, some, 0, plain, swings);
@@ -227,20 +227,18 @@ void probe(Report& report) {
   report.checkAtMost("static force off the simulator's [1]", worst.error, kStaticError);
   report.checkAtLeast("least energy that a device has given, poses of 1000 Hz [mJ]", worst.swift_mj,
                       -kHapticsActive_mj);
-  report.checkAtLeast("the same, any poses, beyond what a loop so late can hear of [mJ]", worst.least_mj,
-                      -kHapticsActive_mj);
+  report.checkAtLeast("the same, any poses, beyond the delay of the loop [mJ]", worst.least_mj, -kHapticsActive_mj);
   report.checkAtMost("force in free motion [N]", worst.free_n, kFree_n);
   report.checkAtMost("limit cycles after events", events.cycling, 0);
   report.checkAtMost("static force off the simulator's after events [1]", events.error, kStaticError);
-  report.checkAtLeast("least energy in events, beyond what a loop so late can hear of [mJ]", events.least_mj,
-                      -kHapticsActive_mj);
-  report.checkAtLeast("limit cycles without the local model, of those tried", without.cycling, 1);
+  report.checkAtLeast("least energy in events, beyond the delay of the loop [mJ]", events.least_mj, -kHapticsActive_mj);
+  report.checkAtLeast("limit cycles without the local model, of those tested", without.cycling, 1);
 }
 
 }  // namespace
 
 void hapticsSuite(Report& report) {
-  measureParts(report, {{"probe", probe}, {"blade", hapticsBlade}, {"needle", needle}, {"thread", thread}});
+  measureParts(report, {{"probe", probe}, {"blade", hapticsBlade}, {"needle", needle}, {"suture", suture}});
 }
 
 }  // namespace viscera::bench

@@ -6,8 +6,8 @@
 
 namespace viscera::bench {
 
-/// The local model at 1 kHz between simulated devices and tissue (docs/haptics.md): what is felt, limit cycles, energy,
-/// over masses, delays and tissues.
+/// Measures the local model at 1 kHz between simulated devices and tissue (docs/haptics.md): forces, limit cycles and
+/// energy, over masses, delays and tissues.
 void hapticsSuite(Report& report);
 
 }  // namespace viscera::bench

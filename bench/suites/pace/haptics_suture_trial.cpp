@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Needles and threads that a device leads.
+// Needles and sutures that a device moves.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -14,27 +14,27 @@ namespace {
 
 constexpr double kHapticsSutureTrialSpacing_m = 0.003, kHapticsSutureTrialThick_m = 0.009,
                  kHapticsSutureTrialTip_m = 0.006;
-constexpr double kNeedle_m = 0.02;    ///< radius of its arc: a large one, as it is led without being turned
-constexpr double kHandOver_m = 0.02;  ///< a thread's end over the skin, where it is just taut
+constexpr double kNeedle_m = 0.02;    ///< radius of its arc: large, because the device does not rotate it
+constexpr double kHandOver_m = 0.02;  ///< height of a suture's end over the surface at which it is just taut
 constexpr double kHapticsSutureTrialSettle_s = 1.5, kRings = 6, kHapticsSutureTrialLook_s = 0.4, kLeft_s = 0.05;
-constexpr double kMotion_m_per_s = 0.09;  ///< on the way out
+constexpr double kMotion_m_per_s = 0.09;  ///< speed while retracting
 
-/// Where the hand wants the tip over the skin, or a thread's end over where it is taut [m].
+/// Intended height of the tip over the surface, or of a suture's end over its taut position [m].
 struct HapticsSutureTrialKey {
   double time_s, height_m;
 };
-/// What is looked at: the end of a hold, or largest forces of a time.
+/// A time span that is evaluated: the end of a hold, or the largest forces of a motion.
 struct Span {
   const char* name;
   bool held;
   double from_s, to_s;
 };
 
-/// A way, and what is looked at of it.
+/// A stroke, and the time spans that are evaluated.
 struct Plan {
   std::vector<HapticsSutureTrialKey> way;
   std::vector<Span> spans;
-  double touches_s = 0, left_s = 0;  ///< free before and after
+  double touches_s = 0, left_s = 0;  ///< the tool is free before and after
 
   double now_s() const { return way.back().time_s; }
   void go(double to_m, double m_per_s) {
@@ -87,7 +87,7 @@ Plan planOf(HapticTool tool, double settle_s) {
   return out;
 }
 
-/// A slab that is fixed at its four sides, and free above and below.
+/// Returns a slab that is fixed at its four sides, and free above and below.
 BodyConfig slab(double young_modulus_pa) {
   BodyConfig body;
   body.source = TissueSource::kBox;
@@ -107,28 +107,28 @@ Vector3d tipAt(HapticTool tool, double height_m) {
   return {0.006, 0, kHandOver_m + height_m};
 }
 
-/// Its tip heads down, where the device is at first.
-void addNeedle(ThreadConfig& thread) {
-  const double sideways_m = kNeedle_m * std::sqrt(0.5);  // of its tail, from the middle of its circle
-  thread.needle.arc = NeedleArc::kThreeEighths;
-  thread.needle.radius_m = kNeedle_m;
-  thread.needle.rotation_deg = Vector3d(180, 0, 0);
-  thread.position_m = tipAt(HapticTool::kNeedle, 0.012) + Vector3d(-kNeedle_m - sideways_m, 0, sideways_m);
-  thread.path.push_back({thread.position_m + Vector3d(0, 0, 0.04)});
+/// Adds a needle with its tip pointing down, at the device's initial position.
+void addNeedle(SutureConfig& suture) {
+  const double sideways_m = kNeedle_m * std::sqrt(0.5);  // of its tail, from the centre of its circle
+  suture.needle.arc = NeedleArc::kThreeEighths;
+  suture.needle.radius_m = kNeedle_m;
+  suture.needle.rotation_deg = Vector3d(180, 0, 0);
+  suture.position_m = tipAt(HapticTool::kNeedle, 0.012) + Vector3d(-kNeedle_m - sideways_m, 0, sideways_m);
+  suture.path.push_back({suture.position_m + Vector3d(0, 0, 0.04)});
 }
 
-/// One end held beside a bite of 9 mm, the other over it.
-void addBite(ThreadConfig& thread) {
-  thread.start = ThreadEnd::kFixed;
-  thread.position_m = Vector3d(-0.009, 0, 0.004);
-  thread.path.push_back({Vector3d(-0.0045, 0, 0.0008)});
+/// Adds a suture with one end fixed next to a bite of 9 mm, the other above it.
+void addBite(SutureConfig& suture) {
+  suture.start = SutureEnd::kFixed;
+  suture.position_m = Vector3d(-0.009, 0, 0.004);
+  suture.path.push_back({Vector3d(-0.0045, 0, 0.0008)});
   for (const Vector3d& mm : {Vector3d(-4.5, 0, -0.7), Vector3d(-4, 0, -3.5), Vector3d(-1.5, 0, -5.8),
                              Vector3d(1.5, 0, -5.8), Vector3d(4, 0, -3.5), Vector3d(4.5, 0, -0.7)}) {
-    thread.path.push_back({1e-3 * mm});
-    thread.channels.push_back({"", 1e-3 * mm});
+    suture.path.push_back({1e-3 * mm});
+    suture.channels.push_back({"", 1e-3 * mm});
   }
-  thread.path.push_back({Vector3d(0.0045, 0, 0.0008)});
-  thread.path.push_back({tipAt(HapticTool::kThread, 0)});
+  suture.path.push_back({Vector3d(0.0045, 0, 0.0008)});
+  suture.path.push_back({tipAt(HapticTool::kSuture, 0)});
 }
 
 Scene sceneOf(const HapticTrial& trial) {
@@ -138,14 +138,14 @@ Scene sceneOf(const HapticTrial& trial) {
   const bool needle = trial.tool == HapticTool::kNeedle;
   scene.styluses.resize(1);
   scene.styluses[0].idle = needle ? ToolMode::kNeedle : ToolMode::kGrab;
-  ThreadConfig thread;
-  thread.material = ThreadMaterial::kSilk;
-  thread.usp = ThreadSize::kUsp4;
+  SutureConfig suture;
+  suture.material = SutureMaterial::kSilk;
+  suture.usp = SutureSize::kUsp4;
   if (needle)
-    addNeedle(thread);
+    addNeedle(suture);
   else
-    addBite(thread);
-  scene.threads.push_back(thread);
+    addBite(suture);
+  scene.sutures.push_back(suture);
   scene.solver.backend = Backend::kCpu;
   scene.solver.threads = 1;
   return scene;
@@ -184,7 +184,7 @@ class SutureTrial : public HeldTrial {
            kRings * 2 * device.mass_kg / (device.damping_n_s_per_m + device.hand_damping_n_s_per_m);
   }
 
-  /// How far the tip is in, or the thread pulled.
+  /// Returns the depth of the tip, or the displacement of the pulled suture.
   double depth_m() const {
     const double height_m = device_.position_m().z() - tipAt(trial_.tool, 0).z();
     return trial_.tool == HapticTool::kNeedle ? -height_m : height_m;
@@ -203,11 +203,11 @@ class SutureTrial : public HeldTrial {
   }
 
   HapticOutcome outcomeOf(size_t s) const {
-    const LookedHold& look = looks_[s];
+    const ProbedHold& look = looks_[s];
     HapticOutcome out;
     out.least_energy_mj = 1e3 * least_j_;
     out.free_n = free_n_;
-    const ForceLoop::Felt felt = loop_.felt(0);
+    const ForceLoop::HapticStats felt = loop_.felt(0);
     out.observed_mj = 1e3 * felt.least_j;
     out.share = felt.share;
     double most_held_n = 0;
@@ -231,7 +231,7 @@ class SutureTrial : public HeldTrial {
 
   const HapticTrial trial_;
   const Plan plan_;
-  std::vector<LookedHold> looks_;
+  std::vector<ProbedHold> looks_;
   double least_j_ = 0, free_n_ = 0;
 };
 

@@ -14,12 +14,12 @@ namespace viscera::bench {
 namespace {
 
 constexpr double kHapticsTrialSpacing_m = 0.005, kTop_m = 0.02, kRadius_m = 0.008;
-/// Where the hand wants the tip, m above the surface, at these times [s].
+/// Intended height of the tip above the surface [m] at a time [s].
 struct HapticsTrialKey {
   double time_s, height_m;
 };
 
-/// When an event begins and is over, and when the hand has come back from it [s].
+/// Beginning and end of an event, and the time at which the user has returned from it [s].
 constexpr double kEvent_s = 1.4, kOver_s = kEvent_s + 0.15, kReturns_s = kOver_s + 0.2, kBack_s = kReturns_s + 1.5;
 constexpr double kAway_m = 0.03, kBaseLeap_m = 0.015;
 
@@ -27,7 +27,7 @@ bool goesAway(HapticEvent event) {
   return event != HapticEvent::kNone && event != HapticEvent::kLeap;
 }
 
-/// @param settle_s  how long a hold takes
+/// Returns the user's stroke. @param settle_s  duration of a hold
 std::vector<HapticsTrialKey> wayOf(double settle_s, HapticEvent event) {
   std::vector<HapticsTrialKey> way = {{0, 0.012}, {0.2, 0.004}, {0.4, 0.012}, {0.6, 0.003}, {1.1, -0.004}};
   if (event != HapticEvent::kNone) way.push_back({kEvent_s, -0.004});
@@ -45,13 +45,13 @@ std::vector<HapticsTrialKey> wayOf(double settle_s, HapticEvent event) {
     way.push_back(key);
   return way;
 }
-/// Of wayOf(), from its end: where the holds end, and where the hand is free again.
+/// Indices into wayOf(), from its end: the ends of the holds, and the end of the retraction.
 constexpr size_t kHoldEnds[2] = {5, 3}, kOut = 2;
-constexpr double kLeaves_m_per_s = 0.018 / 0.2;  ///< on the way out
-constexpr double kTouches_s = 0.6;               ///< before it the tip is free
-constexpr double kHapticsTrialLeft_s = 0.05;     ///< after the way out the tip is free again
-constexpr double kHapticsTrialLook_s = 0.4;      ///< at the end of a hold
-constexpr double kHapticsTrialSettle_s = 1.5;    ///< a hold, and in it some times of a free device's ringing
+constexpr double kLeaves_m_per_s = 0.018 / 0.2;  ///< speed while retracting
+constexpr double kTouches_s = 0.6;               ///< time before which the tip is free
+constexpr double kHapticsTrialLeft_s = 0.05;     ///< time after the retraction at which the tip is free again
+constexpr double kHapticsTrialLook_s = 0.4;      ///< time at the end of a hold that is evaluated
+constexpr double kHapticsTrialSettle_s = 1.5;    ///< duration of a hold, in addition to the ringing of the device
 constexpr double kHapticsTrialRings = 6;
 
 double heightAt(const std::vector<HapticsTrialKey>& way, double time_s) {
@@ -62,7 +62,7 @@ double heightAt(const std::vector<HapticsTrialKey>& way, double time_s) {
   return way.back().height_m;
 }
 
-/// A slab of tissue on bone.
+/// Returns a slab of tissue on bone.
 Scene hapticsTrialSlab(double young_modulus_pa) {
   Scene scene;
   scene.name = "slab";
@@ -112,14 +112,14 @@ class HapticsTrialRun : public HeldTrial {
   }
   bool within(double from_s, double to_s) const { return now_s_ >= from_s && now_s_ < to_s; }
 
-  /// What is wrong at this moment.
+  /// Applies the event at the current time.
   void befall() {
     const HapticEvent event = trial_.event;
     stalled_ = event == HapticEvent::kStall && within(kEvent_s, kOver_s);
     hand_.listens = event != HapticEvent::kUnheard || !within(kEvent_s, kOver_s);
     clutched_ = event == HapticEvent::kClutch && (within(kEvent_s, kOver_s) || within(kReturns_s, kBack_s));
     const double base_m = event == HapticEvent::kLeap && within(kEvent_s, kReturns_s) ? kBaseLeap_m : 0;
-    if (base_m != base_m_) appears_anew_ = true;
+    if (base_m != base_m_) reappears_ = true;
     base_m_ = base_m;
   }
 
@@ -146,7 +146,7 @@ class HapticsTrialRun : public HeldTrial {
     if (out_.simulator_n > 0) out_.static_error = std::abs(out_.force_n - out_.simulator_n) / out_.simulator_n;
     out_.stiffness_n_per_m =
         (holds_[1].force.mean() - holds_[0].force.mean()) / (holds_[1].depth.mean() - holds_[0].depth.mean());
-    for (const LookedHold& hold : holds_) {
+    for (const ProbedHold& hold : holds_) {
       out_.swing_n = std::max(out_.swing_n, hold.force.swing());
       out_.swing_mm = std::max(out_.swing_mm, 1e3 * hold.depth.swing());
     }
@@ -155,7 +155,7 @@ class HapticsTrialRun : public HeldTrial {
         std::max(holds_[1].force.mean() * kLeaves_m_per_s,
                  goesAway(trial_.event) ? holds_[0].force.mean() * kAway_m / (kOver_s - kEvent_s) : 0);
     out_.unheard_mj = 1e3 * late_s * leaves;
-    const ForceLoop::Felt felt = loop_.felt(0);
+    const ForceLoop::HapticStats felt = loop_.felt(0);
     out_.observed_mj = 1e3 * felt.least_j;
     out_.share = felt.share;
     return out_;
@@ -164,7 +164,7 @@ class HapticsTrialRun : public HeldTrial {
   const HapticTrial trial_;
   const std::vector<HapticsTrialKey> way_;
   HapticOutcome out_;
-  LookedHold holds_[2];
+  ProbedHold holds_[2];
 };
 
 }  // namespace

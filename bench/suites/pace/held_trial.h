@@ -13,8 +13,8 @@
 
 namespace viscera::bench {
 
-/// What was looked at: mean and range.
-struct Looked {
+/// Mean and range of values.
+struct Probed {
   double least = 1e300, most = -1e300, sum = 0;
   int count = 0;
   void add(double value) {
@@ -27,20 +27,20 @@ struct Looked {
   double swing() const { return count ? 0.5 * (most - least) : 0; }
 };
 
-/// Force and depth of a time that is looked at; what the ticks had of it.
-struct LookedHold {
-  Looked force, depth, ticks;
+/// Force and depth in a time span, and the force of the ticks.
+struct ProbedHold {
+  Probed force, depth, ticks;
 };
 
-/// A device in a hand, what its driver tells, the session, and the loop that answers it, all by one clock.
+/// A held device, its driver, the session, and the force loop, all on one simulated clock.
 class HeldTrial {
  protected:
   static constexpr double kPeriod_s = 1e-3;
 
   struct Setting {
     double mass_kg, delay_s, poses_hz;
-    double rate_hz;  ///< of answers; 0: once per tick
-    double size_m;   ///< of the tool, for the model's first guess of a stiffness
+    double rate_hz;  ///< rate of forces [Hz]; 0: once per tick
+    double size_m;   ///< size of the tool, for the model's initial stiffness [m]
   };
 
   HeldTrial(const Scene& scene, const Setting& setting, const Vector3d& tip_m)
@@ -57,7 +57,7 @@ class HeldTrial {
     return out;
   }
 
-  /// The newest pose, of a driver that tells so many a second.
+  /// Updates the newest pose at the rate of the driver.
   void hear() {
     if (now_s_ + 0.5 * kPeriod_s < next_pose_s_) return;
     next_pose_s_ += 1 / setting_.poses_hz;
@@ -71,14 +71,14 @@ class HeldTrial {
     if (now_s_ >= next_tick_s_ && !stalled_) {
       next_tick_s_ = now_s_ + session_.tick_s();
       StylusSamples samples;
-      samples[0].valid = !appears_anew_;
-      appears_anew_ = false;
+      samples[0].valid = !reappears_;
+      reappears_ = false;
       samples[0].pose.position_m = hand_.tip_m;
       const Frame frame = session_.step(samples, {});
       answer_ = {frame.contacts[0].reaction, samples[0].valid && !clutched_, frame.contacts[0]};
       answer_s_ = now_s_ + kComputing * session_.tick_s();
     }
-    hand_.tracked = !clutched_ && !appears_anew_;
+    hand_.tracked = !clutched_ && !reappears_;
     if (answer_s_ < 0 || now_s_ < answer_s_) return;
     loop_.put({answer_}, {hand_}, at(now_s_));
     ticks_n_ = answer_.reaction.force_n.norm();
@@ -101,11 +101,11 @@ class HeldTrial {
   ForceLoop::Hand hand_;
   Vector3d told_n_ = Vector3d::Zero();
   double now_s_ = 0, base_m_ = 0, ticks_n_ = 0;
-  bool stalled_ = false, clutched_ = false, appears_anew_ = false;
+  bool stalled_ = false, clutched_ = false, reappears_ = false;
 
  private:
   static constexpr double kHour_s = 3600, kStallTicks = 3;
-  static constexpr double kComputing = 0.5;  ///< of a tick: then its answer is there
+  static constexpr double kComputing = 0.5;  ///< time to the result of a tick, relative to a tick
 
   ForceLoop::Stylus stylus() const {
     const BodyConfig& body = scene_.bodies[0];

@@ -15,14 +15,14 @@ namespace viscera::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr double kViewedStep = 2;  // a software rasteriser draws on the same cores
+constexpr double kViewedStep = 2;  // a software rasteriser uses the same cores
 constexpr int kWarmUpTicks = 10;
 
-/// Delays [ms] that one session showed.
+/// Delays [ms] of one session.
 struct Delays {
   std::vector<double> force, surface, image;
-  std::vector<double> late;  ///< of a tick's end, after that of the tick before plus a tick
-  std::vector<double> step;  ///< a call of Session::step
+  std::vector<double> late;  ///< end of a tick, relative to that of the previous tick plus a tick
+  std::vector<double> step;  ///< duration of a call of Session::step
 };
 
 double msSince(SteadyTime time) {
@@ -33,7 +33,7 @@ void note(std::vector<double>& delays, SteadyTime pose_received) {
   if (pose_received != SteadyTime{}) delays.push_back(msSince(pose_received));
 }
 
-/// The pose answered last counts once.
+/// Records the delay of a force. Each pose counts once.
 void noteForce(const Frame& frame, SteadyTime& last, std::vector<double>& delays) {
   const SteadyTime pose = frame.poses_received[0];
   if (pose != last) note(delays, pose);
@@ -45,7 +45,7 @@ void notePictures(const Frame& frame, Delays& delays) {
   for (const ImageFrame& image : frame.images) note(delays.image, image.pose_received);
 }
 
-/// Ticks at the scene's rate, as the simulator node makes them: a tick that is late makes the next one start at once.
+/// Runs ticks at the scene's rate, like the simulator node: after a late tick the next one starts at once.
 Delays measureDelays(Session& session, const Pressing& pressing, Wanted wanted, double seconds) {
   const auto tick = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(session.tick_s()));
   const int ticks = kWarmUpTicks + static_cast<int>(std::ceil(seconds / session.tick_s()));

@@ -7,15 +7,15 @@
 
 namespace viscera::bench {
 
-// The suites about speed (docs/benchmarks.md), backends side by side in one run.
+// The suites about speed (docs/benchmarks.md), with both backends in one run.
 
-/// VR05 figure 11: pictures per second by length of an incision; rate by share of springs cut at random.
+/// Measures VR05 figure 11: images per second by length of an incision; rate by share of springs cut at random.
 void cutSuite(Report& report, gpu::Context& context);
-/// From a stylus pose to its force and to its picture; how even ticks are.
+/// Measures the time from a stylus pose to its force and to its image; regularity of ticks.
 void latencySuite(Report& report, gpu::Context& context);
-/// What a picture of moving tissue costs, stage by stage, by antialiasing, and how alike the pictures are.
+/// Measures the cost of an image of moving tissue, by stage and antialiasing, and the similarity of the images.
 void pictureSuite(Report& report, gpu::Context& context);
-/// How fast the demo's heart is stepped beside processes that want the processors too, by threads.
+/// Measures how fast the demo's heart is stepped while other processes use the CPU, by number of threads.
 void busySuite(Report& report);
 
 }  // namespace viscera::bench

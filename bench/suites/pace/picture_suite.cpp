@@ -21,12 +21,12 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kWanted_s = 0.06;  // of a picture on two idle cores without a GPU
+constexpr double kWanted_s = 0.06;  // time of an image on two idle cores without a GPU
 constexpr double kAlike = 0.97;     // structural similarity to the reference
-constexpr double kDent_s = 0.75;    // strokes: a probe goes in
+constexpr double kDent_s = 0.75;    // strokes: a probe moves in
 constexpr double kFlap_s = 6;       // strokes: two cuts are made
 
-/// The scene `heart`, with tools to be seen.
+/// Returns the scene `heart`, with visible tools.
 Scene heartScene() {
   Scene scene = pigHeartScene(1000, 0.1);
   BodyConfig& heart = scene.bodies[0];
@@ -46,7 +46,7 @@ Scene heartScene() {
   return scene;
 }
 
-/// A probe dents the front, then a blade cuts along it twice while the other hand holds on.
+/// A probe dents the front, then a blade cuts along it twice while the other stylus holds the tissue.
 constexpr const char* kStrokes = R"(
 strokes:
   - stylus: left
@@ -76,13 +76,13 @@ strokes:
       - {t_s: 3.7, position_m: [0.03, 0.018, 0.03], rotation_deg: [0, 0, 0], button2: false}
 )";
 
-/// What a picture is made of.
+/// The contents of an image.
 struct Moment {
   StateSnapshot state;
-  Look look;
+  RenderRequest request;
 };
 
-/// States of a session without pictures, one per tick, from a time on.
+/// Returns states of a session without images, one per tick, from a time on.
 std::vector<Moment> momentsOf(Session& session, const Strokes& strokes, const StateMirror& mirror, double from_s,
                               size_t count) {
   std::vector<Moment> out;
@@ -94,16 +94,16 @@ std::vector<Moment> momentsOf(Session& session, const Strokes& strokes, const St
     Moment& moment = out.back();
     moment.state.bricks = mirror.shownBricks();
     session.solver().snapshot(moment.state);
-    moment.look.tick = frame.tick;
-    moment.look.motions = frame.tools;
-    moment.look.cameras = frame.cameras;
-    moment.look.wants.cameras = {true};
-    moment.look.wants.every_image = true;
+    moment.request.tick = frame.tick;
+    moment.request.motions = frame.tools;
+    moment.request.cameras = frame.cameras;
+    moment.request.wants.cameras = {true};
+    moment.request.wants.every_image = true;
   }
   return out;
 }
 
-/// A way to draw. The last one is what others are compared with.
+/// A rendering configuration. The last one is the reference.
 struct Way {
   const char *name, *stem;
   int supersampling;
@@ -115,22 +115,23 @@ constexpr Way kWays[] = {{"automatic", "automatic", 0},
                          {"4 samples a pixel", "4", 2}};
 constexpr size_t kReference = std::size(kWays) - 1;
 
-/// What pictures may have beside, each by itself (docs/detail.md, Looks).
+/// Optional appearance of images, each by itself (docs/surface.md, Looks).
 struct Extra {
   const char *name, *stem;
   void (*add)(CameraConfig&, Body&);
 };
-constexpr Extra kExtras[] = {{"none", "plain", [](CameraConfig&, Body&) {}},
-                             {"none, again", "again", [](CameraConfig&, Body&) {}},
-                             {"distortion", "distortion",
-                              [](CameraConfig& c, Body&) {
-                                c.distortion = {-0.4, 0.2, 0, 0, 0};
-                              }},
-                             {"light: lens", "lens", [](CameraConfig& c, Body&) { c.light = CameraLight::kLens; }},
-                             {"wetness", "wetness", [](CameraConfig&, Body& b) { b.wetness = 0.5; }},
-                             {"contact_shadows", "contact", [](CameraConfig& c, Body&) { c.contact_shadows = 1; }},
-                             {"wall_grain", "walls", [](CameraConfig&, Body& b) { b.wall_grain = 1; }},
-                             {"blanching", "blanching", [](CameraConfig&, Body& b) { b.blanching = 1; }}};
+constexpr Extra kExtras[] = {
+    {"none", "plain", [](CameraConfig&, Body&) {}},
+    {"none, again", "again", [](CameraConfig&, Body&) {}},
+    {"distortion", "distortion",
+     [](CameraConfig& c, Body&) {
+       c.distortion = {-0.4, 0.2, 0, 0, 0};
+     }},
+    {"light: lens", "lens", [](CameraConfig& c, Body&) { c.light = CameraLight::kLens; }},
+    {"specular_wetness", "specular_wetness", [](CameraConfig&, Body& b) { b.specular_wetness = 0.5; }},
+    {"contact_shadows", "contact", [](CameraConfig& c, Body&) { c.contact_shadows = 1; }},
+    {"cut_wall_texture", "walls", [](CameraConfig&, Body& b) { b.cut_wall_texture = 1; }},
+    {"blanching", "blanching", [](CameraConfig&, Body& b) { b.blanching = 1; }}};
 
 /// Draws moments as a view does, on this thread.
 class Painting {
@@ -148,16 +149,16 @@ class Painting {
 
   std::vector<uint8_t> draw(const Moment& moment) {
     Pictures out;
-    Look look = moment.look;
-    if (!tools_) look.motions = {};
+    RenderRequest request = moment.request;
+    if (!tools_) request.motions = {};
     mirror_.upload(moment.state);
     view_->wound(moment.state, moment.state.cut_revision);
-    view_->capture(mirror_.view(), look, out, mirror_.displacements());
+    view_->capture(mirror_.view(), request, out, mirror_.displacements());
     view_->collect(out, true);
     return std::move(out.images.at(0).rgb);
   }
 
-  /// Of a picture, stage by stage, each waited for. [stages] seconds
+  /// Returns the times of an image by stage, each of which is waited for. [stages] seconds
   std::vector<double> stages(const std::vector<Moment>& moments) {
     draw(moments.back());
     const auto clock = gpu::StageClock::waiting();
@@ -170,7 +171,7 @@ class Painting {
  private:
   bool tools_;
   Scene scene_;
-  std::unique_ptr<Model> own_;  ///< of other looks; null: the one that is given
+  std::unique_ptr<Model> own_;  ///< for another appearance; null: the given model
   StateMirror mirror_;
   std::unique_ptr<InlineView> view_;
 };
@@ -183,7 +184,7 @@ constexpr gpu::Stage kStagesOfPictures[] = {gpu::Stage::kUpload,   gpu::Stage::k
 Table stageTable() {
   std::vector<Column> columns = {{"tissue"}, {"way"}, {"sum", "ms", 3}};
   for (const gpu::Stage stage : kStagesOfPictures) columns.push_back({gpu::stageName(stage), "ms", 3});
-  return Table("stages of a picture of 640 x 480, each waited for", columns);
+  return Table("stages of a picture of 640 x 480, waiting for each", columns);
 }
 
 void addStages(Table& table, const std::string& tissue, const Way& way, const std::vector<double>& seconds) {
@@ -194,7 +195,7 @@ void addStages(Table& table, const std::string& tissue, const Way& way, const st
   table.add(std::move(row));
 }
 
-/// Times of pictures, in turns, so that what else the machine does falls on all. @param seconds  of all of them
+/// Measures times of images in turn, so that other load of the machine affects all. @param seconds  total time
 /// @returns  [paintings][]
 std::vector<std::vector<double>> timesOf(const std::vector<std::unique_ptr<Painting>>& paintings,
                                          const std::vector<Moment>& moments, double seconds) {
@@ -212,7 +213,7 @@ std::vector<std::vector<double>> timesOf(const std::vector<std::unique_ptr<Paint
   return out;
 }
 
-/// What the ways come to for some moments of tissue.
+/// Results of all configurations for some moments.
 class Comparison {
  public:
   Comparison(const Report& report, const Model& model, const Scene& scene, const std::vector<Moment>& moments)
@@ -225,7 +226,7 @@ class Comparison {
   double picture_s(size_t way) const { return median(took_s_[way]); }
   const Similarity& alike(size_t way) const { return alike_[way]; }
   std::vector<double> stages(size_t way) const { return paintings_[way]->stages(moments_); }
-  /// Of the middle moment.
+  /// Returns the image of the middle moment.
   const std::vector<uint8_t>& picture(size_t way) const { return pictures_[way]; }
 
  private:
@@ -253,14 +254,14 @@ struct Tables {
   Table pictures, stages, extras;
 };
 
-/// What each look costs, over a picture without it.
+/// Measures the cost of each appearance, relative to an image without it.
 void addExtras(Report& report, const std::string& tissue, const Model& model, const Scene& scene,
                const std::vector<Moment>& moments, Table& table) {
   std::vector<std::unique_ptr<Painting>> paintings;
   for (const Extra& extra : kExtras) paintings.push_back(std::make_unique<Painting>(model, scene, extra));
   const auto took_s = timesOf(paintings, moments, report.isShort() ? 0.2 : 24);
   for (size_t e = 0; e < std::size(kExtras); ++e) {
-    std::vector<double> ratios;  // picture by picture: the others of a turn are drawn beside the same other work
+    std::vector<double> ratios;  // image by image, since those of a turn are drawn under the same load
     for (size_t i = 0; i < took_s[e].size(); ++i) ratios.push_back(took_s[e][i] / took_s[0][i]);
     table.add({tissue, kExtras[e].name, 1e3 * median(took_s[e]), median(ratios)});
     report.add(paintings[e]->draw(moments[moments.size() / 2]), scene.cameras[0].width_px, scene.cameras[0].height_px,
@@ -299,7 +300,7 @@ void pictureSuite(Report& report, gpu::Context& context) {
       Table("a picture of 640 x 480 of the heart in motion, on " + context.renderer(),
             {{"tissue"}, {"way"}, {"picture", "ms", 3}, {"over 4 samples"}, {"SSIM"}, {"SSIM without background"}}),
       stageTable(),
-      Table("what a picture may have beside (docs/detail.md), each by itself",
+      Table("optional features of a picture (docs/surface.md), each alone",
             {{"tissue"}, {"with"}, {"picture", "ms", 3}, {"over none"}})};
   for (const auto& [tissue, from_s] : {std::pair("whole", kDent_s), std::pair("cut", kFlap_s)}) {
     report.stage(std::string(tissue) + ": stepping");

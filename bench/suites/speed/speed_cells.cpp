@@ -7,9 +7,9 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kDearer = 1.6;  // a substep of the law over one of springs
+constexpr double kDearer = 1.6;  // a substep of the law relative to springs
 
-/// A body of the law, and one of springs that is as large.
+/// A body of the law, and one of springs of the same size.
 struct Pair {
   Specimen law, springs;
 };
@@ -26,7 +26,7 @@ Pair cubesOf(int nodes_per_edge) {
   return out;
 }
 
-/// That of the law fills its surface: most of its cells are tissue in part.
+/// Returns two hearts. That of the law fills its surface, so most of its cells are partially filled.
 Pair heartsOf(int nodes) {
   return {heartOf(nodes, lawMaterial()), heartOf(nodes)};
 }
@@ -36,7 +36,7 @@ std::vector<Pair> pairsOf(bool short_form) {
   return {cubesOf(35), heartsOf(13000), heartsOf(42745)};
 }
 
-/// Cells that are tissue in part, of all.
+/// Returns the share of partially filled cells.
 double partialShare(const Model& model) {
   const Lattice& lattice = model.bodies[0].lattice;
   size_t cells = 0;
@@ -55,8 +55,8 @@ void measureCells(Report& report) {
                                                                     {"springs", "ns/update"},
                                                                     {"law over springs", "", 3},
                                                                     {"spread", "", 2}});
-  // Rounds are short and many: what else a machine does falls on both of a pair alike.
-  const std::vector<std::pair<std::string, std::function<std::shared_ptr<Ticks>(const Specimen&)>>> ways = {
+  // Rounds are short and many, so that other load of the machine affects both of a pair alike.
+  const std::vector<std::pair<std::string, std::function<std::shared_ptr<TissueStepper>(const Specimen&)>>> ways = {
       {"cpu, 1 thread", [](const Specimen& specimen) { return onCpu(specimen, 1); }},
       {"cpu, all threads", [](const Specimen& specimen) { return onCpu(specimen); }},
       {"gpu", onGpu}};

@@ -11,7 +11,7 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kShare = 0.5;  // of the implicit rate, on the GPU, at 10,000 to 100,000 nodes (issue 5)
+constexpr double kShare = 0.5;  // relative to the implicit rate, on the GPU, at 10,000 to 100,000 nodes (issue 5)
 
 /// VR05 Table 1: iterations per second of its implicit and its explicit GPU method.
 struct Printed {
@@ -20,7 +20,7 @@ struct Printed {
 constexpr Printed kPaper[] = {
     {10000, 839.8, 457.1}, {20000, 476.9, 234.4}, {40000, 264.6, 121.0}, {50000, 218.0, 99.0}, {100000, 104.1, 48.5}};
 
-/// The same body with every spring of its lattice as links of both ends (VR05 2.5.1).
+/// Returns the same body with every spring of its lattice as links of both ends (VR05 2.5.1).
 Specimen withLinks(Specimen specimen) {
   Body& body = specimen.model.bodies[0];
   body.network = latticeNetwork(body);
@@ -40,7 +40,7 @@ std::vector<Rate> ratesOf(const Specimen& specimen, double seconds) {
 }
 
 Table explicitTable() {
-  return Table("explicit connections of the same lattice beside implicit ones (VR05 Table 1, on its GPU)",
+  return Table("explicit connections of the same lattice compared with implicit ones (VR05 Table 1, on its GPU)",
                {{"body"},
                 {"nodes", "", 8},
                 {"dashpot"},
@@ -79,7 +79,7 @@ void measureExplicit(Report& report) {
       for (double dashpot : {0.0, 0.2}) {
         report.stage("explicit connections, " + specimen.name + " of " + std::to_string(specimen.nodes()) +
                      " nodes, dashpot " + Cell(dashpot).text(2));
-        specimen.model.bodies[0].material.dashpot_ratio = dashpot;
+        specimen.model.bodies[0].material.stiffness_damping_ratio = dashpot;
         const std::vector<Rate> rates = ratesOf(specimen, report.isShort() ? 0.02 : 0.1);
         addRows(table, specimen, dashpot, rates, paper);
         const double over_implicit = rates[kExplicitGpu].node_updates_per_s / rates[kImplicitGpu].node_updates_per_s;

@@ -11,15 +11,15 @@ namespace viscera::bench {
 namespace {
 
 constexpr int kComparedTicks = 3;
-constexpr double kSameWithin = 1e-5;         // spacings: float32 rounding of sixty substeps
-constexpr double kSpeedFeaturesWave = 0.02;  // spacings
-constexpr double kNothing = 1e-9;            // a feature of this size is there and does nothing that float32 can hold
+constexpr double kSameWithin = 1e-5;         // [spacings] float32 rounding of sixty substeps
+constexpr double kSpeedFeaturesWave = 0.02;  // [spacings]
+constexpr double kNothing = 1e-9;            // size of a feature that exists and has no effect in float32
 
-Specimen specimen(int edge, double dashpot_ratio = 0) {
-  return cubeOf(edge, specimenMaterial(dashpot_ratio));
+Specimen specimen(int edge, double stiffness_damping_ratio = 0) {
+  return cubeOf(edge, specimenMaterial(stiffness_damping_ratio));
 }
 
-/// One stylus that does something where no tissue is.
+/// Returns a stylus that acts where there is no tissue.
 Feature toolInAir(const std::string& name, int edge, ToolMode mode) {
   Feature out{name, specimen(edge), specimen(edge), {}};
   out.with.scene.styluses.resize(1);
@@ -30,7 +30,7 @@ Feature toolInAir(const std::string& name, int edge, ToolMode mode) {
   return out;
 }
 
-/// A part of the body's own elasticity.
+/// Returns a part with the body's own elasticity.
 Feature parts(int edge) {
   Feature out{"strengths by part", specimen(edge), specimen(edge), {}};
   Body& body = out.with.model.bodies[0];
@@ -39,7 +39,7 @@ Feature parts(int edge) {
   return out;
 }
 
-/// A vessel that nothing cuts.
+/// Returns a vessel that is not cut.
 Feature bleeding(int edge) {
   Feature out{"bleeding", specimen(edge), specimen(edge), {}};
   out.with.model.bodies[0].material.bleeding.flow_ml_per_min = 60;
@@ -52,7 +52,7 @@ Feature solverKey(const std::string& name, int edge, const std::function<void(So
   return out;
 }
 
-/// The lower half is fixed in one of them. Neither drifts, which would tear the other half off.
+/// Returns a body with its lower half fixed. Neither body drifts, since that would tear the other half off.
 Feature fixedHalf(int edge) {
   Feature out{"fixed nodes (half of them)", specimen(edge), specimen(edge), {}, false};
   Lattice& lattice = out.without.model.bodies[0].lattice;
@@ -64,7 +64,7 @@ Feature fixedHalf(int edge) {
   return out;
 }
 
-/// One spring is cut in every brick of one of them: no brick is whole any more.
+/// Returns a body with one cut spring in every brick, so that no brick is whole.
 Feature cutState(int edge) {
   Feature out{"cut state (one spring in every brick)", specimen(edge), specimen(edge), {}, false};
   const Lattice& lattice = out.with.model.bodies[0].lattice;
@@ -88,7 +88,7 @@ std::vector<Feature> featuresOf(int edge) {
   out.push_back(toolInAir("cautery", edge, ToolMode::kCautery));
   out.push_back(bleeding(edge));
   out.push_back(solverKey("compensated sums", edge, [](SolverConfig& solver) { solver.compensated = true; }));
-  out.push_back(solverKey("governor", edge, [](SolverConfig& solver) { solver.governor = true; }));
+  out.push_back(solverKey("stability_monitor", edge, [](SolverConfig& solver) { solver.stability_monitor = true; }));
   out.push_back(cutState(edge));
   out.push_back(fixedHalf(edge));
   return out;
@@ -96,18 +96,18 @@ std::vector<Feature> featuresOf(int edge) {
 
 namespace {
 
-using Make = std::shared_ptr<Ticks> (*)(const Specimen&);
-std::shared_ptr<Ticks> cpu(const Specimen& specimen) {
+using Make = std::shared_ptr<TissueStepper> (*)(const Specimen&);
+std::shared_ptr<TissueStepper> cpu(const Specimen& specimen) {
   return onCpu(specimen);
 }
 
 HostState after(const Specimen& specimen, Make make, const ToolMotions& motions) {
-  const std::shared_ptr<Ticks> solver = make(specimen);
+  const std::shared_ptr<TissueStepper> solver = make(specimen);
   for (int t = 0; t < kComparedTicks; ++t) solver->step(motions);
   return solver->readState();
 }
 
-/// Largest difference of a displacement [spacings].
+/// Returns the largest difference of a displacement [spacings].
 double difference(const Feature& feature, Make make) {
   const HostState a = after(feature.with, make, feature.motions_with), b = after(feature.without, make, {});
   const Lattice& lattice = feature.with.model.bodies[0].lattice;
@@ -117,7 +117,7 @@ double difference(const Feature& feature, Make make) {
   return worst / lattice.spacing_m;
 }
 
-/// @return the difference, 0 where there is none to compare
+/// Adds a row. @return the difference, 0 if there is none to compare
 double addRow(Table& table, const Feature& feature, const std::string& backend, Make make, const Rate& with,
               const Rate& without) {
   const double differs = feature.same_result ? difference(feature, make) : 0;
@@ -132,7 +132,7 @@ double addRow(Table& table, const Feature& feature, const std::string& backend, 
 void measureFeatures(Report& report) {
   const int edge = report.isShort() ? 12 : 35;
   Table table("features of the solver on a cube of " + std::to_string(edge * edge * edge) +
-                  " nodes: on, but without effect, and left out",
+                  " nodes: on but without effect, and left out",
               {{"feature"},
                {"backend"},
                {"on", "us/substep"},

@@ -10,27 +10,27 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr int kNodes = 42745;  // of VR05's pig heart
+constexpr int kNodes = 42745;  // number of nodes of VR05's pig heart
 constexpr double kWanted_per_s = 7000;
-constexpr double kTouchedApart = 0.1;  // of the GPU's: nodes at the rim of the contact come and go
+constexpr double kTouchedApart = 0.1;  // relative to the GPU's: nodes at the rim of the contact come and go
 constexpr double kDepth_m = 0.003;
 constexpr int kSagTicks = 60, kPressTicks = 60;  // a second each
 
-/// Awake, as tissue is that is being worked on: nothing of it may sleep.
-Scene awakeScene(int nodes, double dashpot_ratio) {
-  Scene scene = pigHeartScene(nodes, dashpot_ratio);
+/// Returns a scene in which tissue never sleeps, as if it were being worked on.
+Scene awakeScene(int nodes, double stiffness_damping_ratio) {
+  Scene scene = pigHeartScene(nodes, stiffness_damping_ratio);
   scene.solver.sleep_speed_m_per_s = 0;
   return scene;
 }
 
-/// A heart that has sagged, and a probe that was pressed into it slowly.
+/// A sagging heart, and a probe that was pressed into it slowly.
 struct PressedHeart {
-  Specimen heart;  ///< starts pressed
+  Specimen heart;  ///< initial state is pressed
   Vector3d tip_m;
 };
 
-/// @return where the tip of the probe is
-Vector3d pressIn(Ticks& solver, const Specimen& heart) {
+/// Presses the probe in. @return position of its tip
+Vector3d pressIn(TissueStepper& solver, const Specimen& heart) {
   for (int t = 0; t < kSagTicks; ++t) solver.step({});
   const Vector3d touching_m = farthestNode(heart.model, solver.readState(), Vector3d::UnitX()) +
                               heart.scene.styluses[0].probe.radius_m * Vector3d::UnitX();
@@ -43,20 +43,20 @@ Vector3d pressIn(Ticks& solver, const Specimen& heart) {
   return motions[0].to.position_m;
 }
 
-PressedHeart pressedHeart(int nodes, double dashpot_ratio) {
-  Specimen heart{"heart", {}, awakeScene(nodes, dashpot_ratio), {}};
+PressedHeart pressedHeart(int nodes, double stiffness_damping_ratio) {
+  Specimen heart{"heart", {}, awakeScene(nodes, stiffness_damping_ratio), {}};
   heart.model = buildModel(heart.scene);
   heart.start = restState(heart.model);
-  const std::shared_ptr<Ticks> solver = onCpu(heart);
+  const std::shared_ptr<TissueStepper> solver = onCpu(heart);
   const Vector3d tip_m = pressIn(*solver, heart);
   heart.start = solver->readState();
   return {std::move(heart), tip_m};
 }
 
-/// Ticks of a pressed heart, and what the last one showed.
+/// Ticks of a pressed heart, and the result of the last one.
 struct Pressed {
   std::string name;
-  std::shared_ptr<Ticks> solver;
+  std::shared_ptr<TissueStepper> solver;
   uint32_t touched = 0;
 
   Candidate candidateFor(const PressedHeart& pressed) {
@@ -72,7 +72,7 @@ struct Pressed {
 
 Table pressedTable() {
   return Table(
-      "hollow heart of VR05's size as a session has it (gravity, governor, fixed top), all awake, simulation "
+      "hollow heart of VR05's size as a session has it (gravity, stability monitor, fixed top), all awake, simulation "
       "only, one probe pressed in; VR05: 188 steps/s",
       {{"nodes", "", 8},
        {"filled share of box", "", 2},
@@ -82,7 +82,7 @@ Table pressedTable() {
        {"real-time factor", "", 3},
        {"spread", "", 2},
        {"nodes touched"},
-       {"governor trips"}});
+       {"stability monitor trips"}});
 }
 
 }  // namespace

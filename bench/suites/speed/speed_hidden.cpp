@@ -15,11 +15,10 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kSpeedHiddenDearer =
-    1.05;                       // all in view: a picture that looks for what is hidden over one that does not
-constexpr double kSway = 0.02;  // of the body's size: every vertex is mapped again for every picture
+constexpr double kSpeedHiddenDearer = 1.05;  // all in view: an image with culling relative to one without
+constexpr double kSway = 0.02;  // relative to the body's size: every vertex is mapped again for every image
 
-/// A heart, and cameras that look at it and past it.
+/// Returns a heart, and cameras that look at it and past it.
 Scene hiddenScene(bool short_form, bool draw_hidden) {
   Scene scene = pigHeartScene(short_form ? 1500 : 10000, 0.2);
   scene.bodies[0].skin_spacing_m = short_form ? 0.004 : 0.0015;
@@ -39,7 +38,7 @@ Scene hiddenScene(bool short_form, bool draw_hidden) {
   return scene;
 }
 
-/// A view of tissue on the host that is somewhere else in every picture.
+/// A view of tissue on the host that moves between images.
 class Viewed {
  public:
   Viewed(bool short_form, bool draw_hidden)
@@ -59,17 +58,17 @@ class Viewed {
   Candidate picture(size_t camera) {
     return {"", 1, [this, camera] {
               mirror_.upload(states_[++ticks_ % 2]);
-              Look look;
-              look.tick = ticks_;
-              look.wants.cameras.assign(scene_.cameras.size(), false);
-              look.wants.cameras[camera] = true;
+              RenderRequest request;
+              request.tick = ticks_;
+              request.wants.cameras.assign(scene_.cameras.size(), false);
+              request.wants.cameras[camera] = true;
               Pictures out;
-              view_.capture(mirror_.view(), look, out, mirror_.displacements());
+              view_.capture(mirror_.view(), request, out, mirror_.displacements());
               view_.collect(out, true);
               return 1.0;
             }};
   }
-  /// What it costs to know where everything is.
+  /// Returns the cost of computing all bounding boxes.
   Candidate boxes(const SkinBoxes& boxes) {
     return {"", 1, [this, &boxes] { return boxes.place(mirror_.displacements()).empty() ? 0.0 : 1.0; }};
   }
@@ -94,7 +93,7 @@ void measureHidden(Report& report) {
   const double boxes_ms = 1e3 / measureRates({seen.boxes(boxes)}, seconds, rounds)[0].substeps_per_s;
   Table table("pictures (640 x 480) of a heart of " + std::to_string(seen.model().skinTriangles()) + " faces on " +
                   std::to_string(seen.model().activeNodes()) +
-                  " nodes, all mapped again; what is hidden drawn, and left out",
+                  " nodes, all mapped again; hidden parts drawn, and skipped",
               {{"in the picture"},
                {"drawn", "ms", 3},
                {"left out", "ms", 3},
@@ -107,7 +106,7 @@ void measureHidden(Report& report) {
     table.add({seen.scene().cameras[c].name, drawn_ms, left_out_ms, left_out_ms / drawn_ms, boxes_ms,
                std::max(rates[0].spread, rates[1].spread)});
     if (c == 0 && !report.isShort())
-      report.checkAtMost("hidden: a picture with all in view, what is hidden left out over drawn",
+      report.checkAtMost("hidden: a picture with everything in view, hidden parts skipped over drawn",
                          left_out_ms / drawn_ms, kSpeedHiddenDearer);
   }
   report.add(table, "hidden");

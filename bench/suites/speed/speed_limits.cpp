@@ -8,20 +8,21 @@ namespace viscera::bench {
 
 namespace {
 
-// Float32 operations of a node update of the CPU's leapfrog in mild states (src/solver/cpu/simd/kernels.cpp),
-// additions, subtractions and multiplications; a fused multiply-add is two. Comparisons, selections, loads are none.
+// Float32 operations of a node update of the CPU's leapfrog in mild states (src/solver/cpu/simd/kernels.cpp):
+// additions, subtractions and multiplications; a fused multiply-add is two. Comparisons, selections and loads do not
+// count.
 //   spring  w 3, w + 2d 1 or 2, w.(w + 2d) 5, q 1, d + w 1 or 2, phi 10, k q phi 2, force 6
-//   dashpot, where nodes are predicted 6
-//   node    acceleration 6, velocity 12 + 3, displacement 3 + 3, how far away 5, how fast 5
+// dashpot, if nodes are predicted 6
+// node    acceleration 6, velocity 12 + 3, displacement 3 + 3, distance 5, speed 5
 constexpr double kAxialFlop = 29, kDiagonalFlop = 31, kNodeFlop = 37, kPredictedFlop = 6;
 constexpr double kFlop = 6 * kAxialFlop + 12 * kDiagonalFlop + kNodeFlop;
 constexpr double kFlopWithDashpot = kFlop + kPredictedFlop;
-// Instructions that these take, for whole vectors: of operations on registers alone, fused ones once, with comparisons
-// and selections (four a spring: is it there, is it the most strained). The rest of the peak cannot be had even if
-// nothing else were to be done.
+// Instructions for these operations on whole vectors: operations on registers only, fused ones counted once, with
+// comparisons and selections (four per spring: whether it exists, and whether it is the most strained). The rest of the
+// peak is not reachable even without other work.
 constexpr double kInstructions = 6 * 23 + 12 * 25 + 35;
-// Bytes of a node update: u and v read and written, 1/m read; with a dashpot u and v read before, and where they lead
-// written and read; 18 stiffnesses where a brick holds a surface or a cut.
+// Bytes of a node update: u and v read and written, 1/m read. With a dashpot, also u and v read before, and the
+// predicted ones written and read. 18 stiffnesses in bricks with a surface or a cut.
 constexpr double kBytes = 4 * 12 + 4, kPredictedBytes = 4 * 12, kStiffnessBytes = 18 * 4;
 
 constexpr double kGiga = 1e-9;
@@ -38,7 +39,7 @@ void addMachine(Table& table, const std::string& of, const std::string& with, co
   table.add({of, with, kGiga * limits.copy, kGiga * limits.fma, limits.fma / limits.copy});
 }
 
-/// Share of the nodes whose bricks are not full of whole springs.
+/// Returns the share of nodes in bricks that are not full of whole springs.
 double roughShare(const Model& model) {
   const Lattice& lattice = model.bodies[0].lattice;
   const auto whole = [&](uint32_t slot) {
@@ -79,10 +80,10 @@ MachineLimits measureLimits(Report& report) {
   addMachine(table, "processor, " + std::to_string(threads) + " threads", fmaTarget(), out.all);
   if (report.context()) addMachine(table, "OpenGL", report.context()->renderer(), gpuLimits(report.isShort()));
   report.add(table, "machine");
-  report.note("Of " + Cell(kFlop).text(4) + " operations of an update on the CPU, of which fused ones count twice, " +
-              Cell(kInstructions).text(4) + " instructions are made: arithmetic alone cannot pass " +
-              Cell(kFlop / (2 * kInstructions)).text(2) +
-              " of the multiply-add rate. Copies are from main memory: what fits in caches may pass their rate.\n");
+  report.note(
+      "Of " + Cell(kFlop).text(4) + " operations (fused ones count twice) in " + Cell(kInstructions).text(4) +
+      " instructions, so arithmetic alone cannot exceed " + Cell(kFlop / (2 * kInstructions)).text(2) +
+      " of the multiply-add rate. Copies are from main memory; data that fit in caches may exceed their rate.\n");
   return out;
 }
 

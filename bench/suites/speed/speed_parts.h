@@ -11,61 +11,61 @@ namespace viscera::bench {
 
 // The parts of the speed suite (docs/benchmarks.md, speed).
 
-/// A feature, switched on without effect, and the same scene without it.
+/// A feature that is enabled without effect, and the same scene without it.
 struct Feature {
   std::string name;
   Specimen with, without;
-  ToolMotions motions_with;  ///< those without it have none
-  bool same_result = true;   ///< without it, the result is to be the same
+  ToolMotions motions_with;  ///< motions with the feature; without it there are none
+  bool same_result = true;   ///< whether the result must be the same without it
 };
-/// All features that are measured, on cubes. @param edge  nodes per edge
+/// Returns all features that are measured, on cubes. @param edge  nodes per edge
 std::vector<Feature> featuresOf(int edge);
-/// A cube that is held at its top and, if it hangs, sags. It settles fast, so that it is soon asleep.
+/// Creates a cube that is fixed at its top and sags under gravity. It settles fast, so that it soon sleeps.
 Specimen restingCube(int edge, bool sleeps, double gravity_m_per_s2);
-/// Ticks of a solver until its body has come to rest. @param seconds  simulated
+/// Steps a solver until its body has come to rest. @param seconds  simulated time
 void settle(Solver& solver, const Scene& scene, const ToolMotions& motions, double seconds);
-/// The scenes of `ticks` and `stages`: the one that is asked for, or a cube and a heart of each number of nodes.
+/// Returns the scenes of `ticks` and `stages`: the requested one, or a cube and a heart of each number of nodes.
 std::vector<Scene> tickScenes(const Report& report);
 
-/// Bytes read and written, and multiply-adds, that the machine does at most per second.
+/// The limits of the machine per second: bytes read and written, and multiply-adds.
 struct Limits {
-  double copy, fma;  ///< bytes/s, flop/s
+  double copy, fma;  ///< [bytes/s], [flop/s]
 };
 struct MachineLimits {
-  Limits one, all;  ///< of the processor, with one thread and with all
+  Limits one, all;  ///< of the CPU, with one thread and with all
 };
-/// Measures them, and the OpenGL renderer's where there is a context: table `machine`.
+/// Measures the limits, and those of the OpenGL renderer if there is a context: table `machine`.
 MachineLimits measureLimits(Report& report);
-/// What the CPU's leapfrog does for a node of springs alone.
+/// Work of the CPU's leapfrog per node of springs.
 struct Work {
   double flop, bytes;
 };
 Work workOf(const Model& model, double dashpot);
 
-/// Substeps per second and cost of a node by body and number of nodes, scalar loop, threads and GPU, beside VR05 Table
-/// 1 and the machine's limits.
+/// Measures substeps per second and cost of a node by body and number of nodes, for scalar loop, threads and GPU, next
+/// to VR05 Table 1 and the machine's limits.
 void measureSizes(Report& report);
-/// Instruction sets of the CPU's kernels.
+/// Measures the instruction sets of the CPU's kernels.
 void measureSimd(Report& report);
-/// VR05 Table 1's third column: the lattice with explicit connections, on both backends.
+/// Measures VR05 Table 1's third column: the lattice with explicit connections, on both backends.
 void measureExplicit(Report& report);
-/// A heart of VR05's size in a scene as sessions have it: one probe pressed in, simulation only.
+/// Measures a heart of VR05's size in a scene as in sessions: one probe pressed in, simulation only.
 void measurePressedHeart(Report& report);
-/// The same through Session, with skin and pictures: what of real time is left.
+/// Measures the same heart in a Session, with surface mesh and images: the remaining share of real time.
 void measureHeartSessions(Report& report);
-/// Features of the solver: switched on without effect against left out, results compared.
+/// Measures features of the solver: enabled without effect against left out, with comparison of results.
 void measureFeatures(Report& report);
-/// Bodies of the neo-Hookean law against bodies of springs of as many nodes.
+/// Compares bodies of the neo-Hookean law with bodies of springs with the same number of nodes.
 void measureCells(Report& report);
-/// Tissue at rest: asleep against awake, one corner awake, what sleeping changes.
+/// Measures tissue at rest: asleep against awake, one corner awake, and the effect of sleeping on results.
 void measureSleep(Report& report);
-/// Skin and pictures that are not wanted, have not moved, or will not be seen.
+/// Measures surface meshes and images that are not requested, have not moved, or will not be seen.
 void measureViews(Report& report);
-/// Pictures with all of the skin in them and with nothing of it, with and without work for what is out.
+/// Measures images with all of the surface in view and with none, with and without culling.
 void measureHidden(Report& report);
-/// Time of a substep of a scene, or of a cube and a heart that hang, with state hashes.
+/// Measures the time of a substep of a scene, or of a hanging cube and heart, with state hashes.
 void measureTicks(Report& report);
-/// The same, stage by stage, by the GPU's own clock.
+/// Measures the same by stage, by the GPU's own clock.
 void measureTickStages(Report& report);
 
 }  // namespace viscera::bench

@@ -16,17 +16,17 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kTarget = 42745;      // nodes of VR05's pig heart; the cube next to it has 42,875
-constexpr double kSideBySide = 1.2e5;  // nodes: larger bodies are cubes alone, timed one after the other
-constexpr double kGpuUpTo = 400e3;     // nodes, unless it is asked for them, or no software
+constexpr double kTarget = 42745;      // number of nodes of VR05's pig heart; the closest cube has 42,875
+constexpr double kSideBySide = 1.2e5;  // number of nodes above which only cubes are measured, one after the other
+constexpr double kGpuUpTo = 400e3;     // largest number of nodes, unless requested or not on a software renderer
 constexpr double kFlatFrom = 9e3, kFlatUpTo = 1.1e6;
 
-// What must be reached on two cores with AVX-512.
+// Limits on two cores with AVX-512.
 constexpr double kRate_per_s = 400e6, kOverScalar = 10, kOverSoftwareGpu = 4, kTwoThreads = 1.7;
-constexpr double kHeartOverCube = 1.3;  // of a node's cost
-constexpr double kFlat = 1.5;           // dearest over cheapest node from 10,000 to a million
+constexpr double kHeartOverCube = 1.3;  // ratio of the cost of a node
+constexpr double kFlat = 1.5;           // highest to lowest cost of a node from 10,000 to a million
 
-/// VR05 Table 1: iterations per second of its CPU and of its implicit GPU method, by nodes.
+/// VR05 Table 1: iterations per second of its CPU and of its implicit GPU method, by number of nodes.
 struct Table1Printed {
   double cpu, gpu;
 };
@@ -54,7 +54,7 @@ Candidate candidateOf(size_t way, const Specimen& specimen) {
                    specimen.nodes());
 }
 
-/// Nodes over places in the 4x4 planes of bricks that hold a node: what SIMD lanes can be used for.
+/// Returns nodes per position in 4x4 planes of bricks that contain a node: the usable share of SIMD lanes.
 double planeShare(const Model& model) {
   constexpr uint32_t kPlane = 16;
   const std::vector<uint32_t>& slots = model.bodies[0].lattice.active_slots;
@@ -101,8 +101,8 @@ class Sizes {
     report_.add(rates_, "sizes");
     report_.add(costs_, "costs");
     if (dearest_ns_ > 0)
-      report_.checkAtMost("dearest over cheapest node, 10k to 1M nodes, cpu, all threads", dearest_ns_ / cheapest_ns_,
-                          kFlat);
+      report_.checkAtMost("most expensive over cheapest node, 10k to 1M nodes, cpu, all threads",
+                          dearest_ns_ / cheapest_ns_, kFlat);
   }
 
  private:
@@ -118,12 +118,12 @@ class Sizes {
     return out;
   }
 
-  /// Without dashpot, and with one where bodies are small. @return rates of the first
+  /// Measures without dashpot, and with one for small bodies. @return rates without dashpot
   Rates measureBody(Specimen specimen, int nodes) {
     const bool small = nodes <= kSideBySide;
     Rates out;
     for (const double dashpot : small ? std::vector<double>{0, 0.2} : std::vector<double>{0}) {
-      specimen.model.bodies[0].material.dashpot_ratio = dashpot;
+      specimen.model.bodies[0].material.stiffness_damping_ratio = dashpot;
       report_.stage(specimen.name + " of " + std::to_string(specimen.nodes()) + " nodes, dashpot " +
                     Cell(dashpot).text(2));
       Rates rates = ratesOf(specimen, small);
@@ -133,7 +133,7 @@ class Sizes {
     return out;
   }
 
-  /// Ways take turns, but for those of large bodies, which would not fit into memory side by side.
+  /// Measures the methods in turn, except those of large bodies, which would not fit into memory together.
   Rates ratesOf(const Specimen& specimen, bool in_turn) {
     const std::vector<size_t> ways = waysFor(specimen.nodes());
     const double seconds = report_.isShort() ? 0.02 : 0.1, before = residentBytes();
@@ -203,7 +203,7 @@ class Sizes {
   Report& report_;
   MachineLimits limits_;
   Table table_{
-      "cubes and hollow hearts by size; VR05 Table 1: its CPU beside the scalar loop, its implicit GPU beside "
+      "cubes and hollow hearts by size; VR05 Table 1: its CPU next to the scalar loop, its implicit GPU next to "
       "the others",
       {{"body"},
        {"nodes", "", 8},
@@ -238,7 +238,7 @@ void measureSizes(Report& report) {
   sizes.finish();
 }
 
-/// One after the other: a choice of instruction set is the whole process's.
+/// Measures one after the other, since the choice of instruction set applies to the whole process.
 void measureSimd(Report& report) {
   const Specimen cube = cubeOf(report.isShort() ? 22 : 35);
   Table table("instruction sets, cube of " + std::to_string(cube.nodes()) + " nodes, no dashpot, 1 thread",
@@ -251,7 +251,7 @@ void measureSimd(Report& report) {
     const Rate rate = measureRates({candidate(simd, onCpu(cube, 1, simd), cube.nodes())}, seconds)[0];
     table.add({simd, rate.node_updates_per_s * 1e-6, rate.node_updates_per_s / scalar.node_updates_per_s, rate.spread});
   }
-  onCpu(cube);  // takes the best again
+  onCpu(cube);  // selects the best again
   report.add(table, "simd");
 }
 

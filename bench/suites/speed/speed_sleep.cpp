@@ -12,12 +12,12 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kAsleepOverAwake = 50;  // times cheaper
-constexpr double kOfShare = 2;           // cost of a probed corner over the share of bricks that are awake
-constexpr double kSleepError = 0.01;     // of the largest displacement
+constexpr double kAsleepOverAwake = 50;  // cost ratio
+constexpr double kOfShare = 2;           // cost of a probed corner relative to the share of bricks that are awake
+constexpr double kSleepError = 0.01;     // relative to the largest displacement
 constexpr double kSettle_s = 1.5, kDrag_per_s = 60, kProbeRadius_m = 0.006, kPress_m = 0.001;
 
-/// A probe at rest, pressed into the lowest corner.
+/// Returns a probe at rest, pressed into the lowest corner.
 ToolMotions pressedCorner() {
   return probeAt(Vector3d::Constant((kPress_m - kProbeRadius_m) / std::sqrt(3.0)));
 }
@@ -30,7 +30,7 @@ double awakeShare(const Solver& solver) {
   return share(dynamic_cast<const CpuSolver&>(solver));
 }
 
-/// Cost of a tick of two settled bodies, of which only one may sleep.
+/// Cost of a tick of two settled bodies, only one of which may sleep.
 struct Cost {
   double awake_us, asleep_us, share;
 };
@@ -38,7 +38,7 @@ struct Cost {
 Cost costOf(int edge, const ToolMotions& motions, bool on_gpu, double seconds) {
   const Specimen wakeful = restingCube(edge, false, 0), sleepy = restingCube(edge, true, 0);
   const auto a = on_gpu ? onGpu(wakeful) : onCpu(wakeful), b = on_gpu ? onGpu(sleepy) : onCpu(sleepy);
-  // What is not probed is at rest from the start, and asleep after a few tenths of a second.
+  // A body without a probe is at rest from the start, and asleep after a few tenths of a second.
   const bool probed = motions[0].mode != ToolMode::kNone;
   const double settle_s = on_gpu && !probed ? kSettle_s / 5 : kSettle_s;
   settle(*a, wakeful.scene, motions, on_gpu ? 0 : settle_s);
@@ -53,7 +53,7 @@ void addRow(Table& table, const std::string& what, const std::string& backend, c
   table.add({what, backend, cost.awake_us, cost.asleep_us, cost.awake_us / cost.asleep_us, cost.share});
 }
 
-/// What falling asleep changes in a body that sags: largest difference over largest displacement.
+/// Returns the effect of falling asleep on a sagging body: largest difference over largest displacement.
 double sleepError(int edge) {
   const Specimen wakeful = restingCube(edge, false, 9.81), sleepy = restingCube(edge, true, 9.81);
   const auto a = onCpu(wakeful), b = onCpu(sleepy);
@@ -73,7 +73,7 @@ double sleepError(int edge) {
 
 Specimen restingCube(int edge, bool sleeps, double gravity_m_per_s2) {
   MaterialConfig material = specimenMaterial(0.2);
-  material.drag_per_s = kDrag_per_s;
+  material.mass_damping_per_s = kDrag_per_s;
   Specimen out = cubeOf(edge, material);
   Lattice& lattice = out.model.bodies[0].lattice;
   for (uint32_t slot : lattice.active_slots) {
@@ -124,8 +124,8 @@ void measureSleep(Report& report) {
   report.checkAtLeast("sleep: awake over asleep, cost of a tick", rest.awake_us / rest.asleep_us, kAsleepOverAwake);
   report.checkAtMost("sleep: probed corner, share of cost over share of bricks awake",
                      corner.asleep_us / corner.awake_us / corner.share, kOfShare);
-  report.stage("what sleeping changes");
-  report.checkAtMost("sleep: difference that it makes to a body that sags, of the largest displacement",
+  report.stage("effect of sleeping");
+  report.checkAtMost("sleep: change of a sagging body, of the largest displacement",
                      sleepError(report.isShort() ? 10 : 20), kSleepError);
 }
 

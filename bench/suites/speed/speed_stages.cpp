@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kStageTicks = 24;
 
-/// Middle of the first body's side at +x, where a probe touches the cube.
+/// Returns the centre of the first body's side at +x, where a probe touches the cube.
 Vector3d sideOf(const Body& body) {
   Vector3d lowest = Vector3d::Constant(1e9), highest = -lowest;
   for (uint32_t slot : body.lattice.active_slots) {
@@ -26,7 +26,7 @@ Vector3d sideOf(const Body& body) {
   return side;
 }
 
-/// A probe that rests against the body and a blade that cuts air, which costs what cutting does.
+/// Returns a probe that rests against the body and a blade that cuts air, which costs the same as cutting.
 ToolMotions probeAndBlade(const Model& model) {
   ToolMotions motions;
   for (StylusMotion& motion : motions) {
@@ -40,22 +40,22 @@ ToolMotions probeAndBlade(const Model& model) {
   return motions;
 }
 
-/// Steps the scene on the GPU with a probe and a blade, maps its skin and draws it.
+/// Steps the scene on the GPU with a probe and a blade, maps its surface mesh and draws it.
 void addStages(Table& table, const Model& model, Scene scene) {
   scene.styluses.resize(layout::kMaxStyluses);
   if (scene.cameras.empty()) scene.cameras.emplace_back();
   GpuSolver solver(model, scene);
   InlineView view(model, scene);
-  Look look;
-  look.motions = probeAndBlade(model);
-  look.wants.surface = look.wants.every_image = true;
-  look.wants.cameras.assign(scene.cameras.size(), false);
-  look.wants.cameras[0] = true;
+  RenderRequest request;
+  request.motions = probeAndBlade(model);
+  request.wants.surface = request.wants.every_image = true;
+  request.wants.cameras.assign(scene.cameras.size(), false);
+  request.wants.cameras[0] = true;
   const auto tick = [&] {
     Pictures pictures;
     layout::TickStats stats;
-    solver.step(look.motions);
-    view.capture(solver.state(), look, pictures);
+    solver.step(request.motions);
+    view.capture(solver.state(), request, pictures);
     view.collect(pictures, true);
     solver.pollStats(stats, true);
   };
@@ -63,7 +63,7 @@ void addStages(Table& table, const Model& model, Scene scene) {
   gpu::StageClock clock;
   for (int t = 0; t < kStageTicks; ++t) tick();
   const auto& times = clock.collect(true);
-  const double updates = static_cast<double>(model.activeNodes()) * solver.substeps();  // in a tick
+  const double updates = static_cast<double>(model.activeNodes()) * solver.substeps();  // per tick
   for (size_t s = 0; s < gpu::kStages; ++s) {
     if (times[s].count == 0) continue;
     const double per_tick_s = times[s].seconds / kStageTicks;

@@ -8,17 +8,17 @@ namespace viscera::bench {
 
 namespace {
 
-/// A part that compares the backends.
+/// Runs a part that compares the backends.
 template <void (*kMeasure)(Report&)>
 void ofBoth(Report& report) {
   if (report.backends().size() > 1) return kMeasure(report);
-  report.note("A part is left out: it compares both backends, see --backend.\n");
+  report.note("A part is skipped: it compares both backends, see --backend.\n");
 }
 
 template <void (*kMeasure)(Report&)>
 void ofGpu(Report& report) {
   if (report.context()) return kMeasure(report);
-  report.note("A part is left out: it is about the GPU backend, see --backend.\n");
+  report.note("A part is skipped: it measures the GPU backend, see --backend.\n");
 }
 
 }  // namespace

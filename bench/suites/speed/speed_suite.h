@@ -6,7 +6,8 @@
 
 namespace viscera::bench {
 
-/// How fast the solver is: by size, instruction set, connections, features, sleep and views; a scene's substeps.
+/// Measures the speed of the solver: by size, instruction set, connections, features, sleep and views; a scene's
+/// substeps.
 void speedSuite(Report& report);
 
 }  // namespace viscera::bench

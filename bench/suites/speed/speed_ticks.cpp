@@ -17,7 +17,7 @@ namespace {
 
 constexpr TimedTicks kTicks{24, 24, 0};
 
-/// A body hanging from its top tenth, so that every spring works.
+/// Returns a body that hangs from its top tenth, so that every spring has a force.
 Scene hangingScene(TissueSource source, int nodes) {
   Scene scene;
   scene.name = source == TissueSource::kBox ? "cube" : "heart";
@@ -25,17 +25,17 @@ Scene hangingScene(TissueSource source, int nodes) {
   body.source = source;
   body.box_size_m = Vector3d::Constant(0.1);
   body.target_nodes = nodes;
-  scene.solver.sleep_speed_m_per_s = 0;  // what comes to rest is measured like what moves
+  scene.solver.sleep_speed_m_per_s = 0;  // keeps tissue at rest awake, so that it is measured like moving tissue
   body.fixed.push_back(clampAbove(0.04));
   scene.bodies.push_back(body);
   return scene;
 }
 
 std::vector<Cell> measure(const Model& model, const Scene& scene, Backend backend, const Report& report) {
-  const std::unique_ptr<Ticks> solver = solverOn(backend, model, scene);
+  const std::unique_ptr<TissueStepper> solver = solverOn(backend, model, scene);
   if (backend == Backend::kGpu) {
     warmUpGpu([&] { stepAndWait(*solver, {}); });
-    solver->reset();  // so that the same ticks are timed whatever the renderer
+    solver->reset();  // so that the same ticks are timed on any renderer
   }
   const std::vector<double> substep_s = substepTimes(
       *solver, [] { return ToolMotions(); }, kTicks);

@@ -7,15 +7,15 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kSoonAtRest_per_s = 100;  // drag
+constexpr double kSoonAtRest_per_s = 100;  // drag [1/s]
 constexpr int kFallAsleepTicks = 30;       // half a second
 
-/// A heart that nothing pulls at, so that without a probe it sleeps.
+/// Returns a heart without loads, so that it sleeps without a probe.
 Scene viewedScene(Backend backend, bool short_form) {
   Scene scene = pigHeartScene(short_form ? 1500 : 10000, 0.2);
   scene.solver.backend = backend;
   scene.environment.gravity_m_per_s2 = Vector3d::Zero();
-  scene.bodies[0].material.drag_per_s = kSoonAtRest_per_s;
+  scene.bodies[0].material.mass_damping_per_s = kSoonAtRest_per_s;
   return scene;
 }
 
@@ -44,7 +44,7 @@ uint64_t work(const ViewCounters& done) {
   return done.mappings + done.renders + done.readbacks + done.moved_bricks;
 }
 
-/// Frames that are not seen are those between two images at 30 Hz: kEveryImage draws them.
+/// Measures a backend. Unseen frames are those between two images at 30 Hz, which kEveryImage draws.
 void measureBackend(Report& report, Backend backend, Table& table) {
   report.stage("views, " + nameOf(backend));
   const double seconds = report.isShort() ? 0.2 : 2;

@@ -21,11 +21,11 @@ namespace {
 
 constexpr double kSpacing_m = 0.005;
 constexpr double kEnergyBound = 1.01;
-constexpr double kRestChange = 1e-5;  // of the sag: below what anyone sees
-constexpr double kUnitsSag_m = 1e-6;  // the box must have moved for that to say anything
-constexpr double kUnitsApart = 1e-6;  // of the largest displacement: float32 of the file's numbers times unit_scale_m
+constexpr double kRestChange = 1e-5;  // relative to the sag: not visible
+constexpr double kUnitsSag_m = 1e-6;  // least sag of the box for a meaningful comparison
+constexpr double kUnitsApart = 1e-6;  // relative to the largest displacement: float32 rounding of the scaled file
 
-/// A block whose cells alternate between two parts along x.
+/// Returns a block with cells of two parts, alternating along x.
 Model twoPartBlock(int cells, const PartConfig& first, const PartConfig& second) {
   Solid solid;
   solid.spacing_m = kSpacing_m;
@@ -66,7 +66,7 @@ void ratios(Report& report) {
                                                             {"finite"},
                                                             {"max energy over start", "", 5},
                                                             {"energy left"},
-                                                            {"governor trips"},
+                                                            {"stability monitor trips"},
                                                             {"ticks"}});
   for (Backend backend : report.backends()) {
     int not_finite = 0;
@@ -90,7 +90,7 @@ void ratios(Report& report) {
   report.add(table, "ratios");
 }
 
-double deepest(const Ticks& solver) {
+double deepest(const TissueStepper& solver) {
   double out = 0;
   for (const layout::vec4& u : solver.readState().displacement_m) out = std::max(out, xyz(u).norm());
   return out;
@@ -106,14 +106,14 @@ void longRest(Report& report) {
                                   {"sag", "m", 7},
                                   {"change of sag", "1"},
                                   {"kinetic energy", "J"},
-                                  {"governor trips"}});
+                                  {"stability monitor trips"}});
   for (Backend backend : report.backends()) {
     report.stage("a long rest, " + nameOf(backend));
-    const std::unique_ptr<Ticks> solver = solverOn(backend, model, scene);
+    const std::unique_ptr<TissueStepper> solver = solverOn(backend, model, scene);
     const auto run = [&](uint64_t substeps) {
       while (solver->substepsDone() < substeps) solver->step({});
     };
-    run(total / 5);  // settled: drag_per_s acts for seconds
+    run(total / 5);  // settles: mass_damping_per_s acts for seconds
     const double before = deepest(*solver);
     run(total);
     const double after = deepest(*solver);
@@ -125,7 +125,7 @@ void longRest(Report& report) {
   report.add(table, "rest");
 }
 
-/// A box as an OBJ file with edges of 20 mm in the file's units.
+/// Writes a box as an OBJ file with edges of 20 mm in the file's units.
 std::string boxFile(const std::string& folder, const std::string& name, double unit_m) {
   const std::string path = folder + "/" + name + ".obj";
   std::ofstream file(path);
@@ -140,7 +140,7 @@ std::string boxFile(const std::string& folder, const std::string& name, double u
   return path;
 }
 
-/// The box of a file, held at its top.
+/// Returns the box of a file, fixed at its top.
 Scene boxScene(const std::string& file, double unit_m) {
   Scene scene;
   BodyConfig body;
@@ -170,7 +170,7 @@ void units(Report& report) {
     for (const Unit& unit : kUnits) {
       const Scene scene = boxScene(boxFile(folder, unit.name, unit.m), unit.m);
       const Model model = buildModel(scene);
-      const std::unique_ptr<Ticks> solver = solverOn(backend, model, scene);
+      const std::unique_ptr<TissueStepper> solver = solverOn(backend, model, scene);
       for (int t = 0; t < (report.isShort() ? 10 : 60); ++t) solver->step({});
       const double sag = deepest(*solver);
       if (unit.m == 1) in_m = sag;
@@ -184,10 +184,10 @@ void units(Report& report) {
   report.add(table, "units");
 }
 
-/// Ways of doing the same substeps on one backend, which must end in the same bits.
+/// A method of running the same substeps on one backend; all must end in the same bits.
 struct Way {
   std::string name;
-  std::function<std::unique_ptr<Ticks>(const Model&, const Scene&)> make;
+  std::function<std::unique_ptr<TissueStepper>(const Model&, const Scene&)> make;
 };
 
 std::vector<Way> waysOf(Backend backend) {
@@ -220,19 +220,19 @@ void hashes(Report& report, Law law, const std::string& stem) {
   Scene scene = sceneAt(model, Integrator::kLeapfrog, 0.5);
   scene.environment.gravity_m_per_s2 = Vector3d(3, 2, -9.81);
   Table table(stem + ": state hash after " + std::to_string(substeps) + " substeps",
-              {{"backend"}, {"way"}, {"governor"}, {"run"}, {"hash"}});
+              {{"backend"}, {"way"}, {"stability_monitor"}, {"run"}, {"hash"}});
   for (Backend backend : report.backends()) {
     report.stage(stem + ", " + nameOf(backend));
     std::vector<std::string> all;
     const std::vector<Way> ways = waysOf(backend);
     for (const Way& way : ways) {
-      for (bool governor : {true, false}) {
+      for (bool stability_monitor : {true, false}) {
         for (int again = 1; again <= (&way == &ways[1] ? 2 : 1); ++again) {
-          scene.solver.governor = governor;
-          const std::unique_ptr<Ticks> solver = way.make(model, scene);
+          scene.solver.stability_monitor = stability_monitor;
+          const std::unique_ptr<TissueStepper> solver = way.make(model, scene);
           while (solver->substepsDone() < substeps) solver->step({});
           all.push_back(StateHash::text(stateHash(model, solver->readState())));
-          table.add({nameOf(backend), way.name, governor ? "on" : "off", again, all.back()});
+          table.add({nameOf(backend), way.name, stability_monitor ? "on" : "off", again, all.back()});
         }
       }
     }

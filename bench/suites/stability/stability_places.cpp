@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The same tissue elsewhere and in other sizes: far from the origin with tools and skin, and as large as a millimetre,
-// a centimetre and a metre.
+// The same tissue in other positions and sizes: far from the origin with tools and surface mesh, and with sizes of a
+// millimetre, a centimetre and a metre.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,14 +16,14 @@ namespace viscera::bench {
 namespace {
 
 constexpr double kStabilityPlacesSpacing_m = 0.005, kAway_m = 1000;
-/// Of float32 at 1000 m, 6e-5 m: what tools and skin are published in. One rounding of the vertex, and what its node
-/// has of that of the tip, 1.7 times as much beside it: squeezed cells give way sideways.
+/// Based on float32 resolution at 1000 m, 6e-5 m, in which tools and surface meshes are published: one rounding of the
+/// vertex, and 1.7 times that of the tip, because squeezed cells expand sideways.
 constexpr double kSkinApart_m = 1.6e-4;
-constexpr double kForceApart = 0.03;   ///< of the reaction: the tip of a press of 6 mm is known to that rounding too
-constexpr double kTissueApart = 0.03;  ///< of the largest displacement: the same
-constexpr double kSizesApart = 1e-4;   ///< of the largest displacement: float32, over a few thousand substeps
+constexpr double kForceApart = 0.03;   ///< relative to the reaction: the tip of a press of 6 mm has the same rounding
+constexpr double kTissueApart = 0.03;  ///< relative to the largest displacement: likewise
+constexpr double kSizesApart = 1e-4;   ///< relative to the largest displacement: float32, over a few thousand substeps
 
-/// A box on the floor of its place, pressed from above, in a session with its skin.
+/// A box on the floor, pressed from above, in a session with its surface mesh.
 struct Pressed {
   Field u_m;
   std::vector<float> skin_m;  ///< [3 * vertices]
@@ -58,15 +58,16 @@ Pressed press(Backend backend, gpu::Context* context, const Vector3d& place_m) {
   out.force_n = session->drain().reactions[0].force_n.norm();
   const HostState state = session->solver().readState();
   for (const layout::vec4& u : state.displacement_m) out.u_m.push_back(xyz(u));
-  Wants wants;
+  FrameRequest wants;
   wants.surface = true;
   const Pictures pictures = session->show(wants);
   if (pictures.surface) out.skin_m = pictures.surface->positions_m;
   return out;
 }
 
-/// How far a vertex of a skin is from the nearest of the one that is `place_m` away, at most [m]; not a number where
-/// one of them is none. Not one by one: far away some edges are by a rounding longer than they may be, and are divided.
+/// Returns the largest distance of a vertex to the nearest one of the surface mesh that is displaced by `place_m` [m];
+/// NaN if one of them is empty. Vertices do not correspond one to one: far away, rounding makes some edges exceed the
+/// limit, and they are divided.
 double skinsApart(const Pressed& here, const Pressed& there, const Vector3d& place_m) {
   if (here.skin_m.empty() || there.skin_m.empty()) return std::nan("");
   const auto at = [](const std::vector<float>& skin_m, size_t v) {
@@ -112,14 +113,14 @@ void measureFar(Report& report) {
   report.add(table, "far");
 }
 
-/// Displacements over the size of a block that hangs and swings. Sizes are alike where E goes with the size and time
-/// with its root: weight over stiffness and drag over frequency are then the same.
+/// Returns the displacements of a block that hangs and oscillates, over its size. Sizes are similar if E is
+/// proportional to the size and time to its root: then weight over stiffness and drag over frequency are the same.
 Field swing(Backend backend, double size_m, int ticks) {
   constexpr int kCells = 4;
   const double time = std::sqrt(size_m / 0.02);
   MaterialConfig material;
   material.young_modulus_pa *= size_m / 0.02;
-  material.drag_per_s /= time;
+  material.mass_damping_per_s /= time;
   const Model model = blockModel({kCells, kCells, kCells}, size_m / kCells, material,
                                  [](const Vector3i& n) { return n.z() == kCells; });
   Scene scene;
@@ -127,7 +128,7 @@ Field swing(Backend backend, double size_m, int ticks) {
   scene.solver.tick_hz = 60 / time;
   scene.solver.sleep_distance_m = 100 * size_m;
   scene.solver.sleep_speed_m_per_s = 0;
-  const std::unique_ptr<Ticks> solver = solverOn(backend, model, scene);
+  const std::unique_ptr<TissueStepper> solver = solverOn(backend, model, scene);
   for (int t = 0; t < ticks; ++t) solver->step({});
   Field out;
   for (const layout::vec4& u : solver->readState().displacement_m) out.push_back(xyz(u) / size_m);

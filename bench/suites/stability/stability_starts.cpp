@@ -11,9 +11,9 @@ namespace viscera::bench {
 namespace {
 
 constexpr uint32_t kSeed = 11;
-constexpr double kWide = 10;  // times as large, times as fast as waves
+constexpr double kWide = 10;  // factor of size and of the speed of waves
 
-/// Positions and speeds of a body's nodes, to be turned into a state.
+/// Positions and velocities of a body's nodes, from which a state is made.
 class Pose {
  public:
   explicit Pose(const Model& model) : model_(model), lattice_(model.bodies[0].lattice) {
@@ -23,7 +23,7 @@ class Pose {
     size_ = box.sizes();
     middle_ = box.center();
   }
-  /// @param place  rest position -> position [m]
+  /// Creates a start. @param place  rest position -> position [m]
   template <class Place>
   Start at(const std::string& name, Place place) const {
     Start start{name, restState(model_)};
@@ -95,11 +95,11 @@ double energyOf(ReferenceSolver& reference, const HostState& state, double lag_s
     reference.v_m_per_s[slot] = xyz(state.velocity_m_per_s[slot]);
     reference.nodes[slot] = state.nodes[slot];
   }
-  if (lag_s > 0) {  // on to the velocities of the displacements' own moment
+  if (lag_s > 0) {  // advances to the velocities at the time of the displacements
     Field v = reference.v_m_per_s;
     for (uint32_t slot : reference.active) {
       if (isFixed(reference.nodes[slot])) continue;
-      v[slot] += lag_s * (reference.force(slot) / reference.mass(slot) - reference.drag_per_s(slot) * v[slot]);
+      v[slot] += lag_s * (reference.force(slot) / reference.mass(slot) - reference.mass_damping_per_s(slot) * v[slot]);
     }
     reference.v_m_per_s = v;
   }

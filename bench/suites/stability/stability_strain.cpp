@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// How much faster than at rest the fastest mode of strained springs is: what strainFactor() must cover, by the float64
-// reference's stiffness matrices. What cells of a law need follows from their strain itself (docs/physics.md 2).
+// Ratio of the fastest mode of strained springs to that at rest, which strainFactor() must cover, from the float64
+// reference's stiffness matrices. For cells of a law it follows from their strain itself (docs/physics.md 2).
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@
 #include "bench/harness/specimens/block.h"
 #include "bench/suites/stability/stability_suite.h"
 #include "solver/ticks/stable_step.h"
-#include "viscera/solver/governor.h"
 #include "viscera/solver/material.h"
+#include "viscera/solver/stability_monitor.h"
 
 namespace viscera::bench {
 
@@ -22,7 +22,7 @@ constexpr double kStabilityStrainSpacing_m = 0.005;
 constexpr uint32_t kStabilityStrainSeed = 5;
 constexpr double kChecked = 2;  // stretch up to which measured substeps are longer than the strained ones
 
-/// A way of straining a block. @param at  from its middle, -1 to 1 per axis   @param size  how much; 0 none
+/// A method of straining a block. @param at  position from its centre, -1 to 1 per axis   @param size  amount; 0: none
 struct Strain {
   const char* name;
   double largest_size;
@@ -32,7 +32,7 @@ struct Strain {
 std::vector<Strain> strains() {
   using Random = std::mt19937;
   return {
-      {"stretched along x, as thick as nu 0.45 leaves it", 4,
+      {"stretched along x, thinned as by nu 0.45", 4,
        [](const Vector3d& at, double s, Random&) -> Vector3d {
          const double across = std::pow(1 + s, -0.45);
          return {(1 + s) * at.x(), across * at.y(), across * at.z()};
@@ -58,12 +58,12 @@ std::vector<Strain> strains() {
          return {std::cos(angle) * at.x() - std::sin(angle) * at.y(),
                  std::sin(angle) * at.x() + std::cos(angle) * at.y(), at.z()};
        }},
-      {"pressed along z, as wide as its volume wants", 0.95,
+      {"pressed along z, widened to keep its volume", 0.95,
        [](const Vector3d& at, double s, Random&) -> Vector3d {
          const double across = 1 / std::sqrt(1 - s);
          return {across * at.x(), across * at.y(), (1 - s) * at.z()};
        }},
-      {"wider at every node's own chance", 6,
+      {"widened by a random amount at every node", 6,
        [](const Vector3d& at, double s, Random& random) -> Vector3d {
          std::uniform_real_distribution<double> chance(-1, 1);
          return at + 0.15 * s * Vector3d(chance(random), chance(random), chance(random)) + 0.5 * s * at;
@@ -88,7 +88,7 @@ Stretch stretchOf(const ReferenceSolver& reference, const Field& u_m) {
   return out;
 }
 
-/// omega_max [1/s].
+/// Returns omega_max [1/s].
 double fastestMode(const ReferenceSolver& reference, const Field& u_m) {
   Eigen::VectorXd per_root(reference.dofs());
   for (const uint32_t slot : reference.active)
@@ -101,7 +101,7 @@ double fastestMode(const ReferenceSolver& reference, const Field& u_m) {
 
 Field strained(const ReferenceSolver& reference, const Strain& strain, int cells, double size) {
   const double half_m = 0.5 * cells * kStabilityStrainSpacing_m;
-  std::mt19937 random(kStabilityStrainSeed);  // the same chances whatever the size
+  std::mt19937 random(kStabilityStrainSeed);  // the same random numbers for every size
   Field u_m(reference.slots(), Vector3d::Zero());
   for (const uint32_t slot : reference.active) {
     const Vector3d rest = reference.restPosition(slot), at = rest / half_m - Vector3d::Ones();
@@ -110,7 +110,7 @@ Field strained(const ReferenceSolver& reference, const Strain& strain, int cells
   return u_m;
 }
 
-/// The size at which the largest stretch is what is wanted. Stretch grows with size.
+/// Returns the displacements at the size with the given largest stretch. Stretch grows with size.
 Field strainedTo(const ReferenceSolver& reference, const Strain& strain, int cells, double stretch) {
   double low = 0, high = strain.largest_size;
   for (int i = 0; i < 40; ++i) {
@@ -145,7 +145,7 @@ void strainOfStability(Report& report) {
       if (stretch.largest < 0.99 * wanted || stretch.shortest < layout::kCollapsed) continue;
       const double omega = fastestMode(reference, u_m);
       const double dt_s =
-          measuredSubstep_s(SolverConfig{}, material.dashpot_ratio, dt_safe_s, 2 / at_rest, stretch.largest);
+          measuredSubstep_s(SolverConfig{}, material.stiffness_damping_ratio, dt_safe_s, 2 / at_rest, stretch.largest);
       if (wanted <= kChecked) worst = std::max(worst, 0.5 * dt_s * omega);
       table.add(
           {strain.name, stretch.largest, stretch.shortest, omega / at_rest, dt_s / dt_safe_s, 0.5 * dt_s * omega});

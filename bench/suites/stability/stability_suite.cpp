@@ -13,14 +13,14 @@ namespace viscera::bench {
 namespace {
 
 constexpr int kTicks = 60;
-constexpr double kStabilityEnergyBound = 1.01;  // of the start's energy
+constexpr double kStabilityEnergyBound = 1.01;  // relative to the start's energy
 
-/// A block of springs.
+/// Returns a block of springs.
 Model blockOf(int cells) {
   return blockModel(Vector3i::Constant(cells), kStabilitySpacing_m, {});
 }
 
-/// The worst of the cells that one check is about.
+/// The worst of the cells of one check.
 struct Worst {
   int not_finite = 0;
   double energy_ratio = 0, energy_left = 0, over_bound = 0;
@@ -40,10 +40,10 @@ Table startsTable(const std::string& title) {
                        {"dt over limit"},
                        {"finite"},
                        {"max energy over start", "", 5},
-                       {"over governor's bound"},
+                       {"over stability monitor's bound"},
                        {"energy left"},
                        {"recovered"},
-                       {"governor trips"},
+                       {"stability monitor trips"},
                        {"frames to recover"},
                        {"ticks"}});
 }
@@ -54,7 +54,7 @@ void addRow(Table& table, Backend backend, const Start& start, Integrator integr
              o.frames_to_recover >= 0 ? Cell(o.frames_to_recover) : Cell(""), o.ticks});
 }
 
-/// Energy over time.
+/// Returns energy over time.
 Series curve(const Outcome& outcome, Integrator integrator, double ratio) {
   Series out{nameOf(integrator) + ", dt " + Cell(ratio).text(3) + " x limit", {}, {}, Series::Style::kLines};
   for (size_t t = 0; t < outcome.energies.size(); ++t) {
@@ -64,7 +64,7 @@ Series curve(const Outcome& outcome, Integrator integrator, double ratio) {
   return out;
 }
 
-/// All starts with all integrators that the body goes with, on one backend.
+/// Tests all starts with all integrators that the body supports, on one backend.
 class Trials {
  public:
   Trials(Report& report, Model model, const std::string& title)
@@ -73,7 +73,7 @@ class Trials {
   }
 
   void run(Backend backend, const std::vector<double>& ratios, const std::string& stem) {
-    Plot plot{"energy after the start '" + starts_[0].name + "', governor on, " + nameOf(backend),
+    Plot plot{"energy after the start '" + starts_[0].name + "', stability monitor on, " + nameOf(backend),
               "ticks",
               "energy over start",
               true,
@@ -84,7 +84,7 @@ class Trials {
       if (hasLaw(model_) && traits.integrator != Integrator::kLeapfrog) continue;
       report_.stage("starts, " + nameOf(traits.integrator) + ", " + nameOf(backend));
       for (double ratio : ratios) {
-        // dt_safe bounds what springs may do; cells of a law need shorter substeps the more they are strained.
+        // dt_safe is a bound for springs; cells of a law need shorter substeps the more they are strained.
         const bool promised = !traits.own_positions && (!traits.is_explicit || (ratio <= 1 && !hasLaw(model_)));
         plot.series.push_back(
             curve(runStarts(backend, traits.integrator, ratio, promised ? stable : above), traits.integrator, ratio));
@@ -97,13 +97,13 @@ class Trials {
                         kStabilityEnergyBound);
     report_.checkAtMost(name + ": energy left at the end over start, explicit above the limit, a law and verlet_paper",
                         above.energy_left, kStabilityEnergyBound);
-    report_.checkAtMost(name + ": energy over what the governor lets pass", worse(stable.over_bound, above.over_bound),
-                        1);
+    report_.checkAtMost(name + ": energy over what the stability monitor lets pass",
+                        worse(stable.over_bound, above.over_bound), 1);
   }
   const Table& table() const { return table_; }
 
  private:
-  /// @return the outcome of the first start
+  /// Runs all starts. @return the outcome of the first start
   Outcome runStarts(Backend backend, Integrator integrator, double ratio, Worst& worst) {
     const Scene scene = sceneAt(model_, integrator, ratio);
     Outcome first;
@@ -146,7 +146,7 @@ void fractionsOfStability(Report& report) {
   const Model model = blockOf(report.isShort() ? 4 : 6);
   std::vector<Start> starts = extremeStarts(model);
   if (report.isShort()) starts.resize(2);
-  Table table("leapfrog without governor: largest energy over the start's, by substep over dt_safe",
+  Table table("leapfrog without stability monitor: largest energy over the start's, by substep over dt_safe",
               {{"backend"},
                {"start"},
                {"0.5", "", 5},
@@ -156,17 +156,17 @@ void fractionsOfStability(Report& report) {
                {"0.8", "", 5},
                {"0.9 (no dashpot)", "", 5}});
   Model undamped = model;
-  undamped.bodies[0].material.dashpot_ratio = 0;
+  undamped.bodies[0].material.stiffness_damping_ratio = 0;
   for (Backend backend : report.backends()) {
     report.stage("fractions of dt_safe, " + nameOf(backend));
     for (const Start& start : starts) {
       std::vector<Cell> row = {nameOf(backend), start.name};
       for (double fraction : {0.5, 0.6, 0.7, 0.75, 0.8, 0.9}) {
         const Model& tried = fraction > 0.82 ? undamped : model;
-        const double xi = tried.bodies[0].material.dashpot_ratio;
+        const double xi = tried.bodies[0].material.stiffness_damping_ratio;
         Scene scene =
             sceneAt(tried, Integrator::kLeapfrog, fraction / (0.999 * stableFraction(Integrator::kLeapfrog, xi)));
-        scene.solver.governor = false;
+        scene.solver.stability_monitor = false;
         const Outcome outcome = tryStart(backend, tried, scene, start, report.isShort() ? 20 : kTicks);
         row.push_back(outcome.finite ? Cell(outcome.energy_ratio) : Cell("not finite"));
       }
@@ -177,18 +177,18 @@ void fractionsOfStability(Report& report) {
 }
 
 void measuredOfStability(Report& report) {
-  Table table("leapfrog as it is by default, substeps measured, governor on", {{"backend"},
-                                                                               {"law"},
-                                                                               {"nu"},
-                                                                               {"start"},
-                                                                               {"dt at rest", "dt_safe", 3},
-                                                                               {"limit", "dt_safe", 3},
-                                                                               {"largest energy", "start", 3},
-                                                                               {"energy left", "start", 3},
-                                                                               {"governor trips"}});
+  Table table("leapfrog as it is by default, substeps measured, stability monitor on", {{"backend"},
+                                                                                        {"law"},
+                                                                                        {"nu"},
+                                                                                        {"start"},
+                                                                                        {"dt at rest", "dt_safe", 3},
+                                                                                        {"limit", "dt_safe", 3},
+                                                                                        {"largest energy", "start", 3},
+                                                                                        {"energy left", "start", 3},
+                                                                                        {"stability monitor trips"}});
   for (Backend backend : report.backends()) {
     Worst worst;
-    double left = 0;  // but of what no force has a direction in
+    double left = 0;  // without the start in which forces have no direction
     for (const double nu : report.isShort() ? std::vector<double>{0.25} : std::vector<double>{0.25, 0.45, 0.49}) {
       report.stage("measured substeps, nu " + Cell(nu).text(3) + ", " + nameOf(backend));
       const int cells = report.isShort() ? 4 : 6;
@@ -198,7 +198,7 @@ void measuredOfStability(Report& report) {
         Scene scene = sceneAt(model, Integrator::kLeapfrog, 1);
         scene.solver.tick_hz = SolverConfig{}.tick_hz;
         scene.solver.substeps = 0;
-        const std::unique_ptr<Ticks> solver = solverOn(backend, model, scene, false);
+        const std::unique_ptr<TissueStepper> solver = solverOn(backend, model, scene, false);
         const double dt = solver->dt_s() / solver->dtSafe_s(), limit = solver->dtLimit_s() / solver->dtSafe_s();
         for (const Start& start : extremeStarts(model)) {
           const Outcome outcome = tryStart(backend, model, scene, start, report.isShort() ? 20 : kTicks);

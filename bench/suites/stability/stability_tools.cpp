@@ -9,21 +9,21 @@
 
 #include "bench/suites/stability/stability_suite.h"
 #include "bench/suites/stability/stability_trial.h"
-#include "viscera/tools/hands.h"
+#include "viscera/tools/tools.h"
 
 namespace viscera::bench {
 
 namespace {
 
 constexpr double kStabilityToolsSpacing_m = 0.005;
-constexpr double kTop_m = 0.02;      // of the block
-constexpr double kBackWithin = 0.1;  // of the spacing: tissue that is nearer to its rest is back
-constexpr double kSpeedLimit = 5;    // times the tool's speed or c_p
+constexpr double kTop_m = 0.02;      // top of the block
+constexpr double kBackWithin = 0.1;  // relative to the spacing: closer tissue counts as recovered
+constexpr double kSpeedLimit = 5;    // relative to the tool's speed or c_p
 constexpr int kTicksPerSecond = 60;
 constexpr unsigned kStabilityToolsSeed = 3;
 constexpr const char* kThrough = "probe through the block";
 
-/// A block held at its bottom and one stylus, as a session has them, without skin and pictures.
+/// A block fixed at its bottom and one stylus, as in a session, without surface mesh and images.
 class Stage {
  public:
   Stage(Backend backend, ToolMode mode, Law law, const Vector3i& cells)
@@ -42,7 +42,7 @@ class Stage {
     sample_[0].valid = false;
     tick();
   }
-  /// From where the tip is to there at a speed, then on to the next.
+  /// Moves the tip from one position to another at a speed.
   void sweep(const Vector3d& from, const Vector3d& to, double speed) {
     const int ticks = std::max(1, static_cast<int>(std::ceil((to - from).norm() / speed * kTicksPerSecond)));
     for (int t = 1; t <= ticks; ++t) moveTo(from + static_cast<double>(t) / ticks * (to - from));
@@ -50,7 +50,7 @@ class Stage {
   void rest(double seconds) {
     for (int t = 0; t < seconds * kTicksPerSecond; ++t) takeAway();
   }
-  /// Farthest node from rest, over the spacing.
+  /// Returns the largest displacement from rest, over the spacing.
   double strayed() const {
     const HostState state = solver_->readState();
     double farthest = 0;
@@ -61,9 +61,9 @@ class Stage {
   }
   const Model& model() const { return model_; }
   const layout::TickStats& stats() const { return stats_; }
-  const Ticks& solver() const { return *solver_; }
+  const TissueStepper& solver() const { return *solver_; }
   double peak_speed = 0, peak_stretch = 0;
-  int held_back = 0;
+  int speed_limited = 0;
   bool finite = true;
 
  private:
@@ -85,7 +85,7 @@ class Stage {
   }
   void tick() {
     const ToolMotions motions = tools_.advance(sample_);
-    held_back += motions[0].held_back;
+    speed_limited += motions[0].speed_limited;
     solver_->step(motions);
     while (solver_->pollStats(stats_, true)) {
     }
@@ -102,13 +102,13 @@ class Stage {
 
   Model model_;
   Scene scene_;
-  std::unique_ptr<Ticks> solver_;
+  std::unique_ptr<TissueStepper> solver_;
   Tools tools_;
   StylusSamples sample_;
   layout::TickStats stats_{};
 };
 
-/// One row of the table of abuses, and what the checks need of it.
+/// One row of the table of abuses, and the data of its checks.
 struct Abuse {
   std::string name;
   double tool_speed;
@@ -155,13 +155,13 @@ std::vector<Abuse> abuses(bool short_form) {
   return out;
 }
 
-/// What the checks need of all abuses on one backend.
+/// Data for the checks of all abuses on one backend.
 struct Abused {
   int not_finite = 0, not_back = 0, not_said = 0;
   double worst_speed = 0;
 };
 
-/// Row by row, with the points of the plot: nodes' speeds under the probe, and their limit.
+/// Runs the abuses, with the points of the plot: nodes' speeds under the probe, and their limit.
 Abused abuseOn(Backend backend, Report& report, Table& table, Series& peaks, Series& limits) {
   Abused out;
   for (const Abuse& abuse : abuses(report.isShort())) {
@@ -183,7 +183,7 @@ Abused abuseOn(Backend backend, Report& report, Table& table, Series& peaks, Ser
       peaks.x.push_back(abuse.tool_speed), peaks.y.push_back(stage.peak_speed);
       limits.x.push_back(abuse.tool_speed), limits.y.push_back(kSpeedLimit * fastest);
     }
-    table.add({nameOf(backend), abuse.name, abuse.tool_speed, stage.held_back, stage.finite ? "yes" : "NO",
+    table.add({nameOf(backend), abuse.name, abuse.tool_speed, stage.speed_limited, stage.finite ? "yes" : "NO",
                stage.peak_speed, speed, stage.peak_stretch, static_cast<double>(stage.solver().health().trips), away,
                back   ? "yes"
                : said ? "bounded, strained"
@@ -193,7 +193,7 @@ Abused abuseOn(Backend backend, Report& report, Table& table, Series& peaks, Ser
 }
 
 void abuseTissue(Report& report) {
-  Table table("what tools do to a block of the neo-Hookean law held at its bottom, and one second later",
+  Table table("effect of tools on a block of the neo-Hookean law held at its bottom, and one second later",
               {{"backend"},
                {"abuse"},
                {"tool speed", "m/s"},
@@ -202,10 +202,10 @@ void abuseTissue(Report& report) {
                {"peak node speed", "m/s"},
                {"over tool or c_p"},
                {"peak stretch"},
-               {"governor trips"},
+               {"stability monitor trips"},
                {"away after 1 s", "h"},
                {"back"}});
-  Plot plot{"what a probe does to nodes, by its speed", "tool speed [m/s]", "peak node speed [m/s]", true, true, {}};
+  Plot plot{"effect of a probe on nodes, by its speed", "tool speed [m/s]", "peak node speed [m/s]", true, true, {}};
   Series limits;
   for (Backend backend : report.backends()) {
     Series peaks{nameOf(backend) + ": peak node speed", {}, {}};
@@ -216,14 +216,14 @@ void abuseTissue(Report& report) {
     report.checkAtMost(name + "sessions with a value that is not finite", found.not_finite, 0);
     report.checkAtMost(name + "peak node speed over the tool's or c_p", found.worst_speed, kSpeedLimit);
     report.checkAtMost(name + "probed tissue that is not back after 1 s", found.not_back, 0);
-    report.checkAtMost(name + "grabbed tissue that stays folded and is not reported as strained", found.not_said, 0);
+    report.checkAtMost(name + "grabbed tissue that stays folded without being reported as strained", found.not_said, 0);
   }
   plot.series.push_back(limits);
   report.add(table, "tools");
   report.add(plot, "tools");
 }
 
-/// Random strokes of a blade through the block until it is in pieces.
+/// Cuts the block by random strokes until it is in pieces.
 void cutToPieces(Report& report) {
   const int strokes = report.isShort() ? 300 : 10000;
   Table table("random cuts through a block of springs", {{"backend"},
@@ -232,10 +232,10 @@ void cutToPieces(Report& report) {
                                                          {"springs cut"},
                                                          {"finite"},
                                                          {"peak node speed", "m/s"},
-                                                         {"governor trips"},
+                                                         {"stability monitor trips"},
                                                          {"dt_safe grew by"}});
   for (Backend backend : report.backends()) {
-    std::srand(kStabilityToolsSeed);  // of UnitRandom()
+    std::srand(kStabilityToolsSeed);  // for UnitRandom()
     Stage stage(backend, ToolMode::kCut, Law::kSprings, Vector3i(5, 5, 5));
     std::mt19937 random(kStabilityToolsSeed);
     std::uniform_real_distribution<double> place(-0.005, 0.03);
@@ -249,7 +249,7 @@ void cutToPieces(Report& report) {
                stage.finite ? "yes" : "NO", stage.peak_speed, static_cast<double>(stage.solver().health().trips),
                stage.solver().dtSafe_s() / safeTimeStep(stage.model())});
     report.checkAtMost(nameOf(backend) + ": cuts: values that are not finite", stage.finite ? 0 : 1, 0);
-    if (report.isShort()) continue;  // springs are left
+    if (report.isShort()) continue;  // some springs are left
     report.checkAtMost(nameOf(backend) + ": cuts: springs left", springs - stage.stats().springs_cut, 0);
   }
   report.add(table, "cuts");

@@ -10,9 +10,9 @@ namespace viscera::bench {
 namespace {
 
 constexpr double kTick_s = 1.0 / 60;
-constexpr double kRecovered = 0.01;  // of the start's energy
-constexpr double kNoEnergy = 1e-6;   // of M c_p^2: rounding of a mirrored lattice, which has none
-constexpr int kFewest = 12;          // ticks
+constexpr double kRecovered = 0.01;  // relative to the start's energy
+constexpr double kNoEnergy = 1e-6;   // relative to M c_p^2: rounding of a mirrored lattice, which has no energy
+constexpr int kFewest = 12;          // [ticks]
 constexpr double kSweeps = 25000;    // passes over all nodes that a trial may take: a few seconds
 
 double sweepsPerTick(const Scene& scene) {
@@ -48,8 +48,8 @@ Scene sceneAt(const Model& model, Integrator integrator, double ratio) {
   Scene scene;
   scene.environment.gravity_m_per_s2 = Vector3d::Zero();
   scene.solver.integrator = integrator;
-  scene.solver.sleep_distance_m = 100;  // nothing is stopped by the edge of the world
-  const double limit = stableFraction(integrator, model.bodies[0].material.dashpot_ratio);
+  scene.solver.sleep_distance_m = 100;  // the boundary of the world stops nothing
+  const double limit = stableFraction(integrator, model.bodies[0].material.stiffness_damping_ratio);
   const double dt_s = ratio * safeTimeStep(model) * (traitsOf(integrator).is_explicit ? 0.999 * limit : 1);
   scene.solver.substeps = std::max(1, static_cast<int>(std::ceil(kTick_s / dt_s)));
   scene.solver.tick_hz = 1 / (scene.solver.substeps * dt_s);
@@ -57,11 +57,11 @@ Scene sceneAt(const Model& model, Integrator integrator, double ratio) {
 }
 
 Outcome tryStart(Backend backend, const Model& model, const Scene& scene, const Start& start, int ticks) {
-  const std::unique_ptr<Ticks> made = solverOn(backend, model, scene, true);
-  Ticks& solver = *made;
+  const std::unique_ptr<TissueStepper> made = solverOn(backend, model, scene, true);
+  TissueStepper& solver = *made;
   ReferenceSolver reference(model, Vector3d::Zero(), solver.dt_s());
   solver.writeState(start.state);
-  const double whole_j = governorLimits(model, 0, 0).energy_j;
+  const double whole_j = stabilityLimits(model, 0, 0).energy_j;
   const double at_start_j = energyOf(reference, start.state, 0);
   const double first_j = std::max(at_start_j, kNoEnergy * whole_j);
   Outcome out;
@@ -72,7 +72,7 @@ Outcome tryStart(Backend backend, const Model& model, const Scene& scene, const 
     const HostState state = solver.readState();
     out.finite = out.finite && isFinite(model, state);
     if (!out.finite) break;
-    // Beyond the limit half a kick is no small thing, and velocities of one moment mean nothing: taken as they are.
+    // Beyond the limit half a kick is not small, and velocities at one moment are meaningless: they are used unchanged.
     const double lag_s = solver.dt_s() <= solver.dtLimit_s() ? solver.velocityLag_s() : 0;
     const double energy_j = energyOf(reference, state, lag_s);
     out.energy_left = energy_j / first_j;

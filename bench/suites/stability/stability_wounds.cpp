@@ -14,18 +14,18 @@ namespace viscera::bench {
 namespace {
 
 constexpr double kStabilityWoundsSpacing_m = 0.004;
-constexpr double kSofter = 0.005;  // of E, so that a tick is a few substeps; waves still pass a spacing in it
-constexpr double kDearer = 2;      // what the last hundred cuts may cost over the first hundred
+constexpr double kSofter = 0.005;  // relative to E: a tick is a few substeps, and waves still travel a spacing in it
+constexpr double kDearer = 2;      // cost of the last hundred cuts relative to the first hundred
 constexpr size_t kSome = 100;
-constexpr double kWay = 0.25;  // spacings that a line is beside the nodes
+constexpr double kWay = 0.25;  // distance of a line from the nodes [spacings]
 
-/// A box in which a short blade draws lines beside each other, one level of them below the other.
+/// A box in which a short blade cuts parallel lines, in levels one below the other.
 struct Block {
   Vector3i cells;
   Vector3d size_m() const { return kStabilityWoundsSpacing_m * cells.cast<double>(); }
   int lines() const { return cells.x() - 2; }
   int levels() const { return cells.z() / 2 - 1; }
-  int places() const { return cells.y() + 2; }  ///< of a line: from before the box until behind it
+  int places() const { return cells.y() + 2; }  ///< positions of a line: from before the box until behind it
 };
 
 Scene sceneOf(const Block& block, Backend backend) {
@@ -48,7 +48,7 @@ Scene sceneOf(const Block& block, Backend backend) {
   return scene;
 }
 
-/// Where the blade is after so many ticks; between two lines it is away.
+/// Returns the blade's pose at a tick; between two lines it is away.
 StylusSamples bladeAt(const Block& block, size_t tick) {
   const auto places = static_cast<size_t>(block.places()), lines = static_cast<size_t>(block.lines());
   const size_t line = tick / (places + 1), place = tick % (places + 1);
@@ -61,10 +61,10 @@ StylusSamples bladeAt(const Block& block, size_t tick) {
 }
 
 struct Costs {
-  std::vector<double> tick_s, picture_s;  ///< [cuts]: ticks that have cut
+  std::vector<double> tick_s, picture_s;  ///< [cuts] times of ticks that have cut
   double springs = 0, triangles = 0;
 
-  /// Of a tick and its surface, the median of some from there on.
+  /// Returns the time of a tick and its surface, the median of several from `first` on.
   double at(size_t first) const {
     std::vector<double> sums;
     for (size_t i = first; i < first + kSome; ++i) sums.push_back(tick_s[i] + picture_s[i]);
@@ -81,7 +81,7 @@ Costs cutOn(Report& report, Backend backend, const Block& block, size_t cuts) {
   const Scene scene = sceneOf(block, backend);
   const std::unique_ptr<Session> session =
       context ? std::make_unique<Session>(scene, *context) : std::make_unique<Session>(scene);
-  Wants wants;
+  FrameRequest wants;
   wants.surface = true;
   Costs out;
   const auto ticks = static_cast<size_t>(block.lines() * block.levels() * (block.places() + 1));

@@ -14,7 +14,7 @@ namespace viscera::bench {
 namespace {
 
 constexpr double kPaPerKpa = 1000;
-constexpr double kMostStress_kpa = 1e9;  // of a number that means a stress
+constexpr double kMostStress_kpa = 1e9;  // largest number that can be a stress
 const std::string kStrainColumn = "strain", kMeanEnding = "_mean_kpa";
 
 std::vector<std::string> fieldsOf(std::string line) {
@@ -30,11 +30,11 @@ double numberOf(const std::string& field, const std::string& where, double least
   double out = NAN;
   try {
     out = std::stod(field, &read);
-  } catch (const std::exception&) {  // said below
+  } catch (const std::exception&) {  // reported below
   }
   if (read != field.size() || !(out >= least && out <= most)) {
     std::ostringstream text;
-    text << where << ": wanted a number " << least << " .. " << most << "; found '" << field.substr(0, 40) << "'";
+    text << where << ": must be a number, " << least << " .. " << most << "; found '" << field.substr(0, 40) << "'";
     throw Error(text.str());
   }
   return out;
@@ -63,21 +63,21 @@ std::vector<MeasuredCurve> readMeasuredCurves(const std::string& file, double mo
   std::string line;
   if (!in || !std::getline(in, line)) throw Error(file + ": cannot be read, or is empty");
   const std::vector<std::string> head = fieldsOf(line);
-  if (head[0] != kStrainColumn) throw Error(file + ":1: wanted a first column '" + kStrainColumn + "'");
+  if (head[0] != kStrainColumn) throw Error(file + ":1: the first column must be '" + kStrainColumn + "'");
   std::vector<MeasuredCurve> out;
   for (const std::string& column : head) {
     if (isMean(column)) out.push_back({column.substr(0, column.size() - kMeanEnding.size()), {}, {}});
   }
-  if (out.empty()) throw Error(file + ":1: wanted columns NAME" + kMeanEnding);
+  if (out.empty()) throw Error(file + ":1: there must be columns NAME" + kMeanEnding);
   double last = -1;
   for (size_t number = 2; std::getline(in, line); ++number) {
     const std::string where = file + ":" + std::to_string(number);
     const std::vector<std::string> fields = fieldsOf(line);
     if (fields.size() != head.size())
-      throw Error(where + ": wanted " + std::to_string(head.size()) + " columns; found " +
+      throw Error(where + ": must have " + std::to_string(head.size()) + " columns; found " +
                   std::to_string(fields.size()));
     const double strain = numberOf(fields[0], where + ": " + kStrainColumn, 0, 0.99);
-    if (strain <= last) throw Error(where + ": " + kStrainColumn + ": wanted more than in the line before");
+    if (strain <= last) throw Error(where + ": " + kStrainColumn + ": must be larger than in the line before");
     last = strain;
     size_t curve = 0;
     for (size_t c = 1; c < head.size(); ++c) {
@@ -89,7 +89,7 @@ std::vector<MeasuredCurve> readMeasuredCurves(const std::string& file, double mo
   }
   if (out[0].strain.size() < 2 || out[0].strain[0] > 0 || last < most_strain) {
     std::ostringstream text;
-    text << file << ": strain: wanted 0 .. " << most_strain << " at least";
+    text << file << ": strain: must cover at least 0 .. " << most_strain;
     throw Error(text.str());
   }
   return out;

@@ -7,7 +7,7 @@
 
 namespace viscera::bench {
 
-/// Engineering stress of a material in compression, as measured.
+/// Measured engineering stress of a material in compression.
 struct MeasuredCurve {
   std::string name;
   std::vector<double> strain;     ///< ascending
@@ -15,11 +15,11 @@ struct MeasuredCurve {
   double at(double strain) const;
 };
 
-/// A table of comma-separated values: its first column is `strain`, every column NAME_mean_kpa is a material.
-/// @param most_strain  that it has to reach, from 0 on   @throws Error  with file, line and column
+/// Reads a table of comma-separated values: its first column is `strain`, and every column NAME_mean_kpa is a material.
+/// @param most_strain  strain that it must reach, from 0   @throws Error  names file, line and column
 std::vector<MeasuredCurve> readMeasuredCurves(const std::string& file, double most_strain);
 
-/// Between known points, of ascending x. @param x  within them
+/// Interpolates between known points of ascending x. @param x  within their range
 double interpolated(const std::vector<double>& xs, const std::vector<double>& ys, double x);
 
 }  // namespace viscera::bench

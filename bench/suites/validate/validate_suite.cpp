@@ -12,12 +12,12 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kFitFrom = 0.05, kFitTo = 0.1;       // strains that E is fitted on, and no others
-constexpr double kForetold[] = {0.2, 0.3, 0.5};       // strains that are foretold
-constexpr double kSure = 0.3;                         // up to which errors are held to kMostError
+constexpr double kFitFrom = 0.05, kFitTo = 0.1;       // range of strains for fitting E
+constexpr double kForetold[] = {0.2, 0.3, 0.5};       // strains that are predicted
+constexpr double kSure = 0.3;                         // largest strain at which errors are limited by kMostError
 constexpr double kMostError = 0.1;                    // relative, of stress
 constexpr double kFitStep = 0.01;                     // of strain
-constexpr double kRubber = 0.49, kNearRubber = 0.45;  // Poisson's ratios: the most that scenes take, and one below
+constexpr double kRubber = 0.49, kNearRubber = 0.45;  // Poisson's ratios: the largest in scenes, and a lower one
 constexpr double kSneddonMost = 0.15;                 // relative, of force; 4 spacings are a coarse sphere
 constexpr double kInPercent = 100;
 
@@ -25,7 +25,7 @@ double cylinderSpacing_m(const Report& report) {
   return report.isShort() ? 0.005 : 0.003;
 }
 
-/// Least squares of stress = E f(strain).
+/// Fits stress = E f(strain) by least squares.
 double fittedYoung(const MeasuredCurve& measured, const Compression& model) {
   double both = 0, square = 0;
   for (double strain = kFitFrom; strain < kFitTo + kFitStep / 2; strain += kFitStep) {
@@ -39,8 +39,7 @@ void compression(Report& report) {
   std::vector<Column> columns = {{"nu"}, {"spacing", "m"}};
   const double strains[] = {0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5};
   for (const double strain : strains) columns.push_back({"at " + Cell(strain).text(2), "", 4});
-  Table table("A cylinder of 50 x 30 mm between plates on which it slips: engineering stress over E times strain",
-              columns);
+  Table table("A cylinder of 50 x 30 mm between frictionless plates: engineering stress over E times strain", columns);
   struct Pressed {
     double nu, spacing_m;
   };
@@ -58,7 +57,7 @@ void compression(Report& report) {
   report.add(table, "compression");
 }
 
-/// Columns of the strains that are foretold.
+/// Returns the columns of the predicted strains.
 std::vector<Column> foretoldColumns(double nu) {
   std::vector<Column> out = {{"E, nu " + Cell(nu).text(2), "kPa", 4}};
   for (const double strain : kForetold)
@@ -66,7 +65,7 @@ std::vector<Column> foretoldColumns(double nu) {
   return out;
 }
 
-/// @return largest error up to kSure
+/// Predicts stresses. @return largest error up to kSure
 double foretell(const MeasuredCurve& measured, const Compression& model, std::vector<Cell>& row) {
   const double young_pa = fittedYoung(measured, model);
   row.emplace_back(young_pa / 1000);
@@ -81,7 +80,7 @@ double foretell(const MeasuredCurve& measured, const Compression& model, std::ve
 
 void silicones(Report& report) {
   if (report.data().empty()) {
-    report.note("silicones: left out, as there is no --data FILE of measured curves (docs/validation.md)\n");
+    report.note("silicones: skipped, because there is no --data FILE of measured curves (docs/verification.md)\n");
     return;
   }
   const double most = *std::max_element(std::begin(kForetold), std::end(kForetold));
@@ -94,7 +93,7 @@ void silicones(Report& report) {
     const std::vector<Column> of = foretoldColumns(nu);
     columns.insert(columns.end(), of.begin(), of.end());
   }
-  Table table("Stress of measured materials foretold by scenes whose E was fitted on strains 0.05 to 0.1", columns);
+  Table table("Stress of measured materials predicted by scenes with E fitted on strains 0.05 to 0.1", columns);
   Plot plot{"Compression of " + materials[0].name, "strain", "engineering stress [Pa]", false, false, {}};
   double worst = 0;
   for (const MeasuredCurve& measured : materials) {
@@ -113,8 +112,8 @@ void silicones(Report& report) {
   report.checkAtMost("silicones, nu 0.49: largest error of stress at strains of 0.2 and 0.3", worst, kMostError);
 }
 
-/// Force on a sphere in a half space by Sneddon, whose contact stays on the sphere, over Hertz's, whose is a
-/// paraboloid's.
+/// Returns the force on a sphere in a half space by Sneddon, with the contact on the sphere, relative to Hertz's, with
+/// the contact on a paraboloid.
 /// @param depth  over the radius
 double sneddonOverHertz(double depth) {
   double low = 0, high = 1;  // radius of the contact over that of the sphere
@@ -143,7 +142,7 @@ void sphere(Report& report) {
     worst = std::max(worst, std::abs(over / sneddon - 1));
   }
   report.add(table, "sphere");
-  report.checkAtMost("sphere: largest error of force beside Sneddon's", worst, kSneddonMost);
+  report.checkAtMost("sphere: largest error of force against Sneddon's", worst, kSneddonMost);
 }
 
 }  // namespace

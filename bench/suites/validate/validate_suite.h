@@ -6,7 +6,7 @@
 
 namespace viscera::bench {
 
-/// What scenes make of measured silicone rubbers and of a sphere on a half space (docs/validation.md).
+/// Compares scenes with measured silicone rubbers and with a sphere on a half space (docs/verification.md).
 void validateSuite(Report& report);
 
 }  // namespace viscera::bench

@@ -22,15 +22,15 @@ constexpr double kCylinderWidth_m = 0.05, kCylinderHeight_m = 0.03;
 constexpr int kCylinderSides = 96;
 constexpr double kYoung_pa = 20000, kDensity_kg_per_m3 = 1000;
 constexpr double kTrialTick_hz = 120;
-constexpr double kPlateSpeed_m_per_s = 0.006;  // a five-hundredth of the speed of sound: what is felt is no inertia
-constexpr double kSinkSpeed = 0.4;             // of the sphere, in radii a second
-constexpr double kFromAbove = 0.1;             // of the radius: a tip that appears in tissue feels nothing
+constexpr double kPlateSpeed_m_per_s = 0.006;  // a five-hundredth of the speed of sound: inertia is negligible
+constexpr double kSinkSpeed = 0.4;             // of the sphere, in radii per second
+constexpr double kFromAbove = 0.1;             // relative to the radius: a tip that appears in tissue feels nothing
 constexpr double kSphereSpacing_m = 0.004;
 
-/// A mesh file that is there as long as this is.
+/// A temporary mesh file, removed with this object.
 class CylinderFile {
  public:
-  /// As much area as the circle's.
+  /// Writes a polygon with the area of the circle.
   CylinderFile()
       : path_(std::filesystem::temp_directory_path() / ("viscera-cylinder-" + std::to_string(getpid()) + ".obj")) {
     const double step = 2 * M_PI / kCylinderSides, radius_m = kCylinderWidth_m / 2 * std::sqrt(step / std::sin(step));
@@ -107,7 +107,7 @@ Compression compressedCylinder(double poisson_ratio, double spacing_m, double mo
     const Frame frame = session.step({}, {});
     const double way_m = kPlateSpeed_m_per_s * static_cast<double>(session.tick()) * session.tick_s();
     const double force_n = (frame.obstacle_forces[1].force_n.z() - frame.obstacle_forces[0].force_n.z()) / 2;
-    // Forces are means of a tick, of which this is the middle.
+    // Forces are means over a tick, and this is its middle.
     out.strain.push_back((way_m - kPlateSpeed_m_per_s * session.tick_s() / 2) / kCylinderHeight_m);
     out.stress_over_e.push_back(force_n / area_m2 / kYoung_pa);
   }

@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What bench/references/walls.py prints (CalculiX 2.20): with --levels 2 3 of bowl, block and, but for nu 0.49,
-// bladder; else as by default.
+// Output of bench/references/walls.py (CalculiX 2.20): with --levels 2 3 for bowl, block and, except for nu 0.49,
+// bladder; otherwise with the defaults.
 #include "bench/suites/walls/walls_references.h"
 
 #include <cmath>

@@ -18,12 +18,12 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kOrganEdge_m = 0.0015;    ///< of triangles: half of it changes displacements by 0.2 % at most
-constexpr double kOrganBorder_m = 0.0043;  ///< x of the border of the block's two materials, amid cells
-constexpr double kStomachCut = 0.045;      ///< where the straight stomach is cut off and held [m]
+constexpr double kOrganEdge_m = 0.0015;    ///< edge length of triangles; halving it changes results by 0.2 % at most
+constexpr double kOrganBorder_m = 0.0043;  ///< x of the border between the block's two materials, inside cells
+constexpr double kStomachCut = 0.045;      ///< position at which the straight stomach is cut off and fixed [m]
 constexpr double kStomachBend = 0.06;      ///< radius [m]
 
-/// An ellipsoid with its pole at -z, cut off at a height; the axes of its inside are less by the wall.
+/// Returns an ellipsoid with its pole at -z, cut off at a height; the axes of its inside are shorter by the wall.
 std::function<Vector3d(double, double, double)> ellipsoid(const Vector3d& axes_m, double wall_m, double cut_m) {
   return [=](double s, double f, double t) {
     const Vector3d axes = axes_m.array() - wall_m * (1 - t);
@@ -32,13 +32,13 @@ std::function<Vector3d(double, double, double)> ellipsoid(const Vector3d& axes_m
   };
 }
 
-/// Half a sphere of radius 40 mm that opens up, with its pole at -y, cut off at y = 25 mm.
+/// Returns half a sphere of radius 40 mm with an opening, with its pole at -y, cut off at y = 25 mm.
 Vector3d bowl(double s, double f, double t) {
   const double r = 0.037 + 0.003 * t, angle = s * std::acos(-0.025 / r);
   return {r * std::sin(angle) * std::cos(f), -r * std::cos(angle), r * std::sin(angle) * std::sin(f)};
 }
 
-/// A tube of radius 12 mm: 20 mm along x, a quarter turn of radius 35 mm, 20 mm up to z = 0.
+/// Returns a tube of radius 12 mm: 20 mm along x, a quarter turn of radius 35 mm, 20 mm up to z = 0.
 Vector3d tube(double s, double f, double t) {
   constexpr double kLeg = 0.02, kBend = 0.035, kTurn = kBend * M_PI / 2;
   const double r = 0.009 + 0.003 * t, way = (1 - s) * (2 * kLeg + kTurn);
@@ -48,14 +48,14 @@ Vector3d tube(double s, double f, double t) {
   return {x + out * std::cos(bent), r * std::sin(f), z + out * std::sin(bent)};
 }
 
-/// Half of a torus of radii 30 and 12 mm, both ends at y = 0.
+/// Returns half of a torus of radii 30 and 12 mm, both ends at y = 0.
 Vector3d torus(double s, double f, double t) {
   const double r = 0.009 + 0.003 * t, around = M_PI / 2 * (1 - s), out = 0.03 + r * std::cos(f);
   const double y = std::abs(s) == 1 ? 0 : out * std::sin(around);
   return {out * std::cos(around), y, r * std::sin(f)};
 }
 
-/// An ellipsoid of 28 x 28 x 60 mm, cut off at 45 mm, bent by a radius of 60 mm.
+/// Returns an ellipsoid of 28 x 28 x 60 mm, cut off at 45 mm, bent with a radius of 60 mm.
 Vector3d stomach(double s, double f, double t) {
   static const auto straight = ellipsoid({0.028, 0.028, 0.06}, 0.004, kStomachCut);
   const Vector3d at = straight(s, f, t);
@@ -63,12 +63,12 @@ Vector3d stomach(double s, double f, double t) {
   return {kStomachBend - out * std::cos(bent), at.y(), -out * std::sin(bent)};
 }
 
-/// A clamp of what lies at a plane and beyond. @param axis  of its normal
+/// Returns a clamp of everything at a plane and beyond. @param axis  of its normal
 FixedConfig clampFrom(int axis, double at_m) {
   return clampBehind(at_m * Vector3d::Unit(axis), -Vector3d::Unit(axis));
 }
 
-/// Triangles of a mapped organ's surface: the faces of the box that the map has as its domain.
+/// Triangles of a mapped organ's surface: the faces of the box that is the map's domain.
 class OrganSurface {
  public:
   explicit OrganSurface(const Organ& organ) : organ_(organ), round_(organ.f_high - organ.f_low > 2 * M_PI - 1e-9) {
@@ -87,7 +87,7 @@ class OrganSurface {
   const TriangleMesh& mesh() const { return mesh_; }
 
  private:
-  /// @param s, f  0 to 1 of their ranges
+  /// @param s, f  0 to 1 within their ranges
   Vector3d place(double s, double f, double t) const {
     return organ_.place(organ_.s_low + (1 - organ_.s_low) * s, organ_.f_low + (organ_.f_high - organ_.f_low) * f, t);
   }
@@ -142,7 +142,7 @@ void writeMapped(const Organ& organ, std::ostream& out) {
     out << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
 }
 
-/// @param first  vertices that are in the file already
+/// @param first  number of vertices that are already in the file
 void writeBlockPart(const char* name, const Vector3d& low_m, const Vector3d& high_m, int first, std::ostream& out) {
   out << "o " << name << '\n';
   for (int c = 0; c < 8; ++c) {

@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Thin-walled organs and a block of two materials that hang under their weight, beside an independent finite element
-// program.
+// Thin-walled organs and a block of two materials that hang under their weight, compared with an independent finite
+// element program.
 #include "bench/suites/walls/walls_suite.h"
 
 #include <cmath>
@@ -21,33 +21,33 @@ namespace viscera::bench {
 
 namespace {
 
-/// Mean displacement along gravity, which is chosen for it [m]: strains of some 1e-4, so that nothing is nonlinear, and
-/// three thousandths of a spacing, so that float32 resolves it.
+/// Mean displacement along gravity, which is chosen accordingly [m]: strains are about 1e-4, so everything is linear,
+/// and it is three thousandths of a spacing, so float32 resolves it.
 constexpr double kWallsMean_m = 1e-5;
 constexpr double kWallsRatios[] = {0.3, 0.45, 0.49};
 constexpr double kWallsPercent = 100, kWallsMm = 1e3;
 
-/// What is measured of every organ, and what is held to.
+/// A spacing at which every organ is measured.
 struct WallsSpacing {
   double spacing_m;
-  bool is_short;         ///< measured in the short form too
-  double most_nu = 0.5;  ///< up to which: finer ones take minutes
+  bool is_short;         ///< whether it is measured in the short form too
+  double most_nu = 0.5;  ///< largest nu: higher ones take minutes at fine spacings
 };
 constexpr WallsSpacing kWallsSpacings[] = {
     {0.00567, true}, {0.004, true}, {0.003, false}, {0.002, false}, {0.0015, false, 0.45}};
-/// Cells across what is no wall from which on an organ is measured at no finer spacing.
+/// Number of cells across solid parts above which an organ is not measured at finer spacings.
 constexpr double kThick = 10.5;
-/// Nodes up to which there is a column in float64: one factorisation takes some ten seconds there.
+/// Largest number of nodes with a column in float64: one factorisation takes about ten seconds there.
 constexpr size_t kMostInFloat64 = 9000;
-/// Errors that are reached today at all of kWallsRatios; what is not named is shown only.
+/// Errors that are reached at all of kWallsRatios; organs that are not listed are shown only.
 struct WallsLimit {
   const char* organ;
-  double spacing_m;  ///< this one and finer ones
-  double most;       ///< of |error|
+  double spacing_m;  ///< this spacing and finer ones
+  double most;       ///< largest |error|
 };
 constexpr WallsLimit kWallsLimits[] = {{"tube", 0.004, 0.065}, {"tube", 0.003, 0.05},    {"torus", 0.004, 0.07},
                                        {"torus", 0.002, 0.03}, {"block", 0.00567, 0.05}, {"block", 0.003, 0.03}};
-/// The same with `material.walls: rows`.
+/// Errors with `material.walls: rows`.
 constexpr WallsLimit kRowsLimits[] = {
     {"tube", 0.004, 0.05}, {"tube", 0.003, 0.03}, {"ellipsoid", 0.003, 0.055}, {"torus", 0.003, 0.045}};
 
@@ -80,15 +80,16 @@ Scene hangingScene(const Organ& organ, const OrganFile& file, double nu, double 
   return scene;
 }
 
-/// One organ hanging in equilibrium. Errors are those of the mean displacement along gravity, as shares; not finite: no
-/// equilibrium was found, or none was asked for.
+/// One organ hanging in equilibrium. Errors are those of the mean displacement along gravity, relative; not finite: no
+/// equilibrium was found or requested.
 struct HangingOrgan {
-  size_t nodes = 0, in_walls = 0;  ///< cells in thin walls, where second derivatives come from rows of nodes
+  size_t nodes = 0, in_walls = 0;  ///< cells in thin walls, where second derivatives are from rows of nodes
   SettleReport settle, settle_rows;
   double settled = std::nan(""), settled_rows = std::nan(""), float64 = std::nan("");
 };
 
-/// Sums a displacement along gravity, weighted by mass, over its reference. @param at  displacement of a slot [m]
+/// Returns the error of the displacement along gravity, weighted by mass, relative to the reference.
+/// @param at  displacement of a slot [m]
 template <class At>
 double errorOf(const ReferenceSolver& solver, const Vector3d& along, const At& at) {
   double moved = 0, mass_kg = 0;
@@ -99,13 +100,13 @@ double errorOf(const ReferenceSolver& solver, const Vector3d& along, const At& a
   return moved / mass_kg / kWallsMean_m - 1;
 }
 
-/// Error of the equilibrium that the CPU backend finds.
+/// Returns the error of the equilibrium that the CPU backend finds.
 double settledError(const Model& model, const Scene& scene, const ReferenceSolver& solver, const Vector3d& along,
                     SettleReport& report) {
   try {
     const HostState state = equilibriumOf(model, scene, report);
     return errorOf(solver, along, [&](uint32_t slot) { return xyz(state.displacement_m[slot]); });
-  } catch (const Error&) {  // shown as such
+  } catch (const Error&) {  // shown in the table
     return std::nan("");
   }
 }
@@ -133,19 +134,19 @@ HangingOrgan hang(const Organ& organ, const OrganFile& file, double nu, double s
   return out;
 }
 
-/// An error in %, or what there is in its place.
+/// Returns an error in %, or the text if there is none.
 Cell errorCell(double error, const char* otherwise) {
   return std::isfinite(error) ? Cell(kWallsPercent * error) : Cell(otherwise);
 }
 
-/// @param limits  kWallsLimits or kRowsLimits   @param how  words for these
+/// Checks an organ. @param limits  kWallsLimits or kRowsLimits   @param how  description of these
 template <size_t kLimits>
 void checkOrgan(Report& report, const WallsLimit (&limits)[kLimits], const char* how, const Organ& organ, double nu,
                 double spacing_m, double error) {
   for (const WallsLimit& limit : limits) {
     if (organ.name != std::string(limit.organ) || spacing_m > limit.spacing_m) continue;
     report.checkAtMost(std::string(organ.name) + how + ", nu " + numberText(nu, 2) + ", " +
-                           numberText(kWallsMm * spacing_m, 3) + " mm: displacement over CalculiX's, less 1",
+                           numberText(kWallsMm * spacing_m, 3) + " mm: displacement over CalculiX's, minus 1",
                        std::abs(error), limit.most);
   }
 }
@@ -185,7 +186,7 @@ void measureOrgan(Report& report, const Organ& organ) {
   report.add(table, organ.name);
 }
 
-/// Shows what organs are held to.
+/// Prints the reference values.
 void showReferences(Report& report) {
   Table table(
       "CalculiX 2.20, small strain: mean displacement under the organ's weight; the finest meshes, short of it by",

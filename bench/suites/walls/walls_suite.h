@@ -6,7 +6,7 @@
 
 namespace viscera::bench {
 
-/// Measures how far organs with thin walls and a block of two materials hang beside CalculiX's (docs/material.md).
+/// Measures the sag of organs with thin walls and of a block of two materials against CalculiX (docs/material.md).
 void wallsSuite(Report& report);
 
 }  // namespace viscera::bench

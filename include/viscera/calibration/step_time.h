@@ -12,17 +12,17 @@ namespace gpu {
 class Context;
 }
 
-/// What a substep took of a lattice of so many nodes.
+/// Measured time of a substep of a lattice with this number of nodes.
 struct TimedSubstep {
   double nodes = 0, seconds = 0;
 };
 
-/// The straight line through two measurements. Where it makes no sense, as with caches that overflow or a machine that
-/// did something else meanwhile: in proportion to the nodes, as long as the larger one took.
+/// Returns the straight line through two measurements. Where it makes no sense, as with caches that overflow or other
+/// load on the machine, returns a time in proportion to the nodes, through the larger one.
 StepTime stepTimeThrough(const TimedSubstep& small, const TimedSubstep& large);
 
-/// How fast this machine steps the bodies of a scene whose spacing is `auto`, with the scene's backend, integrator,
-/// tools and governor, measured on coarse lattices of theirs in some tenths of a second.
+/// Measures how fast this machine steps the bodies of a scene with spacing `auto`, with the scene's backend,
+/// integrator, tools and stability monitor. Takes some tenths of a second, on coarse lattices of these bodies.
 /// @param context  current on this thread, or null: there is none, and the CPU is measured
 StepTime measureStepTime(const UndividedBodies& bodies, const Scene& scene, const gpu::Context* context);
 

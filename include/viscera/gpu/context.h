@@ -7,15 +7,15 @@
 
 namespace viscera::gpu {
 
-/// One EGL device that was looked at, and what came of it.
+/// One EGL device that was tried, and the result.
 struct DeviceAttempt {
   int index = 0;
   std::string name;
   bool taken = false;
-  std::string reason;  ///< why it was taken, or the call and code that failed
+  std::string reason;  ///< why it was chosen, or the call and code that failed
 };
 
-/// Headless OpenGL 4.5 core context through EGL, current on the thread that made it until it is handed to another one.
+/// Headless OpenGL 4.5 core context through EGL, current on the thread that made it until another thread takes it.
 /// Needs no display.
 class Context {
  public:
@@ -26,13 +26,14 @@ class Context {
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
-  /// Gives the context up on the calling thread, if it is current there; another one may then take it.
+  /// Releases the context on the calling thread, if it is current there; another thread may then take it.
   void release() noexcept;
-  /// Makes the context current on the calling thread. False if EGL refuses, as while another thread has it.
+  /// Makes the context current on the calling thread. Returns false if EGL refuses, as while another thread has it.
   [[nodiscard]] bool makeCurrent() noexcept;
   /// Returns whether the context is current on the calling thread.
   bool isCurrent() const noexcept;
-  /// @throws GpuError  it is not current on the calling thread, where OpenGL would work on another context's objects
+  /// Checks that the context is current. @throws GpuError  it is not current on the calling thread, where OpenGL would
+  /// work on another context's objects
   void requireCurrent() const;
 
   const std::string& renderer() const { return renderer_; }
@@ -50,12 +51,12 @@ class Context {
   std::vector<DeviceAttempt> attempts_;
 };
 
-/// Scope at whose end the context that was current on this thread at its beginning, of whatever library, or none, is
-/// current again.
+/// Scope that restores, at its end, the context that was current on this thread at its beginning, of any library, or
+/// none.
 class ContextScope {
  public:
   ContextScope() noexcept;
-  /// Makes `context` current until then. @throws GpuError  EGL refuses, as while another thread has it
+  /// Makes `context` current until the end of the scope. @throws GpuError  EGL refuses, as while another thread has it
   explicit ContextScope(Context& context);
   ~ContextScope();
   ContextScope(const ContextScope&) = delete;
@@ -66,10 +67,10 @@ class ContextScope {
   void *display_, *context_, *draw_, *read_;
 };
 
-/// @throws GpuError if OpenGL has an error pending; `what` names the work just done
+/// Checks for OpenGL errors. @throws GpuError if OpenGL has an error pending; `what` names the work just done
 void checkErrors(const char* what);
 
-/// OpenGL objects made since the process began; the hot loop must not change it.
+/// Returns the number of OpenGL objects made since the process began; the hot loop must not change it.
 size_t objectsCreated();
 
 }  // namespace viscera::gpu

@@ -8,34 +8,34 @@
 
 namespace viscera {
 
-/// A device of impedance type in a hand: a mass with friction, which a hand leads along its way as a spring and a
-/// damper do.
+/// Parameters of an impedance-type device that a user holds: a mass with friction, coupled to the user's intended
+/// position by a spring and a damper.
 struct SimulatedDeviceConfig {
-  double mass_kg = 0.1;                 ///< of the device's handle and what of the hand moves with it
-  double damping_n_s_per_m = 0.2;       ///< of the device
-  double hand_stiffness_n_per_m = 300;  ///< 0: it is not held
+  double mass_kg = 0.1;                 ///< mass of the device's handle and of the hand that moves with it [kg]
+  double damping_n_s_per_m = 0.2;       ///< damping of the device [N s/m]
+  double hand_stiffness_n_per_m = 300;  ///< stiffness of the grip [N/m]; 0: the device is not held
   double hand_damping_n_s_per_m = 4;
   double tremor_m = 0;       ///< amplitude of physiological tremor, 8 to 12 Hz
-  double delay_s = 0;        ///< from a pose to the force that answers it, half on either way
-  double encoder_m = 1e-5;   ///< places are told in whole steps of this; 0: exactly
-  double period_s = 1e-3;    ///< of its loop
-  double most_force_n = 20;  ///< its motors give no more
+  double delay_s = 0;        ///< delay from a pose to its force [s], half of it in each direction
+  double encoder_m = 1e-5;   ///< resolution of the encoders [m]; 0: exact
+  double period_s = 1e-3;    ///< period of its loop [s]
+  double most_force_n = 20;  ///< largest force of its motors [N]
 };
 
-/// Steps such a device. Its motion between two periods is integrated in tenths of them.
+/// Simulates the device. A period is integrated in ten steps.
 class SimulatedDevice {
  public:
-  /// @param at_m  where it is at first, and where the hand wants it
+  /// @param at_m  initial position of the device and of the user's intent
   SimulatedDevice(const SimulatedDeviceConfig& config, const Vector3d& at_m);
 
-  /// A period. @param force_n  the newest command that was heard   @param hand_m  where the hand wants it at the end
+  /// Advances by one period. @param force_n  newest command   @param hand_m  intended position at its end
   void step(const Vector3d& force_n, const Vector3d& hand_m);
-  /// What its encoders said, half of the delay ago.
+  /// Returns the encoders' position, delayed by half of the delay.
   const Vector3d& measured_m() const { return measured_[next_measured_]; }
-  const Vector3d& position_m() const { return at_m_; }  ///< the true one
+  const Vector3d& position_m() const { return at_m_; }  ///< true position [m]
   const Vector3d& velocity_m_per_s() const { return velocity_; }
-  const Vector3d& acting_n() const { return acting_n_; }  ///< force of its motors now
-  /// Energy that the handle has given to the motors so far; below 0, they were a source.
+  const Vector3d& acting_n() const { return acting_n_; }  ///< current force of its motors [N]
+  /// Returns the energy that the handle has given to the motors [J]; below 0, they were a source.
   double energy_j() const { return energy_j_; }
 
  private:
@@ -43,7 +43,7 @@ class SimulatedDevice {
 
   SimulatedDeviceConfig config_;
   Vector3d at_m_, hand_m_, told_m_, velocity_ = Vector3d::Zero(), acting_n_ = Vector3d::Zero();
-  std::vector<Vector3d> measured_, commanded_;  ///< under way, rings
+  std::vector<Vector3d> measured_, commanded_;  ///< ring buffers of values in transit
   size_t next_measured_ = 0, next_commanded_ = 0;
   double energy_j_ = 0, time_s_ = 0;
 };

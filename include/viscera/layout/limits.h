@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // clang-format off
-// How many there may be, and how nodes are stored.
+// Largest numbers of objects, and the storage scheme of nodes.
 #ifndef VISCERA_LAYOUT_LIMITS_H
 #define VISCERA_LAYOUT_LIMITS_H
 #include "viscera/layout/types.h"

@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 // clang-format off
-// Words that layouts of memory are written in, valid as GLSL 4.50 (std430, std140) and as C++17, as all of this folder
-// is. In C++ everything is in namespace viscera::layout.
+// Types and macros for the memory layouts in this folder, which are valid as GLSL 4.50 (std430, std140) and as C++17. In C++
+// everything is in namespace viscera::layout.
 #ifndef VISCERA_LAYOUT_TYPES_H
 #define VISCERA_LAYOUT_TYPES_H
 
@@ -21,7 +21,7 @@ struct alignas(16) ivec4 {
 };
 }  // namespace viscera::layout
 #else
-// What the two languages spell differently where the CPU backend compiles GLSL as C++ (src/solver/cpu/text/glsl.h).
+// Syntax that differs where the CPU backend compiles GLSL as C++ (src/solver/cpu/kernels/glsl.h).
 #define INOUT(T) inout T
 #define OUT(T) out T
 #define xyz(v) (v).xyz

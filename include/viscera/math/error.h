@@ -7,27 +7,27 @@
 
 namespace viscera {
 
-/// Something in the world is wrong (a file, a key, a device): the message names it and what would do.
+/// Error in the input or the environment (a file, a key, a device). The message names it and says how to fix it.
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-/// A scene file: unknown key, wrong type, value out of range. Names file, line, key and the accepted range.
+/// Error in a scene file: unknown key, wrong type, value out of range. Names file, line, key and the accepted range.
 struct SceneError : Error {
   using Error::Error;
 };
-/// A mesh file: missing, corrupt, empty, without volume. Names the file.
+/// Error in a mesh file: missing, corrupt, empty, without volume. Names the file.
 struct MeshError : Error {
   using Error::Error;
 };
-/// A lattice that cannot be built: spacing too large or too small for the memory there is.
+/// Error for a lattice that cannot be built: the spacing is too large, or too small for the available memory.
 struct LatticeError : Error {
   using Error::Error;
 };
-/// EGL or OpenGL: no usable device, or a call that failed. Names the call and the code.
+/// Error of EGL or OpenGL: no usable device, or a call that failed. Names the call and the code.
 struct GpuError : Error {
   using Error::Error;
 };
-/// A recorded strokes file. Names file and line.
+/// Error in a recorded strokes file. Names file and line.
 struct StrokesError : Error {
   using Error::Error;
 };

@@ -9,8 +9,8 @@
 
 namespace viscera {
 
-/// 64-bit FNV-1a hash of a stream of words: the fingerprint by which two runs are compared.
-/// Words are hashed in the order given, so callers feed nodes in active-list order.
+/// 64-bit FNV-1a hash of a stream of words, by which two runs are compared. Words are hashed in the order of the calls,
+/// so callers pass nodes in the order of the active list.
 class StateHash {
  public:
   void add(uint32_t word) {
@@ -23,7 +23,7 @@ class StateHash {
   }
   uint64_t value() const { return value_; }
 
-  /// 16 lower-case hexadecimal digits.
+  /// Returns the hash as 16 lower-case hexadecimal digits.
   static std::string text(uint64_t hash);
 
  private:

@@ -21,24 +21,24 @@ struct Scene;
 struct Body {
   std::string name;
   MaterialConfig material;
-  std::vector<PartConfig> parts;         ///< elasticities of their own
-  Lattice lattice;                       ///< of a body of structure surface: only slots, bricks that lie nowhere
-  std::optional<SpringNetwork> network;  ///< explicit connections: they act instead of the lattice's
-  /// [slots] stress that cells have in the given shape (second Piola-Kirchhoff, as xx, yy, zz, yz, zx, xy) over their
-  /// mu; empty without a prestress.
+  std::vector<PartConfig> parts;  ///< parts with elasticities of their own
+  Lattice lattice;                ///< lattice; of a body of structure surface only slots, in bricks without positions
+  std::optional<SpringNetwork> network;  ///< explicit connections, which act instead of the lattice's
+  /// [slots] initial stress of cells in the given shape over their mu (second Piola-Kirchhoff, as xx, yy, zz, yz, zx,
+  /// xy); empty without a prestress.
   std::vector<std::array<float, 6>> prestress;
   Skin skin;
   Vector3d color = Vector3d::Ones();
-  double roughness = 0.25, mottling = 1;              ///< of what is seen, see BodyConfig
-  double wetness = 0, wall_grain = 0, blanching = 0;  ///< the same
+  double roughness = 0.25, color_variation = 1;                      ///< appearance, see BodyConfig
+  double specular_wetness = 0, cut_wall_texture = 0, blanching = 0;  ///< appearance, see BodyConfig
   std::vector<LayerConfig> layers;
-  Vector3d force_n = Vector3d::Zero();  ///< on the whole body
-  std::vector<std::string> notes;       ///< what the preparation decided: one line each, for a person
+  Vector3d force_n = Vector3d::Zero();  ///< force on the whole body [N]
+  std::vector<std::string> notes;       ///< decisions of the preparation, for a person: one line each
 
-  bool hasCells() const { return !network || network->of_lattice; }  ///< its nodes are corners of a lattice's cells
+  bool hasCells() const { return !network || network->of_lattice; }  ///< its nodes are corners of lattice cells
 };
 
-/// Everything that is simulated. Slots of body b are offset by slotOffset(b) in the solver's buffers.
+/// All bodies that are simulated. The slots of body b start at slotOffset(b) in the solver's buffers.
 struct Model {
   std::vector<Body> bodies;
 
@@ -49,16 +49,16 @@ struct Model {
   size_t skinVertices() const;
   size_t skinTriangles() const;
   bool hasNetwork() const;  ///< some body has explicit connections
-  bool hasLattice() const;  ///< some body has implicit ones
+  bool hasLattice() const;  ///< some body has implicit connections
 };
 
-/// Rest position of a node of the body [m, tissue frame].
+/// Returns the rest position of a node of the body [m, tissue frame].
 Vector3d restPosition(const Body& body, uint32_t slot);
 
-/// Nodes of a body with `spacing_m: auto` where the machine is not measured, as only a session does.
+/// Number of nodes of a body with `spacing_m: auto` where no machine is measured; only a session measures.
 constexpr int kUnmeasuredNodes = 20000;
 
-/// Builds every body of a scene: mesh or phantom -> solid -> lattice + skin, fixed nodes marked.
+/// Builds every body of a scene: mesh or phantom -> solid -> lattice + surface mesh, with fixed nodes marked.
 /// @throws MeshError     a mesh file that cannot be used, or that encloses no volume
 /// @throws LatticeError  spacing_m or target_nodes out of reach; names the body
 /// @throws SceneError    a fixed entry that matches no node or names no part; skin: input without a mesh

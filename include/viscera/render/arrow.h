@@ -6,12 +6,12 @@
 
 namespace viscera {
 
-/// A vector that a picture shows.
+/// A vector shown in an image.
 struct Arrow {
   enum class Kind { kForce, kWind };
   Kind kind = Kind::kForce;
   Vector3d from_m = Vector3d::Zero();   ///< tissue frame
-  Vector3d along_m = Vector3d::Zero();  ///< from there to its tip
+  Vector3d along_m = Vector3d::Zero();  ///< from the start to the tip
 
   bool operator==(const Arrow& other) const {
     return kind == other.kind && from_m == other.from_m && along_m == other.along_m;

@@ -17,22 +17,23 @@ namespace viscera {
 
 class Session;
 
-/// Told of all that changes a session, once it has, on the session's thread: the same, done to another session of the
-/// same scene, from the same state on, brings it to the same states.
+/// Observer of all changes to a session, called after each change on the session's thread. The same changes, applied to
+/// another session of the same scene from the same state on, lead to the same states.
 class SessionLog {
  public:
   virtual ~SessionLog() = default;
   virtual void stepped(Session&, const StylusSamples&) {}
-  /// What was measured of a tick, once for each, in order, some steps late. @param tick  since the start or last reset
+  /// Receives the measurements of a tick: once for each, in order, some steps late. Its number counts from the start or
+  /// the last reset.
   virtual void measured(const Session&, uint64_t /*tick*/, const layout::TickStats&) {}
   virtual void wasReset() {}
   virtual void handsForgotten() {}
-  virtual void restored(Session&) {}  ///< after wasReset(): it is in another state
+  virtual void restored(Session&) {}  ///< after wasReset(): the session is in another state
   virtual void toolModeSet(size_t /*stylus*/, ToolSwitch, ToolMode) {}
   virtual void forceLimitsSet(size_t /*stylus*/, const ForceLimits&) {}
   virtual void obstacleFrameSet(size_t /*obstacle*/, const Pose&) {}
   virtual void cameraFrameSet(size_t /*camera*/, const Pose&) {}
-  virtual void threadTied(size_t /*piece*/, const ThreadTie&) {}
+  virtual void sutureTied(size_t /*piece*/, const SutureTie&) {}
   virtual void taskNoted(Session&, const std::string& /*name*/, const std::string& /*yaml*/) {}
   virtual void overlaysSet(size_t /*camera*/, const Overlays&) {}
 };

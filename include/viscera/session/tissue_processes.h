@@ -6,33 +6,39 @@
 #include <vector>
 
 #include "viscera/math/types.h"
-#include "viscera/solver/seen_blood.h"
-#include "viscera/solver/seen_burns.h"
-#include "viscera/solver/seen_clip.h"
-#include "viscera/solver/seen_needle.h"
-#include "viscera/solver/seen_thread.h"
+#include "viscera/solver/blood_report.h"
+#include "viscera/solver/burn_report.h"
+#include "viscera/solver/clip_state.h"
+#include "viscera/solver/needle_state.h"
+#include "viscera/solver/suture_state.h"
 
 namespace viscera {
 
 class Session;
 
-// What lives in the tissue of a session, after its last step. Session::facts() has all of it as names and values;
-// these functions give it as types, where a program knows what it looks for. Each returns something empty where the
-// scene has no such process.
+// Typed access to the processes in the tissue of a session, after its last step. Session::facts() has all of them as
+// names and values. Each function returns something empty where the scene has no such process.
 
-/// @name Threads. Pieces: threads of the scene, and behind them what was parted from them, threadPieces() in all.
+/// @name Sutures. Pieces 0 to suturePieces() - 1 are the sutures of the scene, then the pieces cut from them.
 /// @{
-size_t threadPieces(const Session& session);
-size_t threadOf(const Session& session, size_t piece);                            ///< of the scene
-const std::vector<Vector3d>& threadPlaces(const Session& session, size_t piece);  ///< of its nodes, tissue frame [m]
-std::vector<double> threadTensions_n(const Session& session, size_t piece);       ///< of its links, pulling above 0
-std::vector<SeenThread> seenThreads(const Session& session);                      ///< [pieces]
-std::string threadRefusal(const Session& session);  ///< why the last of ThreadConfig::ties was not tied
+size_t suturePieces(const Session& session);
+/// Returns the index in the scene of the suture that a piece belongs to.
+size_t sutureOf(const Session& session, size_t piece);
+/// Returns the positions of a piece's nodes, tissue frame [m].
+const std::vector<Vector3d>& suturePositions(const Session& session, size_t piece);
+/// Returns the tensions of a piece's links [N], above 0 under tension.
+std::vector<double> sutureTensions_n(const Session& session, size_t piece);
+/// Returns the state of all pieces, [pieces].
+std::vector<SutureState> sutureStates(const Session& session);
+/// Returns why the last of SutureConfig::ties was not tied.
+std::string sutureRefusal(const Session& session);
 /// @}
-std::vector<Vector3d> needlePlaces(const Session& session, size_t thread);  ///< of its needle, from the tip on; or none
-std::vector<SeenNeedle> seenNeedles(const Session& session);                ///< of the threads that have one
-SeenClips seenClips(const Session& session);
-SeenBurns seenBurns(const Session& session);
-SeenBlood seenBlood(const Session& session);
+/// Returns the positions of a suture's needle, from the tip on [m]; empty without one.
+std::vector<Vector3d> needlePositions(const Session& session, size_t suture);
+/// Returns the needles of the sutures that have one.
+std::vector<NeedleState> needleStates(const Session& session);
+ClipStates seenClips(const Session& session);
+BurnReport seenBurns(const Session& session);
+BloodReport seenBlood(const Session& session);
 
 }  // namespace viscera

@@ -4,12 +4,12 @@
 
 namespace viscera {
 
-/// What a stylus's blade did to tissue that resists it (material.cut, docs/cutting.md).
+/// Work of a stylus's blade on tissue that resists it (material.cut, docs/cutting.md).
 struct BladeWork {
-  double area_m2 = 0;    ///< parted since the last reset, at rest
-  double work_j = 0;     ///< by the hand since then, what the tissue gave back taken off
-  double parting_j = 0;  ///< of that what went into the area: toughness, as far as the lattice carries it, times area
-  double limit_n = 0;    ///< force at which the edge goes on, as it lay in the last tick; 0: it lies in no tissue
+  double area_m2 = 0;    ///< area cut since the last reset, in the rest shape [m2]
+  double work_j = 0;     ///< work of the tool since then, less what the tissue gave back [J]
+  double parting_j = 0;  ///< part of it that created the area [J]: toughness carried by the lattice, times area
+  double limit_n = 0;    ///< force at which the edge advances, at its pose in the last tick [N]; 0: it is in no tissue
 };
 
 }  // namespace viscera

@@ -6,12 +6,12 @@
 
 namespace viscera {
 
-/// Threads that step tissue on the processor.
+/// CPU threads that step tissue.
 class ThreadPool;
 
-/// Threads that several sessions share (SessionOptions): they take turns, a round of jobs at a time, also where the
-/// sessions step on threads of their own. How many there are changes no result.
-/// @param threads  with the one that steps; 0: as many as the machine has
+/// Creates threads that several sessions can share (SessionOptions). Sessions take turns, one round of jobs at a time,
+/// even if they step on threads of their own. The number of threads changes no result.
+/// @param threads  number including the calling thread; 0: as many as the machine has
 std::shared_ptr<ThreadPool> makeThreadPool(int threads = 0);
 
 }  // namespace viscera

@@ -8,7 +8,7 @@
 
 namespace viscera {
 
-/// Where an obstacle is at the start and at the end of a tick, tissue frame.
+/// Poses of an obstacle at the start and at the end of a tick, tissue frame.
 struct RigidMotion {
   Pose from, to;
 };

@@ -11,41 +11,40 @@
 
 namespace viscera {
 
-/// Of StylusSample::jaw_rad: no device tells how far the jaws are open, buttons close them.
+/// Value of StylusSample::jaw_rad where no device reports the opening of the jaws and buttons close them.
 constexpr float kNoJaw = -1;
-/// They open no farther than half a turn [rad].
+/// Largest opening of jaws: half a turn [rad].
 constexpr double kWidestJaw_rad = 3.1416;
 
-/// The latest that is known of one stylus: tip pose in the tissue frame, buttons, jaws. The shaft points along -z of
-/// the stylus frame (away from the tip is +z); a blade lies on this axis, where `cut.blade_side` says.
+/// Latest state of one stylus: tip pose in the tissue frame, buttons, jaws. The shaft extends from the tip along
+/// +z of the stylus frame; ahead of the tip is -z. `cut.blade_side` gives the position of a blade on this axis.
 struct StylusSample {
-  bool valid = false;  ///< false until a first pose has come, and again when the pose is stale
+  bool valid = false;  ///< false until a first pose has arrived, and again when the pose is stale
   Pose pose;
   bool button1 = false;
   bool button2 = false;
-  float jaw_rad = kNoJaw;  ///< opening between two fingers that a device has, 0 .. kWidestJaw_rad
-  SteadyTime received{};   ///< when the pose came, for the measurement of delays; 0 where not looked at
+  float jaw_rad = kNoJaw;  ///< opening of the two jaws of a device [rad], 0 .. kWidestJaw_rad
+  SteadyTime received{};   ///< time at which the pose was received, for the measurement of delays; 0 where not measured
 };
 using StylusSamples = std::array<StylusSample, layout::kMaxStyluses>;
 
-/// When a stylus is in one of its modes: with no button pressed, or while one is.
+/// Condition of a stylus's mode: no button pressed, or the button that is.
 enum class ToolSwitch { kIdle, kButton1, kButton2 };
 
-/// One stylus over one tick: where it was, where it is, what it does.
+/// Motion and mode of one stylus over one tick.
 struct StylusMotion {
   ToolMode mode = ToolMode::kNone;
   bool present = false;  ///< a valid pose is known, whatever the mode
-  float mouth_rad = 0;   ///< of jaws that close: their opening when this closing began
+  float mouth_rad = 0;   ///< opening of closing jaws when this closing began [rad]
   Pose from, to;
-  bool hold_begins = false;  ///< this tick is the first of a mode that holds
-  ToolMode hold_ended =
-      ToolMode::kNone;  ///< a mode that held was left, or the stylus was lost, at the start of this tick
-  /// > 0: the stylus appeared and has not been outside of tissue since. It pushes nothing, and feels for tissue within
+  bool hold_begins = false;               ///< this tick is the first of a mode that holds
+  ToolMode hold_ended = ToolMode::kNone;  ///< holding mode that ended at the start of this tick
+  /// > 0: the stylus appeared and has not been outside tissue since. It pushes nothing, and looks for tissue within
   /// this radius [m].
   double feels_m = 0;
-  /// Of tools with jaws: their opening [rad] at the start and the end of the tick.
+  /// Opening of a tool's jaws at the start and the end of the tick [rad].
   double opens_from_rad = 0, opens_to_rad = 0;
-  bool held_back = false;  ///< the tip was faster than tissue can follow: `to` lags behind the pose, and catches up
+  bool speed_limited = false;  ///< the tip was faster than tissue can follow: `to` lags behind the pose, and catches up
 };
 using ToolMotions = std::array<StylusMotion, layout::kMaxStyluses>;
 

@@ -9,27 +9,27 @@
 
 namespace viscera {
 
-/// What a tick found out about one stylus: where its tip was led and what the tissue did to it.
+/// Contact of one stylus in a tick: the path of its tip and the reaction of the tissue.
 struct TickContact {
   enum class Kind {
-    kFree,     ///< touches nothing
-    kPushes,   ///< a probe in tissue: one direction of force and never the other
-    kHolds,    ///< a grip: pushed and pulled
-    kPierces,  ///< a needle in tissue: pushed and pulled across, and along it within limits
-    kPulls     ///< a thread that is held: towards where it leads to, or not at all
+    kFree,     ///< no contact
+    kPushes,   ///< a probe in tissue: the force has one sign only
+    kHolds,    ///< a grip: the force has either sign
+    kPierces,  ///< a needle in tissue: a force of either sign across it, and a limited one along it
+    kPulls     ///< a held suture: a force towards its next point, or none
   };
   Kind kind = Kind::kFree;
-  /// A blade in tissue that resists it, or a needle along it: where this force is reached it goes on and the force
-  /// stays [N].
+  /// Force at which a blade in tissue that resists it, or a needle along its path, advances; the force does not grow
+  /// beyond it [N].
   double limit_n = std::numeric_limits<double>::infinity();
   /// @name Of needles
   /// @{
-  Vector3d along = Vector3d::Zero();  ///< where it heads, unit
-  double back_n = 0;                  ///< at this force along, which may be below 0, it comes back
-  double stiffness_n_per_m = 0;       ///< of the tissue around it, across
+  Vector3d along = Vector3d::Zero();  ///< direction in which it points, unit vector
+  double back_n = 0;                  ///< force along it at which it comes back [N]; may be below 0
+  double stiffness_n_per_m = 0;       ///< stiffness of the tissue around it, across [N/m]
   /// @}
-  bool anew = false;  ///< what ticks before it found holds no more: a reset, a recovery, another hand or another mode
-  Vector3d from_m = Vector3d::Zero(), to_m = Vector3d::Zero();  ///< the tip's way in the tick, tissue frame
+  bool anew = false;  ///< results of earlier ticks are invalid: a reset, a recovery, another stylus or another mode
+  Vector3d from_m = Vector3d::Zero(), to_m = Vector3d::Zero();  ///< path of the tip in the tick, tissue frame [m]
   Reaction reaction;                                            ///< mean over the tick
 };
 

@@ -1,17 +1,16 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Contacts between nodes: which may touch, which are near, and which way they push each other (solver/contact/collision.h,
+// Contacts between nodes: which may touch, which are near, and the direction of their forces (solver/contact/collision.h,
 // physics.md 8). After lattice.glsl and elastic.glsl.
-// Feature: AHEAD (within an implicit substep: before it is now, its end is
-// where the increments lead).
+// Feature: AHEAD (within an implicit substep: "before" is the current state, and the end is given by the increments).
 #ifndef __cplusplus
 uniform uint active_count;
 uniform float dt_s;
 uniform float push_speed;     // m/s
-uniform float resting_speed;  // m/s: nothing that comes slower bounces
+uniform float resting_speed;  // m/s: slower impacts do not bounce
 uniform float cell_m;
-uniform float widened;        // of D_ij: how near two touch
+uniform float widened;        // factor on D_ij below which two nodes touch
 uniform uint bucket_count;    // power of 2
 uniform float friction;
 uniform float restitution;
@@ -43,12 +42,12 @@ vec3 positionOf(uint slot) { return restPosition(slot) + xyz(stateAt(displacemen
 vec3 positionBefore(uint slot) { return restPosition(slot) + xyz(next_displacement[slot]); }
 #endif
 
-/// May this node touch others? Not one that is gone too far to have a cell, or to nowhere.
+/// Returns whether this node may touch others. A node too far away for integer cells, or not finite, may not.
 bool collides(uint slot, NodeBits bits, vec3 x) {
   if (isIsolated(bits)) return false;
   float depth = touch_depths[slot];
   if (depth == kNeverTouches || ((bits.lo & kSeveredBit) == 0u && depth == kTouchesOnceCut)) return false;
-  const float most_cells = 1e9f;  // either way: coordinates of cells are 32-bit integers
+  const float most_cells = 1e9f;  // in either direction: coordinates of cells are 32-bit integers
   return all(lessThanEqual(floatBitsToUint(abs(x)), uvec3(floatBitsToUint(most_cells * cell_m))));
 }
 
@@ -59,26 +58,27 @@ uint hashOf(ivec3 cell) {
   return h ^ (h >> 15);
 }
 
-/// How deep a node that may touch others lies below the surface of its tissue [m].
+/// Returns the depth below the surface of its tissue of a node that may touch others [m].
 float touchDepth(uint slot) {
   float depth = touch_depths[slot];
   return depth == kTouchesOnceCut ? 0.0f : depth;
 }
 
-/// How near nodes of two bodies touch, as it is widened [m]: their surfaces are as near as the bodies want.
+/// Returns the contact distance of nodes of two bodies, times `widened` [m]: their surfaces keep the larger distance of the
+/// bodies.
 float distanceBetweenBodies(uint a, uint b) {
   float wanted = max(body_influences[bodyOf(nodes[a])].w, body_influences[bodyOf(nodes[b])].w);
   return widened * (wanted + (touchDepth(a) + touchDepth(b)));
 }
 
-/// How near two nodes touch, D_ij of collision.h as it is widened [m]: the same number for both.
+/// Returns the contact distance of two nodes, D_ij of collision.h, times `widened` [m]: the same number for both.
 float contactDistance(uint a, uint b) {
   float wanted = distanceBetweenBodies(a, b);
   if (bodyOf(nodes[a]) != bodyOf(nodes[b])) return wanted;
   return min(wanted, widened * (0.5f * distance(restPosition(a), restPosition(b))));
 }
 
-/// contactDistance() where two nodes touch, else 0 [m].
+/// Returns contactDistance() if two nodes touch, else 0 [m].
 float touchDistance(Entry a, Entry b) {
   precise vec3 apart = a.x - b.x;
   float d2 = dot(apart, apart);
@@ -88,8 +88,8 @@ float touchDistance(Entry a, Entry b) {
   return d2 < wanted * wanted ? wanted : 0.0f;
 }
 
-/// From b to a, where they were before the substep: a node that has slipped past another in it is sent back.
-/// @param a  of the lower slot, so that both see the same
+/// Returns the direction from b to a before the substep: a node that has passed another in it is pushed back.
+/// @param a  has the lower slot, so that both compute the same
 vec3 directionBetween(Entry a, Entry b) {
   vec3 d = a.before - b.before;
   float l = length(d);
@@ -99,22 +99,22 @@ vec3 directionBetween(Entry a, Entry b) {
   return l > 0.0f ? d / l : vec3(0.0f, 0.0f, 1.0f);
 }
 
-/// 1/kg; 0 of nodes that have one of these bits.
+/// Returns the inverse mass [1/kg]; 0 for nodes with one of these bits.
 float inverseMassWithout(uint slot, uint unmoved) {
   NodeBits bits = nodes[slot];
   return (bits.lo & unmoved) != 0u ? 0.0f : 1.0f / nodeMass(slot, bits, bodies[bodyOf(bits)]);
 }
 
-/// 1/kg; 0 of nodes that nothing moves.
+/// Returns the inverse mass [1/kg]; 0 for nodes that contacts do not move.
 float inverseMass(uint slot) { return inverseMassWithout(slot, kFixedBit | kGrabMask); }
 
-/// The normal of a contact is that of the sheet which one of the two lies on: of the one with more contacts the mean of their
-/// directions; else it is the line through both. @param dir  directionBetween   @param sum_a, sum_b  contacts[]
+/// Returns the normal of a contact: that of the sheet on which one of the two rests. It is the mean of the directions at the node
+/// with more contacts, or else the line through both. @param dir  directionBetween   @param sum_a, sum_b  contacts[]
 vec3 contactNormal(vec3 dir, vec4 sum_a, vec4 sum_b) {
   vec3 sum = vec3(0.0f);
   if (sum_a.w >= sum_b.w) sum += xyz(sum_a);
   if (sum_b.w >= sum_a.w) sum -= xyz(sum_b);
   float l = length(sum);
-  const float least = 0.05f;  // cosine: a mean that goes past this contact says nothing about it
+  const float least = 0.05f;  // cosine: a mean at a larger angle says nothing about this contact
   return l > 0.0f && dot(sum, dir) > least * l ? sum / l : dir;
 }

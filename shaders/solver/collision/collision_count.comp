@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// collision_count.comp - the search, first: nodes per bucket.
+// collision_count.comp - step 1 of the search: counts the nodes per bucket.
 // Owner: solver/gpu/contact/collision_pass.h   physics.md 8
 // out  buckets
 #include "solver/collision/collision_search.glsl"

@@ -3,7 +3,7 @@
 //
 // collision_meet.comp - sums each node's contacts.
 // Owner: solver/gpu/contact/collision_pass.h   physics.md 8
-// out  contacts [slots]     Feature AHEAD: also room for the pairs of each node
+// out  contacts [slots]     Feature AHEAD: also reserves room for the pairs of each node
 #include "solver/collision/collision_search.glsl"
 #ifdef AHEAD
 #include "solver/implicit/implicit_pairs.glsl"

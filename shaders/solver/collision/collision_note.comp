@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// collision_note.comp - notes the contacts that nodes may have in an implicit substep.   physics.md 2, 8
+// collision_note.comp - records the contacts that nodes may have in an implicit substep.   physics.md 2, 8
 // Owner: solver/gpu/contact/collision_pass.h
-// in  contacts [slots] of collision_meet.comp     out  pairs (implicit_pairs.glsl), which nodes have some (increments)
-#undef LOADS  // what it writes must not be read by another name
+// in  contacts [slots] of collision_meet.comp     out  pairs (implicit_pairs.glsl); marks nodes with pairs in the increments
+#undef LOADS  // the buffer that it writes must not be read through another binding
 #include "solver/collision/collision_search.glsl"
 #include "solver/implicit/implicit_pairs.glsl"
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// collision_order.comp - the search, last: each bucket by slot.
+// collision_order.comp - step 4 of the search: sorts each bucket by slot.
 // Owner: solver/gpu/contact/collision_pass.h   physics.md 8
 // in  buckets, unsorted     out  entries, entries_before
 #include "solver/collision/collision_search.glsl"

@@ -8,7 +8,7 @@
 
 #ifndef __cplusplus
 uniform uint most_pairs;
-layout(std430, binding = kBindPairs) buffer PairsBuffer { uint pairs[]; };  // their number, then two slots each
+layout(std430, binding = kBindPairs) buffer PairsBuffer { uint pairs[]; };  // number of pairs, then two slots each
 void addPair(uint a, uint b) {
   uint place = atomicAdd(pairs[0], 1u);
   if (place >= most_pairs) return;

@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// collision_place.comp - the search, second: where each bucket begins.
+// collision_place.comp - step 2 of the search: the start of each bucket.
 // Owner: solver/gpu/contact/collision_pass.h   physics.md 8
-// in, out  buckets     A bucket of more than most_in_bucket nodes is left empty: what collapsed into one place would otherwise be compared
-// each with all in one dispatch. A node in it touches nothing until it has spread; how many that are is noted.
+// in, out  buckets     A bucket of more than most_in_bucket nodes is left empty: nodes collapsed into one place would otherwise
+// be compared pairwise in one dispatch. They touch nothing until they have spread; their number is counted.
 #include "solver/collision/collision_search.glsl"
 
 void main() {

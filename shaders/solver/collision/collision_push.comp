@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// collision_push.comp - sums what each node's contacts do to it.
+// collision_push.comp - sums the effects of each node's contacts on it.
 // Owner: solver/gpu/contact/collision_pass.h   physics.md 8
 // in  contacts     out  corrections [2 * slots]
 #include "solver/collision/collision_search.glsl"
@@ -10,10 +10,10 @@
 layout(std430, binding = kBindVelocityOut) readonly buffer VelocityOut { vec4 next_velocity[]; };  // before the substep
 #endif
 
-/// What two nodes that touch do to the one of the lower slot, a [N s] and [kg m].
+/// Effect of a contact on the node of the lower slot, a [N s] and [kg m].
 struct Push {
   vec3 impulse;
-  vec3 shift;  // times the inverse mass: how far it is moved
+  vec3 shift;  // times the inverse mass: its displacement
 };
 
 Push pushOf(vec3 impulse, vec3 shift) {
@@ -21,22 +21,22 @@ Push pushOf(vec3 impulse, vec3 shift) {
   return push;
 }
 
-/// Jacobi by mass splitting: each node meets each of its n contacts with 1/n of its mass, so that all together neither
-/// overshoot nor add energy, and momenta add up to nothing.
+/// Jacobi by mass splitting: a node with n contacts enters each with 1/n of its mass. So the contacts together neither overshoot
+/// nor add energy, and momentum is conserved.
 Push pushBetween(Entry a, Entry b, float wanted) {
   float inverse_a = inverseMass(a.slot), inverse_b = inverseMass(b.slot);
   vec4 sum_a = contacts[a.slot], sum_b = contacts[b.slot];
   float inverse = sum_a.w * inverse_a + sum_b.w * inverse_b;
   if (inverse == 0.0f) return pushOf(vec3(0.0f), vec3(0.0f));
   vec3 normal = contactNormal(directionBetween(a, b), sum_a, sum_b);
-  const float relaxation = 0.25f;  // share of the depth that goes in a substep
-  // Depth before the substep: what the substep added is undone with the approach.
+  const float relaxation = 0.25f;  // share of the depth that is removed per substep
+  // Depth before the substep: the depth added in the substep is removed with the approach.
   float depth = max(0.0f, wanted - distance(a.before, b.before));
   vec3 shift = (min(relaxation * depth, push_speed * dt_s) / inverse) * normal;
   vec3 v = xyz(stateAt(velocity, int(a.slot))) - xyz(stateAt(velocity, int(b.slot)));
   float approach = dot(v, normal);
   if (approach >= 0.0f) return pushOf(vec3(0.0f), shift);
-  // Thrown back is what came before the substep: with what its own forces add in it, a body pressed against another would gain energy.
+  // The speed before the substep bounces: including that from forces in it, a body pressed against another would gain energy.
   float came = dot(xyz(next_velocity[b.slot]) - xyz(next_velocity[a.slot]), normal);
   float change = -approach + (came > resting_speed ? restitution * came : 0.0f);
   vec3 sliding = v - approach * normal;
@@ -59,10 +59,10 @@ void visit(Entry me, Entry other, float wanted) {
     shift_sum -= push.shift;
   }
 }
-bool isAlone(uint slot) { return contacts[slot].w == 0.0f; }  // collision_meet.comp has found none: no need to search again
+bool isAlone(uint slot) { return contacts[slot].w == 0.0f; }  // collision_meet.comp has found none: no search needed
 void begin() { impulse_sum = shift_sum = vec3(0.0f); }
 void end(uint slot) {
-  // A held node is not moved; the tool that holds it against this feels it (surroundings.comp).
+  // A held node does not move; the tool that holds it receives the force (environment.comp).
   corrections[2u * slot] = vec4(inverseMassWithout(slot, kFixedBit) * impulse_sum, 0.0f);
   corrections[2u * slot + 1u] = vec4(inverseMass(slot) * shift_sum, 0.0f);
 }

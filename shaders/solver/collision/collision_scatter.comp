@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// collision_scatter.comp - the search, third: nodes into their buckets.
+// collision_scatter.comp - step 3 of the search: puts the nodes into their buckets.
 // Owner: solver/gpu/contact/collision_pass.h   physics.md 8
-// in  buckets     out  unsorted; of nodes in a crowd no corrections
+// in  buckets     out  unsorted; zero corrections of nodes in a crowd
 #include "solver/collision/collision_search.glsl"
 
 void main() {

@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// How nodes are looked up that may touch: in a hashed uniform grid by counting sort.
-// Integer atomics only; where a bucket lies depends on their order, what is in it and in which order does not.
+// Search for nodes that may touch: a hashed uniform grid by counting sort.
+// Uses integer atomics only. The position of a bucket depends on their order; its content and the order in it do not.
 // in  displacement, velocity [slots] after the integrator; displacement before it in the other buffer
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"

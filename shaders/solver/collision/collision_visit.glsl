@@ -1,22 +1,22 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// main() of the kernels that go through each node's contacts: after collision_search.glsl and
-//   bool isAlone(uint slot)  none need be searched for
-//   void begin()   void visit(Entry me, Entry other, float wanted)  of every contact   void end(uint slot)
+// main() of the kernels that visit each node's contacts. After collision_search.glsl and
+//   `bool isAlone(uint slot)`  no search needed
+//   `void begin()`   `void visit(Entry me, Entry other, float wanted)`  for every contact   `void end(uint slot)`
 void consider(Entry me, Entry other) {
   float wanted = touchDistance(me, other);
   if (wanted > 0.0f) visit(me, other, wanted);
 }
 
-/// Different cells may share a bucket: an entry in one says which cell it is in.
+/// Different cells may share a bucket: the position of an entry gives its cell.
 void visitCell(Entry me, ivec3 cell) {
   uint b = hashOf(cell) & (bucket_count - 1u);
   uint first = buckets[3u * b + 1u], end = first + buckets[3u * b];
   for (uint e = first; e < end; ++e) {
     uvec4 at = entries[e];
     vec3 x = uintBitsToFloat(uvec3(at.x, at.y, at.z)), apart = me.x - x;
-    if (at.w == me.slot || dot(apart, apart) >= cell_m * cell_m) continue;  // most of them
+    if (at.w == me.slot || dot(apart, apart) >= cell_m * cell_m) continue;  // true for most of them
     if (cellOf(x) == cell) consider(me, entryAt(e));
   }
 }

@@ -4,7 +4,7 @@
 // implicit_begin.comp - start of a substep of implicit Euler: increments of prescribed nodes, and y for the others.
 // Owner: solver/device/implicit_substep.h   physics.md 2
 // in  displacement, velocity [slots]     out  increments [slots]     Features: CONTACT, TOOLS, OBSTACLES
-#undef LOADS  // what it writes must not be read by another name
+#undef LOADS  // the buffer that it writes must not be read through another binding
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
 #include "solver/tissue/elastic.glsl"

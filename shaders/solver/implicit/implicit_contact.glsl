@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Probes and obstacles within the solution of a substep of implicit Euler (physics.md 2): nodes in contact. After implicit.glsl.
+// Probes and obstacles in the solution of a substep of implicit Euler (physics.md 2): nodes in contact. After implicit.glsl.
 // Features: CONTACT, with TOOLS (probes), OBSTACLES.
 // A node that a sweep would leave in a probe or an obstacle gets a contact with it: the half space outside its surface, as seen
-// from where the node was before the substep, in which the node must end it. So contacts do not depend on how sweeps went, only
-// which there are. The force is whatever keeps the node there: it pushes, and drags along no more than Coulomb's share.
+// from the node's position before the substep, in which the node must end. So only which contacts exist depends on the sweeps,
+// not the contacts themselves. The contact force keeps the node there: it pushes, with friction up to Coulomb's limit.
 #include "solver/tools/touch.glsl"
 #ifdef TOOLS
 #include "solver/tools/contact.glsl"
@@ -13,7 +13,7 @@
 
 #ifndef __cplusplus
 layout(std430, binding = kBindNodeContacts) buffer NodeContactsBuffer { vec4 node_contacts[]; };
-uniform uint contact_rows;  // contacts that a node may have at once
+uniform uint contact_rows;  // number of contacts that a node may have at once
 #ifndef TOOLS
 uniform float push_speed;
 uniform uint slot_count;
@@ -27,14 +27,14 @@ void giveObstacle(uint obstacle, uint slot, vec3 impulse) { obstacle_impulses[ob
 #endif
 #endif
 
-/// n . du >= least, and what the surface does to whom it touches.
+/// n . du >= least, with the motion and friction of the surface.
 struct Contact {
   vec3 normal;
   float least;     // [m]
-  vec3 way;        // of the surface in the substep [m]
+  vec3 way;        // displacement of the surface in the substep [m]
   float friction;
   vec3 force;      // on the node, in the last solution [N]
-  float owner;     // 1 + stylus, or 1 + kMaxStyluses + obstacle; 0: no contact, nor any behind it
+  float owner;     // 1 + stylus, or 1 + kMaxStyluses + obstacle; 0: no contact in this row or later ones
 };
 uint contactAt(uint slot, uint row) { return 3u * (slot * contact_rows + row); }
 
@@ -55,7 +55,7 @@ void clearContacts(uint slot) {
   for (uint row = 0u; row < contact_rows; ++row) node_contacts[contactAt(slot, row) + 2u] = vec4(0.0f);
 }
 
-/// @param side  xyz normal; w how far inside the node was [m]: it goes out no faster than waves travel beside the surface's own way
+/// @param side  xyz normal; w depth of the node inside [m]: beyond the surface's own motion it leaves no faster than waves travel
 void addContact(uint slot, float owner, vec4 side, vec3 way, float friction) {
   for (uint row = 0u; row < contact_rows; ++row) {
     uint at = contactAt(slot, row);
@@ -96,7 +96,7 @@ void findContacts(uint slot, vec3 u, vec3 du) {
 #endif
 }
 
-/// The nearest increment that a node's contacts let be; opposite ones leave it between them.
+/// Returns the nearest increment that a node's contacts allow; between opposite contacts a compromise.
 vec3 outside(uint slot, vec3 du) {
   const uint rounds = 4u;
   uint count = contactCount(slot);
@@ -107,11 +107,12 @@ vec3 outside(uint slot, vec3 du) {
   return du;
 }
 
-/// How much a direction gives under a force along it [m/N].
+/// Returns the compliance along a direction [m/N].
 float givesAlong(vec3 direction, float stiffness_n_per_m) { return dot(direction, direction / stiffness_n_per_m); }
 
-/// What a contact must do to a node that goes on by (force + that) / stiffness [N]: the least push that keeps it outside;
-/// with friction the last solution's force, mended: along the surface by what the node slips, up to Coulomb's limit.
+/// Returns the force of a contact on a node that moves by (force + that) / stiffness [N]. Without friction it is the smallest
+/// push that keeps the node outside. With friction it is the force of the last solution, corrected tangentially by the slip, up
+/// to Coulomb's limit.
 vec3 forceOfContact(Contact c, float stiffness_n_per_m, vec3 du, vec3 force) {
   const int rounds = 6;
   float give = givesAlong(c.normal, stiffness_n_per_m);
@@ -133,8 +134,8 @@ vec3 forceOfContact(Contact c, float stiffness_n_per_m, vec3 du, vec3 force) {
   return own;
 }
 
-/// The step of a node with contacts: the least of stiffness s s / 2 - force s where they let it be, contact by contact. The forces of
-/// the contacts are those of this step then.
+/// Returns the step of a node with contacts: the minimum of stiffness s s / 2 - force s under its contacts, found contact by
+/// contact. Stores the forces of the contacts for this step.
 vec3 stepInContact(uint slot, float stiffness_n_per_m, vec3 du, vec3 force) {
   const uint rounds = 8u;
   uint count = contactCount(slot);
@@ -153,10 +154,10 @@ vec3 stepInContact(uint slot, float stiffness_n_per_m, vec3 du, vec3 force) {
     uint at = contactAt(slot, row) + 2u;
     node_contacts[at] = vec4(forces[row], node_contacts[at].w);
   }
-  return outside(slot, du + total / stiffness_n_per_m) - du;  // to the last digit
+  return outside(slot, du + total / stiffness_n_per_m) - du;  // exact to rounding
 }
 
-/// What friction adds to P for an increment: the pressure is that of the last solution [J].
+/// Returns the friction term of P for an increment, with the pressure of the last solution [J].
 float frictionOf(uint slot, vec3 du) {
   float sum = 0.0f;
   uint count = contactCount(slot);

@@ -1,7 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// implicit_end.comp - end of a substep of implicit Euler: state = displacement + increment; momentum of tools and obstacles, sleep.
+// implicit_end.comp - end of a substep of implicit Euler: state = displacement + increment; momentum of tools and obstacles,
+// sleep.
 // Owner: solver/device/implicit_substep.h   physics.md 2
 // in  displacement, velocity, increments [slots]     out  displacement, velocity [slots]     Features: CONTACT, TOOLS, OBSTACLES, PAIRS
 #include "layout.h"
@@ -21,7 +22,7 @@ layout(std430, binding = kBindDisplacementOut) writeonly buffer DisplacementOut 
 layout(std430, binding = kBindVelocityOut) writeonly buffer VelocityOut { vec4 next_velocity[]; };
 #endif
 
-/// What contacts with other nodes do to a node [N].
+/// Returns the force of contacts with other nodes on a node [N].
 vec3 forceOfPairs(uint slot) {
 #ifdef PAIRS
   if (pairsOf(slot).count != 0u) return xyz(node_pairs[3u * slot + 2u]);
@@ -30,14 +31,14 @@ vec3 forceOfPairs(uint slot) {
 }
 
 #ifdef PAIRS
-/// 1/kg, times the number of contacts that press; 0 of nodes that are prescribed.
+/// Returns the inverse mass [1/kg] times the number of active contacts; 0 for prescribed nodes.
 float splitMobility(uint slot) {
   if (node_pairs[3u * slot].w == 0.0f) return 0.0f;
   NodeBits bits = nodes[slot];
   return max(1.0f, node_pairs[3u * slot + 2u].w) / nodeMass(slot, bits, bodies[bodyOf(bits)]);
 }
 
-/// What comes fast enough at another node bounces, as at an obstacle (bounceOf()): change of the velocity [m/s].
+/// Returns the change of velocity by bouncing off other nodes [m/s], as off an obstacle (bounceOf()).
 vec3 bounceOffPairs(uint slot) {
   PairRun run = pairsOf(slot);
   vec3 sum = vec3(0.0f);
@@ -58,7 +59,7 @@ vec3 bounceOffPairs(uint slot) {
 #endif
 
 #ifdef CONTACT
-/// What keeps a node where it is, if neither the lattice nor its inertia does: the force of who holds or touches it [N].
+/// Returns the residual of a node's lattice and inertia forces [N]: the force of the tool or obstacle that holds or touches it.
 vec3 forceFromOutside(uint slot, NodeBits bits, float mass, BodyParams body, vec3 u, vec3 du) {
   vec3 force = inertia(mass, body) * (du - freeIncrement(slot, body)) - forceOfPairs(slot);
 #define VISIT_LINK force -= implicitSpring(n, u, du, d, l0, prestrain, k, body).force;
@@ -67,7 +68,7 @@ vec3 forceFromOutside(uint slot, NodeBits bits, float mass, BodyParams body, vec
   return force;
 }
 
-/// What the last sweep has left of a node's balance goes to the contacts that press, along their normals.
+/// Distributes the residual of the last sweep to the active contacts, along their normals.
 void balanceContacts(uint slot, vec3 force) {
   const uint rounds = 4u;
   uint count = contactCount(slot);

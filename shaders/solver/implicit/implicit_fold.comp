@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// implicit_fold.comp - sums what implicit_guess.comp found in a fixed tree and chooses the best share.
+// implicit_fold.comp - sums the energies of implicit_guess.comp in a fixed tree and chooses the best share.
 // Owner: solver/gpu/steps/gpu_device.h   physics.md 2
 // in  energies of the nodes, then of runs     out  energies of runs; guard[0]: float bits of the share
 #include "layout.h"
@@ -16,12 +16,12 @@ uniform uint count;
 uniform uint input_first;
 uniform uint output_first;
 uniform uint last_level;
-uniform uint bound_energy;  // 1: a share that ends with more energy than there was is not taken
+uniform uint bound_energy;  // 1: a share that ends with more energy than before is rejected
 #endif
 
 bool atMost(float a, float b) { return a <= b + kRounding * abs(b); }
 
-/// The largest share that no smaller one betters. What is not finite is not at most anything, and 0 is always there.
+/// Returns the largest share that no smaller one improves. A non-finite value is never at most another; 0 is always acceptable.
 int bestShare(vec4 potential, vec4 energy) {
   int best = 3;
   for (int c = 2; c >= 0; --c) {
@@ -31,7 +31,7 @@ int bestShare(vec4 potential, vec4 energy) {
   return best;
 }
 
-#ifndef __cplusplus  // there the sums are in float64
+#ifndef __cplusplus  // in C++ the sums are in float64
 void main() {
   uint run = globalIndex();
   if (run * kRun >= count) return;

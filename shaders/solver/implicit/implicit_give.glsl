@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// At the end of an implicit substep: what contacts gave, and who feels (physics.md 2, 5). After implicit_contact.glsl.
+// End of an implicit substep: impulses of contacts, and probes that only feel (physics.md 2, 5). After implicit_contact.glsl.
 // Features: CONTACT, TOOLS, OBSTACLES.
 #ifdef CONTACT
 #ifdef OBSTACLES
-/// What comes fast enough bounces: what it brought along the normal it gets back by the restitution. No more than the substep has
-/// taken from it, as its inelastic end lost the square of all of it. @return  change of velocity [m/s]
+/// Bounces a fast impact: its approach along the normal is reversed by the restitution. The bounce is at most the velocity that
+/// the substep removed, as its inelastic end dissipated the square of all of it. @return  change of velocity [m/s]
 vec3 bounceOf(Contact c, float restitution, vec3 v_before, vec3 v_next) {
   vec3 surface = c.way / dt_s;
   float approach = -dot(v_before - surface, c.normal);
@@ -15,7 +15,7 @@ vec3 bounceOf(Contact c, float restitution, vec3 v_before, vec3 v_next) {
 }
 #endif
 
-/// Tells probes and obstacles what they gave a node.
+/// Adds the impulses on a node to those of probes and obstacles.
 void giveContacts(uint slot, float mass, INOUT(vec3) v_next) {
   vec3 v_before = xyz(stateAt(velocity, int(slot)));
   uint count = contactCount(slot);
@@ -38,7 +38,7 @@ void giveContacts(uint slot, float mass, INOUT(vec3) v_next) {
 #endif
 
 #ifdef TOOLS
-/// A probe that only feels counts the nodes whose tissue it meets.
+/// Counts the nodes with tissue within reach of a probe that only feels.
 void feel(uint slot, vec3 x) {
   for (uint s = 0u; s < kMaxStyluses; ++s) {
     ToolMotion motion = tool_motions[s];

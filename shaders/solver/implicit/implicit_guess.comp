@@ -3,7 +3,7 @@
 //
 // implicit_guess.comp - per node, for four shares of the increments at once: the incremental potential P, and kinetic + elastic
 // energy less the work of gravity.   Owner: solver/device/implicit_substep.h   physics.md 2
-// in  displacement, velocity, increments [slots]     out  energies [2 * active], which implicit_fold.comp sums
+// in  displacement, velocity, increments [slots]     out  energies [2 * active], summed by implicit_fold.comp
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
 #include "solver/tissue/elastic.glsl"
@@ -21,7 +21,7 @@
 layout(std430, binding = kBindPartials) writeonly buffer PartialsBuffer { vec4 energies[]; };
 #endif
 
-/// Nodes in contact keep out of what they touch, whatever the share.
+/// Returns the share of an increment. Nodes in contact stay outside the obstacle or probe at any share.
 vec3 share(uint slot, vec4 du, int c) {
   if (isPrescribed(du)) return xyz(du);
 #ifdef CONTACT
@@ -31,7 +31,7 @@ vec3 share(uint slot, vec4 du, int c) {
 }
 
 
-/// Adds a spring's elastic energy and what its dashpot adds to P, for the four shares.
+/// Adds a spring's elastic energy, and its dashpot's term of P, for the four shares.
 /// @param a, b  its ends   @param near, far  their increments   @param w  u_far - u_near   @param d, l0, prestrain  at rest
 void addSpring(uint a, uint b, vec4 near, vec4 far, vec3 w, vec3 d, float l0, float prestrain, float k, float damping, INOUT(vec4) elastic,
                INOUT(vec4) damped) {
@@ -62,7 +62,7 @@ void main() {
       motion[c] = 0.5f * mass * dot(way, way) / (dt_s * dt_s) - mass * dot(gravity, way);
     }
 #ifdef CONTACT
-    // Before the substep with what surfaces that move may bring in: of share 0 the nodes in contact are where these put them.
+    // Energy before the substep plus what moving surfaces may add: at share 0 nodes in contact are where the surfaces put them.
     vec3 put = share(slot, du, 0);
     float brought = 0.5f * mass * dot(put, put) / (dt_s * dt_s);
     if (isInContact(du)) {
@@ -74,8 +74,7 @@ void main() {
     motion[0] = 0.5f * mass * dot(v, v);
 #endif
 #ifdef PAIRS
-    // What contacts with other nodes do on the way, with their last forces: so what lies on something does not fall, and what has not
-    // met anything yet goes on.
+    // Work of contacts with other nodes, with their last forces: so resting nodes do not fall, and nodes without contact move on.
     if (isInPairs(du)) {
       for (int c = 0; c < 4; ++c) potential[c] -= dot(xyz(node_pairs[3u * slot + 2u]), share(slot, du, c));
     }

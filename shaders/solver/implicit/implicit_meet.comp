@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// implicit_meet.comp - mends the forces of contacts between nodes: a round of Jacobi by mass splitting, each node meeting each of its
-// n contacts that press with 1/n of what resists a push.
+// implicit_meet.comp - corrects the forces of contacts between nodes: a round of Jacobi by mass splitting, in which a node with n
+// active contacts enters each with 1/n of its majoriser.
 // Owner: solver/device/implicit_substep.h   physics.md 2, 8
 // in, out  pairs (implicit_pairs.glsl)
 #include "layout.h"
@@ -14,14 +14,14 @@ layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active
 uniform uint active_count;
 #endif
 
-/// How far a node gives way to a contact under a force [m/N].
+/// Returns the compliance of a node to a contact force [m/N].
 float givesWay(uint slot) {
   float majoriser = node_pairs[3u * slot].w;
   return majoriser > 0.0f ? node_pairs[3u * slot + 1u].w / majoriser : 0.0f;
 }
 
-/// The force of b on a, mended from the last one by what they would miss and by what they would slip [N].
-/// @param a  of the lower slot, so that both ends come to the same   @param plane  xyz normal; w gap [m]
+/// Returns the force of b on a [N]: the last one, corrected by the remaining overlap and slip.
+/// @param a  has the lower slot, so that both ends compute the same   @param plane  xyz normal; w gap [m]
 vec3 forceBetween(uint a, uint b, vec4 plane, vec3 last) {
   float give = givesWay(a) + givesWay(b);
   if (give == 0.0f) return vec3(0.0f);

@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// implicit_place.comp - where nodes that may touch others go under the forces of their contacts as they are now.
+// implicit_place.comp - increments of nodes that may touch others, under the current forces of their contacts.
 // Owner: solver/device/implicit_substep.h   physics.md 2
 // in  increments [slots], pairs (implicit_pairs.glsl)     out  pairs; at the end of a sweep increments
 // Features: CONTACT, TOOLS, OBSTACLES
-#undef LOADS  // what it writes must not be read by another name
+#undef LOADS  // the buffer that it writes must not be read through another binding
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
 #include "solver/tissue/elastic.glsl"

@@ -1,8 +1,9 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Where a node with contacts goes in a sweep: the step of its majoriser under what pulls it and under the forces of these contacts,
-// outside of what else it touches. After implicit_pull.glsl, implicit_pairs.glsl and, with probes or obstacles, implicit_contact.glsl.
+// Step of a node with contacts to other nodes in a sweep: the step of its majoriser under the forces on it and those of these
+// contacts, outside probes and obstacles. After implicit_pull.glsl, implicit_pairs.glsl and, with probes or obstacles,
+// implicit_contact.glsl.
 vec3 placeOf(uint slot, vec4 pulled, vec3 u, vec3 du) {
   vec3 force = xyz(pulled) + xyz(node_pairs[3u * slot + 2u]);
   vec3 change = force / pulled.w;

@@ -1,7 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// implicit_pull.comp - what pulls nodes that may touch others, and where that and the last forces of their contacts would bring them.
+// implicit_pull.comp - forces on nodes that may touch others, and their increments under these and the last forces of their
+// contacts.
 // Owner: solver/device/implicit_substep.h   physics.md 2
 // in  displacement, velocity, increments [slots], cell forces of this iterate     out  pairs (implicit_pairs.glsl)
 // Features: CONTACT, TOOLS, OBSTACLES

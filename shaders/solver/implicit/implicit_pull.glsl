@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What pulls a node in an iterate of implicit Euler, as a Jacobi sweep in majorise-minimise form sees it. After implicit.glsl.
-/// The force on a node less its inertia [N]; w the majoriser of all that pulls it [N/m].
+// Force on a node in an iterate of implicit Euler, for a Jacobi sweep in majorise-minimise form. After implicit.glsl.
+/// Returns the force on a node less its inertia [N]; w the majoriser [N/m].
 vec4 pull(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 du) {
   float inertia_n_per_m = inertia(nodeMass(slot, bits, body), body);
   vec4 sum = vec4(inertia_n_per_m * (freeIncrement(slot, body) - du), inertia_n_per_m);

@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// implicit_scale.comp - increments = the share of them that implicit_fold.comp chose. One share is 0, so P is P(0) or below from
-// there on, whatever the increments were.   Owner: solver/device/implicit_substep.h   physics.md 2
+// implicit_scale.comp - scales the increments by the share that implicit_fold.comp chose. One share is 0, so P is at most P(0)
+// afterwards, whatever the increments were.   Owner: solver/device/implicit_substep.h   physics.md 2
 // in, out  increments [slots]
-#undef LOADS  // what it writes must not be read by another name
+#undef LOADS  // the buffer that it writes must not be read through another binding
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
 #include "solver/tissue/elastic.glsl"

@@ -3,8 +3,8 @@
 //
 // pd.comp - one sweep of PD-Jacobi in majorise-minimise form, accelerated by Chebyshev's recurrence.   Owner: solver/device/pd.h
 // physics.md 2: x <- (m'/dt^2 y + sum k (x_far + l0 n)) / (m'/dt^2 + sum k), here as du += force / (m'/dt^2 + sum (k + c/dt))
-// in  displacement, velocity, increments     out  increments of the next, where the last but one was
-// Feature RATE finds what the spectrum of the iteration depends on instead.
+// in  displacement, velocity, increments     out  next increments, in place of those of the iterate before the last
+// Feature RATE computes the rates that bound the spectrum of the iteration instead.
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
 #include "solver/tissue/elastic.glsl"
@@ -16,7 +16,7 @@
 #endif
 
 #ifdef RATE
-/// max over nodes of sum of k/m [1/s2] and of (sum of k dashpot_s)/m [1/s], as float bits in the guard.
+/// Writes the maxima over nodes of (sum of k)/m [1/s2] and of (sum of k dashpot_s)/m [1/s] to the guard, as float bits.
 void main() {
   uint i = globalIndex();
   if (i >= active_count) return;
@@ -33,13 +33,13 @@ void main() {
 }
 #else
 #ifndef __cplusplus
-layout(std430, binding = kBindIncrementOut) buffer IncrementOut { vec4 next_increments[]; };  // holds the last but one
+layout(std430, binding = kBindIncrementOut) buffer IncrementOut { vec4 next_increments[]; };  // holds the iterate before the last
 uniform uint iteration;
 uniform float omega;  // Chebyshev's weight; 1 is plain Jacobi
 #endif
 
-/// Has the last sweep moved a node farther than the first did, by more than the norms' difference? Modes within the spectrum
-/// cannot grow (in the sum of squares; the largest of all nodes may for a while), so the acceleration has met one outside.
+/// Returns whether the last sweep moved a node farther than the first did, by more than the ratio of the norms. Modes within the
+/// spectrum cannot grow (in the sum of squares; the maximum over nodes may for a while), so acceleration has excited one outside.
 bool wentWrong() {
   const float allowed = 4.0f;
   if (iteration == 0u) return false;
@@ -49,11 +49,11 @@ bool wasPlain() { return iteration > 0u && guard[plainWord(iteration - 1u)] != 0
 
 void recordChange(vec3 change) {
   uint bits = floatBitsToUint(length(change));
-  // The look before the atomic only saves work: the maximum is the same.
+  // The read before the atomic only saves work: the maximum is the same.
   if (bits > guard[changeWord(iteration)]) atomicMax(guard[changeWord(iteration)], bits);
 }
 
-vec4 startedAnew(uint slot, vec3 du) {
+vec4 restarted(uint slot, vec3 du) {
 #ifdef CONTACT
   if (contactCount(slot) != 0u) return vec4(outside(slot, du), -1.0f);
 #endif
@@ -76,8 +76,8 @@ void main() {
   }
   NodeBits bits = nodes[slot];
   BodyParams body = bodies[bodyOf(bits)];
-  if (plain && !was_plain) {  // what acceleration has spoilt starts again
-    next_increments[slot] = startedAnew(slot, uintBitsToFloat(guard[0]) * freeIncrement(slot, body));
+  if (plain && !was_plain) {  // restart after diverged acceleration
+    next_increments[slot] = restarted(slot, uintBitsToFloat(guard[0]) * freeIncrement(slot, body));
     return;
   }
   vec3 u = xyz(stateAt(displacement, int(slot)));
@@ -95,7 +95,7 @@ void main() {
     next = before + omega * (next - before);
   }
 #ifdef CONTACT
-  findContacts(slot, u, next);  // in which acceleration would end
+  findContacts(slot, u, next);  // contacts with what the accelerated step would end in
   in_contact = contactCount(slot) != 0u;
   next_increments[slot] = in_contact ? vec4(outside(slot, next), -1.0f) : vec4(next, 0.0f);
 #else

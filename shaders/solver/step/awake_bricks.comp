@@ -1,13 +1,14 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// awake_bricks.comp - which bricks are stepped, and the lists of their nodes and cells.   Owner: solver/gpu/buffers/awake_bricks.h
-// in  state of the nodes; what was cut; places that tools may reach     in/out  sleeping bricks     out  lists
-// LANES invocations per brick: 1, or 64 in a group of their own, as GPUs like it. Features, one each: WAKE_ALL, WAKE_NEAR (boxes), WAKE_HELD, WAKE_CUT (after a cut that took springs),
-// WAKE_MARKED (another kernel has woken bricks), LOOK
-// (who was fast in the substep that has just been made; with TOOLS also who was touched), LIST. The rule is that of src/solver/cpu/store/sleep.h. What makes a list out of
-// date starts it again; LIST follows before the next substep. Its order is that in which bricks come: nodes gather, so no result
-// depends on it.
+// awake_bricks.comp - selects the bricks that are stepped, and lists their nodes and cells.
+// Owner: solver/gpu/buffers/awake_bricks.h
+// in  state of the nodes; cuts; regions that tools may reach     in/out  sleeping bricks     out  lists
+// LANES invocations per brick: 1, or 64 in a group of their own, which is faster on GPUs. Features, one each: WAKE_ALL, WAKE_NEAR
+// (boxes), WAKE_HELD, WAKE_CUT (after a cut of springs), WAKE_MARKED (another kernel has woken bricks), LOOK (nodes that were
+// fast in the last substep; with TOOLS also those that were touched), LIST. The rule is that of src/solver/cpu/state/sleep.h. A
+// pass that invalidates a list empties it; LIST must follow before the next substep. A list is in the order in which bricks
+// arrive: nodes gather forces, so no result depends on it.
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
 
@@ -30,7 +31,7 @@ uint firstSlot(uint brick) { return brick * kBrickSlots; }
 shared uint of_group;
 uint brickOfInvocation() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 uint lane() { return gl_LocalInvocationID.x; }
-/// The largest that an invocation of the brick brings. All of them must come here.
+/// Returns the largest value of the brick's invocations. All of them must call it.
 uint largestOf(uint own) {
   barrier();
   if (lane() == 0u) of_group = 0u;
@@ -39,7 +40,7 @@ uint largestOf(uint own) {
   barrier();
   return of_group;
 }
-/// What the brick's first invocation brings. All of them must come here.
+/// Returns the value of the brick's first invocation. All of them must call it.
 uint ofFirst(uint own) {
   barrier();
   if (lane() == 0u) of_group = own;
@@ -65,7 +66,7 @@ void startLists() {
 #endif
 }
 
-/// It neither falls asleep soon nor stays asleep.
+/// Wakes a brick: it restarts its quiet time.
 void wake(uint b) {
   if (!isFirst() || sleeping[b].kind != kMayMove) return;
   sleeping[b].quiet_s = 0.0;
@@ -82,7 +83,7 @@ layout(std430, binding = kBindDisplacementOut) writeonly buffer DisplacementOut 
 layout(std430, binding = kBindVelocityIn) writeonly buffer VelocityIn { vec4 velocity[]; };
 layout(std430, binding = kBindVelocityOut) writeonly buffer VelocityOut { vec4 next_velocity[]; };
 
-/// Both states are that of before the substep, at rest.
+/// Sets both states to that before the substep, at rest.
 /// @return the largest |u| [m]
 float freeze(uint b) {
   float largest2 = 0.0;
@@ -98,7 +99,7 @@ float freeze(uint b) {
 #endif
 
 #ifdef WAKE_ALL
-/// Fixed, or alone and not held (step.glsl).
+/// Fixed, or isolated and not held (step.glsl).
 bool staysAtRest(NodeBits bits) {
   return (bits.lo & kFixedBit) != 0u || (isIsolated(bits) && (bits.lo & kGrabMask) == 0u);
 }
@@ -175,10 +176,10 @@ layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementIn { v
 layout(std430, binding = kBindStats) readonly buffer StatsBuffer { TickStats stats; };
 layout(std140, binding = kBindToolMotions) uniform ToolMotionsBlock { ToolMotion tool_motions[kMaxStyluses]; };
 uniform uint stylus;
-uniform float beside;  // tissue of a node outside of it is that many cells away at most
+uniform float beside;  // in cells: largest distance of tissue from a node outside it
 #include "solver/tools/blade.glsl"
 
-/// Of a node, or of a place for one.
+/// For a node, or an empty slot.
 void ask(uint b) {
   if (stats.springs_cut == nodes_list.springs_cut) return;
   ToolMotion m = tool_motions[stylus];
@@ -195,10 +196,10 @@ void ask(uint b) {
 
 #ifdef LOOK
 layout(std430, binding = kBindVelocityOut) readonly buffer VelocityOut { vec4 next_velocity[]; };
-uniform uint look;          // number of this look, > 0
-uniform float since_s;      // time since the last one
+uniform uint look;          // number of this check, > 0
+uniform float since_s;      // time since the last check
 uniform float sleeps_after_s;
-uniform float slow2;        // |v|^2 of what is slow [m2/s2]
+uniform float slow2;        // largest |v|^2 that counts as slow [m2/s2]
 
 uint speedBits(uint slot) {
   vec3 v = xyz(next_velocity[slot]);
@@ -210,9 +211,9 @@ layout(std430, binding = kBindActive) readonly buffer ActiveBuffer { uint active
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
 layout(std430, binding = kBindDisplacementOut) readonly buffer DisplacementOut { vec4 next_displacement[]; };
 layout(std140, binding = kBindToolMotions) uniform ToolMotionsBlock { ToolMotion tool_motions[kMaxStyluses]; };
-uniform float deepest_m;  // that a node lies below the surface by which it is touched
+uniform float deepest_m;  // largest depth of a node below the surface by which it is touched
 
-/// Has one of its nodes been held or within reach of a probe?
+/// Returns whether one of its nodes is held or within reach of a probe.
 bool touched(uint b) {
   uint first = sleeping[b].first_node;
   bool found = false;
@@ -235,7 +236,7 @@ bool touched(uint b) { return false; }
 
 void ask(uint b) {
   if (sleeping[b].awake == 0u) return;
-  uint fastest = 0u;  // positive floats order like their bits, and what is not a number is above all
+  uint fastest = 0u;  // positive floats order like their bits, and NaN is above all
 #if LANES > 1
   fastest = speedBits(firstSlot(b) + lane());
 #else
@@ -257,12 +258,12 @@ layout(std430, binding = kBindStats) readonly buffer StatsBuffer { TickStats sta
 #ifdef LAW
 layout(std430, binding = kBindCells) readonly buffer CellsBuffer { uint cells[]; };
 #endif
-uniform uint look;  // number of the look that has just been; 0: bricks are awake as they say
+uniform uint look;  // number of the last check; 0: bricks are awake as stored
 uniform uint group_size;
 uniform float sleeps_after_s;
 const uint kMostGroups = 65535u;  // along x, as Program::dispatch folds them
 
-/// As of this look, of bricks that another invocation is writing too.
+/// Returns the state of this check, also for bricks that another invocation is writing.
 bool isAwake(uint b) {
   if (sleeping[b].kind != kMayMove) return sleeping[b].kind == kNeverSleeps;
   return look > 0u ? sleeping[b].wanted == look : sleeping[b].awake != 0u;
@@ -280,8 +281,8 @@ void listNodes(uint b) {
 }
 
 #ifdef LAW
-/// Cells with a corner in a brick that is awake: it is their own or one of the seven above. With rows of nodes a cell reaches two nodes
-/// farther: all around.
+/// Returns whether a cell of the brick has a corner in an awake brick: its own or one of the seven above. With rows of nodes a
+/// cell reaches two nodes farther: all 27 bricks count.
 bool needsCells(uint b) {
   bool needed = false;
 #ifdef WALLS
@@ -309,8 +310,8 @@ void listCells(uint b) {
 }
 #endif
 
-/// Falls asleep, stays as it is, or is woken by a neighbour; then it does not wake others before it moves.
-void heed(uint b, bool now) {
+/// Puts a brick to sleep, keeps it, or wakes it for a neighbour; then it does not wake others before it moves.
+void follow(uint b, bool now) {
   bool before = ofFirst(sleeping[b].awake) != 0u;
   float farthest_m = before && !now ? freeze(b) : sleeping[b].farthest_m;
   if (!isFirst()) return;
@@ -321,7 +322,7 @@ void heed(uint b, bool now) {
 
 void ask(uint b) {
   bool now = isAwake(b);
-  if (look > 0u && sleeping[b].kind == kMayMove) heed(b, now);
+  if (look > 0u && sleeping[b].kind == kMayMove) follow(b, now);
   if (now) listNodes(b);
 #ifdef LAW
   listCells(b);

@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// guard.comp - puts the state that was saved last back where the tick just measured was bad.
-// Owner: solver/gpu/guard_pass.h   physics.md 3 (the rules of Governor::inspect, in float32)
+// guard.comp - restores the last saved state if the tick just measured was bad.
+// Owner: solver/gpu/guard_pass.h   physics.md 3 (the rules of StabilityMonitor::inspect, in float32)
 // in  stats, saved displacement and velocity [slots]     out  displacement, velocity [slots], in place
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
@@ -18,16 +18,16 @@ layout(std430, binding = kBindCompensation) writeonly buffer CompensationBuffer 
 #endif
 
 uniform uint active_count;
-uniform float most_speed;     // m/s; infinite where the integrator may be fast
+uniform float most_speed;     // m/s; infinite if the integrator permits high speeds
 uniform float most_energy_j;  // without the work of the tick's tools
-uniform float energy_margin;  // of that work
+uniform float energy_margin;  // factor on that work
 uniform vec3 tip_speed[kMaxStyluses];  // of the tools, mean over the tick [m/s]
 
 bool isBad() {
   float work = 0.0;
   for (uint s = 0u; s < kMaxStyluses; ++s) work += max(0.0, dot(stats.impulse[s].xyz, tip_speed[s]));
   float energy = stats.kinetic_j + stats.elastic_j;
-  uint bits = floatBitsToUint(energy);  // NaN compares as the compiler likes; its bits do not lie
+  uint bits = floatBitsToUint(energy);  // comparisons with NaN depend on the compiler; its bits do not
   bool finite = (bits & 0x7f800000u) != 0x7f800000u;
   return stats.nonfinite > 0u || !finite || energy > most_energy_j + energy_margin * work ||
          uintBitsToFloat(stats.max_speed_bits) > most_speed;

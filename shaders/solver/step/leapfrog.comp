@@ -3,9 +3,9 @@
 //
 // leapfrog.comp - advance every active node by one leapfrog substep.   Owner: solver/gpu/steps/leapfrog_pass.h   physics.md 2, 5
 // in  displacement, velocity [slots]     out  displacement, velocity [slots]; impulses [kMaxStyluses * slots]; nodes for edges.comp
-// Features: LATTICE, NETWORK, PARTS, LAW (elastic.glsl), NO_SPRINGS (all bodies obey a law), DASHPOT (axial dashpot), PREDICTED (of lattices, mild springs pull where
-// their ends will be instead), TOOLS (probe and held nodes), COMPENSATED (Kahan's sums of u and v), AWAKE (only nodes of bricks that
-// are awake, as awake_bricks.comp lists them).
+// Features: LATTICE, NETWORK, PARTS, LAW (elastic.glsl), NO_SPRINGS (all bodies obey a law), DASHPOT (axial dashpot), PREDICTED
+// (mild springs of lattices act at the predicted positions of their ends instead), TOOLS (probe and held nodes), COMPENSATED
+// (Kahan's sums of u and v), AWAKE (only nodes of awake bricks, as listed by awake_bricks.comp).
 #ifdef LOADS
 #define DEAD_LINKS
 #endif
@@ -42,7 +42,7 @@ layout(std430, binding = kBindEdgeNodes) buffer EdgeNodesBuffer {
 };
 #endif
 
-/// Sum of the forces of springs, dashpots and cells on a node [N].
+/// Returns the sum of the forces of springs, dashpots and cells on a node [N].
 vec3 elasticForce(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 v) {
   vec3 force = vec3(0.0f);
 #ifdef DASHPOT
@@ -82,7 +82,8 @@ vec3 elasticForce(uint slot, NodeBits bits, BodyParams body, vec3 u, vec3 v) {
   return force;
 }
 
-/// sum + increment. Kahan: what the last sums lost is added first, what this one loses is kept. @param of  compensation's index
+/// Returns sum + increment, by Kahan: adds the rounding error of the last sums first, and stores that of this one. @param of
+/// compensation's index
 vec3 added(uint of, vec3 sum, vec3 increment) {
 #ifdef COMPENSATED
   precise vec3 all_of_it = increment - xyz(compensation[of]);
@@ -111,8 +112,8 @@ void main() {
   float mass = nodeMass(slot, bits, body);
   vec3 acceleration = elasticForce(slot, bits, body, u, v) / mass + gravity;
 
-  // ((1 - g) v + kick a) / (1 + g), as v and an increment: rounding 1 - g would be a drag of its own, the same in every substep.
-  float g = 0.5f * body.drag_per_s * kick_s;
+  // ((1 - g) v + kick a) / (1 + g), as v and an increment: rounding of 1 - g would act as drag, the same in every substep.
+  float g = 0.5f * body.mass_damping_per_s * kick_s;
   vec3 v_next = added(2u * slot + 1u, v, (kick_s * acceleration - (2.0f * g) * v) / (1.0f + g));
   vec3 u_next = added(2u * slot, u, dt_s * v_next);
 #ifdef TOOLS

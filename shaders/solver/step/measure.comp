@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // measure.comp - the state of the tissue at the end of a tick.   Owner: solver/gpu/measure_pass.h   physics.md 3
-// in  displacement, velocity, nodes, cell forces' cells     out  stats; energy of every node, which feature FOLD then sums
+// in  displacement, velocity, nodes, cell forces' cells     out  stats; energy of every node, summed with feature FOLD
 // Integer atomics only: their result does not depend on the order. Energies are summed in a fixed tree of runs of kRun terms.
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
@@ -44,7 +44,7 @@ layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits node
 #include "solver/tissue/rows.glsl"
 #endif
 
-/// Compilers drop isnan(); the bits do not lie (physics.md 2).
+/// Compilers drop isnan(); the bits are reliable (physics.md 2).
 bool finite(vec3 v) {
   uvec3 bits = floatBitsToUint(v) & 0x7f800000u;
   return all(notEqual(bits, uvec3(0x7f800000u)));
@@ -52,16 +52,16 @@ bool finite(vec3 v) {
 
 vec3 u(uint slot) { return xyz(stateAt(displacement, int(slot))); }
 
-/// V/V0 - 1 of a cell. @param n  displacements of its corners, bit per axis, x lowest [m]
+/// Returns V/V0 - 1 of a cell. @param n  displacements of its corners, bit per axis, x lowest [m]
 float dilation(vec3 n[8], float h) {
-  CellMotion q = cellMotion(n, h);
+  CellModes q = cellMotion(n, h);
   vec3 da = q.da, db = q.db, dc = q.dc;
   float minors = (da.x * db.y - da.y * db.x) + (da.x * dc.z - da.z * dc.x) + (db.y * dc.z - db.z * dc.y);
   return (da.x + db.y + dc.z) + (minors + dot(da, cross(db, dc)));
 }
 
 #ifdef LAW
-/// What the cells around resist a change of their volumes with beyond their springs, at a node at rest [N/m].
+/// Returns the stiffness with which the cells around a node at rest resist a change of volume in addition to its springs [N/m].
 float volumeStiffness(uint slot, BodyParams body) {
   float sum = 0.0f;
 #define ADD_BULK(corner)                                                                                             \
@@ -91,7 +91,7 @@ void main() {
   float stretch = 0.0f, elastic = 0.0f, stiffness = 0.0f;
   uint collapsed = 0u;
 #ifdef LAW
-  bool of_law = body.law != kLawSprings;  // what its springs pull is in the energy of its cells
+  bool of_law = body.law != kLawSprings;  // the energy of its springs is included in that of its cells
 #else
   const bool of_law = false;
 #endif
@@ -118,7 +118,7 @@ void main() {
 #ifdef LAW
     if ((bits.lo & kLawCellBit) != 0u) {
       float bulk = cellBulk(slot, body), rigidity = cellRigidity(slot, body);
-      CellMotion q = cellMotion(at, h);
+      CellModes q = cellMotion(at, h);
       CellMoments moments = cellMoments(slot);
 #ifdef WALLS
       if (moments.wall.w > 0.0f) q.rows = cellRows(slot);
@@ -138,7 +138,7 @@ void main() {
   }
 #endif
   energies[i] = vec2(0.5f * mass * dot(v, v), elastic);
-  // Positive floats order like their bits. The look before the atomic only saves work: the maximum is the same.
+  // Positive floats order like their bits. The read before the atomic only saves work: the maximum is the same.
   uint stretch_bits = floatBitsToUint(stretch), speed_bits = floatBitsToUint(length(v)), rate_bits = floatBitsToUint(stiffness / mass);
   if (stretch_bits > stats.max_stretch_bits) atomicMax(stats.max_stretch_bits, stretch_bits);
   if (speed_bits > stats.max_speed_bits) atomicMax(stats.max_speed_bits, speed_bits);

@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// save_state.comp - copies the state to where a good one is kept.   Owner: solver/gpu/good_states.h
+// save_state.comp - copies the state to the storage of a good one.   Owner: solver/gpu/good_states.h
 // in  displacement, velocity [slots]     out  saved displacement and velocity [slots]
-// On GPUs, whose drivers copy buffers at a tenth of what kernels do and less (docs/gpu.md).
+// Used on GPUs, where drivers copy buffers at a tenth of the speed of kernels or less (docs/gpu.md).
 layout(local_size_x = GROUP_SIZE) in;
 #include "layout.h"
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// slow.comp - shortens the way of the last substep where it was too long, and takes velocity away: tissue recovers.
+// slow.comp - limits the displacement of the last substep and reduces the velocity, in tissue that recovers.
 // Owner: solver/gpu/slow_pass.h   physics.md 3
 // in, out  displacement, velocity [slots], in place
 #include "layout.h"
@@ -13,7 +13,7 @@ layout(std430, binding = kBindVelocityIn) buffer VelocityBuffer { vec4 current_v
 
 uniform uint active_count;
 uniform float dt_s;
-uniform float most_way;  // in a substep, over the spacing
+uniform float most_way;  // largest displacement in a substep, over the spacing
 uniform float keeps;     // share of the velocity
 
 void main() {

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // sum_impulses.comp - momentum given by each stylus over the tick, and its moment about the tip; or, feature OBSTACLES, by two
-// obstacles, about their places.
+// obstacles, about their positions.
 // Owner: solver/gpu/forces/reaction_pass.h   physics.md 5
-// A fixed tree of additions: level 0 (feature LEAVES) turns runs of nodes into partial sums and clears the impulses; later
-// levels fold runs of partial sums until one is left, which goes into the stats. The order never changes, so neither does the sum.
+// A fixed tree of additions: level 0 (feature LEAVES) reduces runs of nodes to partial sums and clears the impulses. Later levels
+// reduce runs of partial sums until one is left, which goes into the stats. The order never changes, so neither does the sum.
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
 
@@ -39,7 +39,7 @@ void add(inout Partial sum, uint i) {
   uint slot = active_nodes[i];
   for (uint s = 0u; s < kMaxStyluses; ++s) {
     uint place = (first_giver + s) * slot_count + slot;
-    if (place >= uint(impulses.length())) continue;  // of an odd number of obstacles
+    if (place >= uint(impulses.length())) continue;  // with an odd number of obstacles
     vec4 impulse = impulses[place];
     if (impulse.w == 0.0) continue;
     vec3 arm = restPosition(slot) + displacement[slot].xyz - tips[s];

@@ -1,9 +1,10 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// verlet_paper.comp - position Verlet as VR05 and GW print it, in absolute float32 positions.   Owner: solver/gpu/steps/verlet_paper_pass.h
-// physics.md 2: x+ = 2 x - x_prev + dt^2 a,  a = F/m + g - gamma (x - x_prev)/dt;  k is the true one, a dashpot is unknown to it.
-// in  x, x_prev [slots]     out  x+ (where x_prev was); displacement x - x_rest, velocity (x+ - x)/dt for everybody else
+// verlet_paper.comp - position Verlet as printed in VR05 and GW, in absolute float32 positions.
+// Owner: solver/gpu/steps/verlet_paper_pass.h
+// physics.md 2: x+ = 2 x - x_prev + dt^2 a,  a = F/m + g - gamma (x - x_prev)/dt;  k is the true one; there is no dashpot.
+// in  x, x_prev [slots]     out  x+ (in place of x_prev); displacement x - x_rest, velocity (x+ - x)/dt for other kernels
 // Features: REBUILD makes x and x_prev from displacement and velocity; TOOLS, PARTS as in leapfrog.comp.
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
@@ -37,7 +38,7 @@ void main() {
   positions_before[slot] = vec4(x - dt_s * xyz(stateAt(velocity, int(slot))), 0.0f);
 }
 #else
-/// Sum of the forces of springs [N], from absolute positions: L - l0 cancels, as printed.
+/// Returns the sum of the forces of springs [N], from absolute positions: L - l0 cancels, as printed.
 vec3 elasticForce(uint slot, NodeBits bits, BodyParams body, vec3 x) {
   vec3 force = vec3(0.0f);
 #define VISIT_LINK                                                                \
@@ -65,14 +66,14 @@ void main() {
     return;
   }
   BodyParams body = bodies[bodyOf(bits)];
-  // What x_prev stands for. A tool may have changed the velocity since: then x_prev is no longer where the node was.
+  // The velocity that x_prev represents. If a tool has changed the velocity since, x_prev is recomputed from it.
   vec3 v = xyz(stateAt(velocity, int(slot)));
   precise vec3 x_prev = xyz(positions_before[slot]);
   precise vec3 v_stored = (x - x_prev) / dt_s;
   if (v != v_stored) x_prev = x - dt_s * v;
 
   float mass = nodeMass(slot, bits, body);
-  vec3 a = elasticForce(slot, bits, body, x) / mass + gravity - body.drag_per_s * ((x - x_prev) / dt_s);
+  vec3 a = elasticForce(slot, bits, body, x) / mass + gravity - body.mass_damping_per_s * ((x - x_prev) / dt_s);
   precise vec3 x_next = 2.0f * x - x_prev + dt_s * dt_s * a;
   precise vec3 v_next = (x_next - x) / dt_s;
   precise vec3 u_next = x_next - rest;

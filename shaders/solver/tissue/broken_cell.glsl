@@ -1,7 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A cell of a hyperelastic law that has lost a spring to a blade: from then on it is what is left of its springs (physics.md 1, Law).
+// A cell of a hyperelastic law that has lost a spring to a blade: from then on it consists of its remaining springs (physics.md
+// 1, Law).
 // After elastic.glsl and `nodes`. Feature: LAW
 
 struct BrokenCell {
@@ -10,8 +11,8 @@ struct BrokenCell {
 };
 
 #ifdef PRESTRESS
-/// Strain of springs that have a cell's stress at rest, along a direction (model/fracture/cell_prestress.cpp): n.E.n with
-/// E = (S - tr S / 5) / 2.
+/// Returns the strain n.E.n of springs that carry a cell's stress at rest, along a direction (model/fracture/cell_prestress.cpp),
+/// with E = (S - tr S / 5) / 2.
 float brokenStrain(CellMoments t, vec3 n) {
   vec3 s = vec3(t.pulled.x * n.x + t.sheared.z * n.y + t.sheared.y * n.z, t.sheared.z * n.x + t.pulled.y * n.y + t.sheared.x * n.z,
                 t.sheared.y * n.x + t.sheared.x * n.y + t.pulled.z * n.z);
@@ -24,7 +25,7 @@ BrokenCell brokenCell(uint slot, vec3 at[8], float h, float rigidity, CellMoment
   BrokenCell cell;
   cell.energy = 0.0f;
   for (uint c = 0u; c < 8u; ++c) cell.force[c] = vec3(0.0f);
-  float quarter = rigidity / (4.0f * h * h);  // what a cell gives to an edge; to a diagonal twice as much [N/m]
+  float quarter = rigidity / (4.0f * h * h);  // a cell's share of the stiffness of an edge; of a diagonal twice as much [N/m]
   for (uint c = 0u; c < 8u; ++c) {
     NodeBits bits = nodes[cornerSlot(slot, c)];
     ivec3 from = ivec3(c & 1u, (c >> 1) & 1u, (c >> 2) & 1u);
@@ -45,7 +46,7 @@ BrokenCell brokenCell(uint slot, vec3 at[8], float h, float rigidity, CellMoment
       vec3 pull = (k * s.extension) * s.direction;                                                                      \
       cell.force[c] += pull;                                                                                            \
       cell.force[far] -= pull;                                                                                          \
-      float at_rest = l0 * shorter; /* its energy counts from the given shape on, as that of a whole cell does */       \
+      float at_rest = l0 * shorter; /* energy relative to the given shape, as of a whole cell */                        \
       cell.energy += 0.5f * k * (s.extension - at_rest) * (s.extension + at_rest);                                      \
     }                                                                                                                   \
   }

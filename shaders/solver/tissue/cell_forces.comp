@@ -3,8 +3,8 @@
 //
 // cell_forces.comp - forces of cells that obey a law on their corners.   Owner: solver/gpu/forces/cell_pass.h   physics.md 1
 // in  displacement, nodes, rows     out  cell forces [kCellVectors * slots], wall pulls
-// Feature CUT drops the cells that lost a spring instead; AWAKE: only cells beside bricks that are awake; WALLS: those in thin walls leave
-// what they do to rows of nodes too, which row_forces.comp then gathers.
+// Feature CUT removes the cells that lost a spring instead. AWAKE: only cells next to awake bricks. WALLS: cells in thin walls
+// also write their derivatives by rows of nodes, which row_forces.comp then gathers.
 #ifndef __cplusplus
 #define MAKES_CELL_FORCES
 #endif
@@ -32,7 +32,7 @@ uniform uint cell_count;
 layout(std430, binding = kBindNodes) buffer NodesBuffer { NodeBits nodes[]; };
 #endif
 
-/// Has one of the cell's 24 springs, seen from a corner, been cut?
+/// Returns whether one of the cell's 24 springs, seen from a corner, has been cut.
 bool torn(uint slot, uint c) {
   NodeBits bits = nodes[cornerSlot(slot, c)];
   if ((bits.lo & kSeveredBit) == 0u) return false;
@@ -69,7 +69,7 @@ vec3 u(uint slot) { return xyz(stateAt(displacement, int(slot))); }
 #include "solver/tissue/rows.glsl"
 layout(std430, binding = kBindWallPulls) writeonly buffer WallPullsBuffer { vec4 wall_pulls_out[]; };
 
-/// Of a cell that is no longer whole.
+/// For a cell that is no longer whole.
 void leaveNoRows(uint slot) {
   for (uint i = 0u; i < kWallVectors; ++i) wall_pulls_out[inPlanes(slot, i, kWallVectors)] = vec4(0.0f);
 }
@@ -80,7 +80,8 @@ void leaveRows(uint slot, CellRows by) {
 }
 #endif
 
-/// Of a body with a law: where its nodes will be, which damps (physics.md 2). Leaves a cell's forces. @param whole  it has all springs
+/// Writes the forces of a cell of a body with a law, at the predicted positions of its nodes, which damps (physics.md 2).
+/// @param whole  it has all springs
 void leaveLawForces(uint slot, BodyParams body, bool whole) {
   float h = body.origin_spacing.w;
   vec3 at[8];
@@ -101,7 +102,7 @@ void leaveLawForces(uint slot, BodyParams body, bool whole) {
 #endif
     return;
   }
-  CellMotion q = cellMotion(at, h);
+  CellModes q = cellMotion(at, h);
 #ifdef WALLS
   if (moments.wall.w > 0.0f) q.rows = cellRows(slot);
 #endif
@@ -109,7 +110,7 @@ void leaveLawForces(uint slot, BodyParams body, bool whole) {
 #ifdef WALLS
   if (moments.wall.w > 0.0f) leaveRows(slot, f.rows);
 #endif
-  for (uint c = 0u; c < 8u; c += 2u) {  // the corners at x -1 and 1
+  for (uint c = 0u; c < 8u; c += 2u) {  // the corners at x = -1 and 1
     vec3 s = cornerSide(c);
     vec3 even = s.y * f.b + s.z * f.c + (s.y * s.z) * f.hx;
     vec3 odd = f.a + s.y * f.hz + s.z * f.hy + (s.y * s.z) * f.hxyz;

@@ -3,5 +3,5 @@
 //
 // Corners of a cell, from its lowest one. After lattice.glsl.
 
-/// @param c  bit per axis, x lowest
+/// Returns the slot of a corner. @param c  bit per axis, x lowest
 uint cornerSlot(uint slot, uint c) { return neighborSlot(slot, ivec3(c & 1u, (c >> 1) & 1u, (c >> 2) & 1u)); }

@@ -1,11 +1,13 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a node, a spring and a cell are made of (physics.md 1). After lattice.glsl.
-// Features: LATTICE (some body has implicit connections), NETWORK (some body has explicit ones: network.glsl), PARTS (strengths differ within a body: tables),
-// LAW (the cells of some bodies obey a hyperelastic law), PRESTRESS (some of these are stressed at rest), LAMINATES (some are of two materials), WALLS (some are in thin walls: law_walls.glsl), INCREMENT (implicit integrators: the state is displacement + increment), MAKES_CELL_FORCES (of kernels that do).
+// Properties of nodes, springs and cells (physics.md 1). After lattice.glsl.
+// Features: LATTICE (some body has implicit connections), NETWORK (some body has explicit ones: network.glsl), PARTS (strengths
+// vary within a body: tables), LAW (the cells of some bodies obey a hyperelastic law), PRESTRESS (some of these are stressed at
+// rest), LAMINATES (some have two materials), WALLS (some are in thin walls: law_walls.glsl), INCREMENT (implicit integrators:
+// the state is displacement + increment), MAKES_CELL_FORCES (of kernels that do).
 #include "solver/tissue/spring.glsl"
-#include "solver/tissue/cell_motion.glsl"
+#include "solver/tissue/cell_modes.glsl"
 #ifdef LAW
 #include "solver/tissue/law.glsl"
 #endif
@@ -26,8 +28,8 @@ layout(binding = kUnitIncrement) uniform samplerBuffer increment;
 
 #if defined(PARTS) || defined(NETWORK)
 layout(binding = kUnitNodeMass) uniform samplerBuffer node_mass;                // [slots]; y as surfaceDepth(), 0 where there is none
-/// How deep a node lies below the surface of its tissue at rest, where cells are tissue in part and it is no deeper than a cell [m];
-/// negative outside. What touches the tissue is as much nearer to the surface than to the node.
+/// Returns the depth of a node below the surface of its tissue at rest, where cells are partially filled and it is at most a cell
+/// [m]; negative outside. Contact is with the surface, offset from the node by it.
 float surfaceDepth(uint slot) { return texelFetch(node_mass, int(slot)).y; }
 float nodeMass(uint slot, NodeBits bits, BodyParams body) { return texelFetch(node_mass, int(slot)).x; }
 #else
@@ -46,10 +48,10 @@ float stiffnessAt(uint place) { return texelFetch(spring_stiffness, int(place)).
 layout(std430, binding = kBindCellStrengths) restrict readonly buffer CellStrengthsIn { vec4 cell_strengths[]; };  // [slots]
 vec4 cellStrengths(uint slot) { return cell_strengths[slot]; }
 #elif defined(LAW)
-layout(binding = kUnitCellBulk) uniform samplerBuffer cell_bulk;  // [slots] x bulk, y rigidity [J], z which moments
+layout(binding = kUnitCellBulk) uniform samplerBuffer cell_bulk;  // [slots] x bulk, y rigidity [J], z index of the moments
 vec4 cellStrengths(uint slot) { return texelFetch(cell_bulk, int(slot)); }
 #endif
-/// Stiffness [N/m] of a spring that is alive, the same number from both ends. @param far  slot of the other end
+/// Returns the stiffness [N/m] of a whole spring, the same number from both ends. @param far  slot of the other end
 float springStiffness(uint slot, uint far, uint spring, uint count, BodyParams body) {
   uint owner = (spring & 1u) == 0u ? slot : far;
   return stiffnessAt(inPlanes(owner, spring >> 1, kSpringsPerNode / 2u));
@@ -68,7 +70,7 @@ layout(binding = kUnitCellForces) uniform samplerBuffer cell_forces;  // the sam
 #endif
 #if defined(LAW) && defined(PARTS)
 layout(binding = kUnitCellMoments) uniform samplerBuffer cell_moments;  // [3 * (1 + fills)], then stresses, laminates and walls of cells, two each (JoinedMoments)
-/// (lambda - mu) h^3 and mu h^3, times the cell's share [J].
+/// Return (lambda - mu) h^3 and mu h^3, times the cell's share [J].
 float cellBulk(uint slot, BodyParams body) { return cellStrengths(slot).x; }
 float cellRigidity(uint slot, BodyParams body) { return cellStrengths(slot).y; }
 CellMoments cellMoments(uint slot) {
@@ -104,8 +106,8 @@ CellMoments cellMoments(uint slot) { return fullMoments(); }
 #endif
 #endif  // __cplusplus
 
-// A kernel that defines DEAD_LINKS visits springs that are not alive too, with k = 0, and cells that are not there: a GPU then has
-// all loads of a node under way side by side, where a branch around each would have one wait for the other.
+// A kernel that defines DEAD_LINKS also visits springs that are cut, with k = 0, and missing cells. A GPU then issues all loads
+// of a node at once; with a branch around each they would wait for each other.
 #ifdef DEAD_LINKS
 #define IF_ALIVE(count)
 #define OF_ALIVE(count, k) ((count) != 0u ? (k) : 0.0f)
@@ -118,8 +120,8 @@ CellMoments cellMoments(uint slot) { return fullMoments(); }
 #define OF_THERE(exists, of_cell) (of_cell)
 #endif
 
-// FOR_EACH_LINK does what a kernel has put into VISIT_LINK for every live spring of the node `slot` with `bits` and `body`: with
-// n (slot of the far end), k [N/m], d (rest offset to n [m]), l0 (rest length [m]), prestrain (spring.glsl), and counted, which is
+// FOR_EACH_LINK executes the kernel's VISIT_LINK for every whole spring of the node `slot` with `bits` and `body`. It defines n
+// (slot of the far end), k [N/m], d (rest offset to n [m]), l0 (rest length [m]), prestrain (spring.glsl), and counted, which is
 // true at one of its two ends.
 #define LATTICE_LINK(spring, offset)                                                                     \
   {                                                                                                      \
@@ -150,13 +152,13 @@ CellMoments cellMoments(uint slot) { return fullMoments(); }
 #define FOR_EACH_LINK FOR_EACH_SPRING(LATTICE_LINK)
 #endif
 
-/// Calls APPLY(corner) for the eight corners that a node is of the cells around it, as -1 | +1 per axis.
+/// Calls APPLY(corner) for the corner that a node is in each of the eight cells around it, as -1 | +1 per axis.
 #define FOR_EACH_CELL(APPLY)                                                      \
   APPLY(ivec3(-1, -1, -1)) APPLY(ivec3(1, -1, -1)) APPLY(ivec3(-1, 1, -1))        \
   APPLY(ivec3(1, 1, -1)) APPLY(ivec3(-1, -1, 1)) APPLY(ivec3(1, -1, 1))           \
   APPLY(ivec3(-1, 1, 1)) APPLY(ivec3(1, 1, 1))
 
-/// Lowest corner of the cell in which a node is this corner; exists says whether its brick is there.
+/// Returns the lowest corner of the cell in which a node is this corner; `exists` is set to whether its brick exists.
 uint cellAt(uint slot, ivec3 corner, OUT(bool) exists) {
   ivec3 p = localCoord(slot) - ((corner + 1) >> 1);  // -1 .. 3
   ivec3 side = (p + 4) >> 2;                          // 0, 1
@@ -167,8 +169,8 @@ uint cellAt(uint slot, ivec3 corner, OUT(bool) exists) {
 }
 
 #ifdef LAW
-/// What a cell does to its corners: the corner at (x, y, z), each -1
-/// or 1, feels minus x a + y b + z c + y z hx + z x hy + x y hz + x y z hxyz [N].
+/// Forces of a cell on its corners. The force on the corner at (x, y, z), each -1 or 1, is minus x a + y b + z c + y z hx + z x
+/// hy + x y hz + x y z hxyz [N].
 struct CellForces {
   vec3 a, b, c, hx, hy, hz, hxyz;
 #ifdef WALLS
@@ -176,10 +178,10 @@ struct CellForces {
 #endif
 };
 
-/// @param q  as of cellMotion()   @param bulk, rigidity  as of lawPull()
-CellForces lawForces(CellMotion q, BodyParams body, float bulk, float rigidity, CellMoments moments) {
+/// @param q  from cellMotion()   @param bulk, rigidity  as in lawPull()
+CellForces lawForces(CellModes q, BodyParams body, float bulk, float rigidity, CellMoments moments) {
   float h = body.origin_spacing.w;
-  CellPull pull = lawPull(q, moments, rigidity, bulk, body.stiffening);
+  CellForce pull = lawPull(q, moments, rigidity, bulk, body.stiffening);
   float quarter = 0.25f / h;
   CellForces f;
   f.a = quarter * pull.a;
@@ -195,7 +197,7 @@ CellForces lawForces(CellMotion q, BodyParams body, float bulk, float rigidity, 
   return f;
 }
 
-/// Bit per axis, x lowest. @param corner  -1 or 1 per axis
+/// Returns the index of a corner, bit per axis, x lowest. @param corner  -1 or 1 per axis
 uint cornerNumber(ivec3 corner) { return uint((corner.x + 1) / 2 + (corner.y + 1) + 2 * (corner.z + 1)); }
 
 #ifdef WALLS
@@ -203,21 +205,21 @@ uint cornerNumber(ivec3 corner) { return uint((corner.x + 1) / 2 + (corner.y + 1
 #else
 #define CELL_PLANES kCellVectors
 #endif
-/// Place of what a cell does to one of its corners in cell_forces; from kCellVectors on of a node's rows, by axis.
+/// Returns the index in cell_forces of a cell's force on one of its corners; from kCellVectors on, of a node's rows, by axis.
 uint cellVector(uint slot, uint corner) { return inPlanes(slot, corner, CELL_PLANES); }
 
 #ifdef WALLS
-/// Are both springs of a node along an axis whole?
+/// Returns whether both springs of a node along an axis are whole.
 bool isWithinRow(NodeBits bits, uint axis) { return springCount(bits, 2u * axis) != 0u && springCount(bits, 2u * axis + 1u) != 0u; }
 
-/// Slot of the neighbour along an axis, as neighborSlot(). @param side  -1 or 1
+/// Returns the slot of the neighbour along an axis, as neighborSlot(). @param side  -1 or 1
 uint besideInRow(uint slot, uint axis, int side) {
   return neighborSlot(slot, ivec3(axis == 0u ? side : 0, axis == 1u ? side : 0, axis == 2u ? side : 0));
 }
 #endif
 
 #ifndef MAKES_CELL_FORCES  // kernels that write cell_forces do not read them
-/// Force of the cells around a node [N].
+/// Returns the force of the cells around a node [N].
 vec3 cellForce(uint slot) {
   vec4 sum = vec4(0.0f);
 #define ADD_CELL(corner)                                                                      \
@@ -234,7 +236,7 @@ vec3 cellForce(uint slot) {
 }
 
 #ifdef WALLS
-/// What the rows that a node is in do to it, of row_forces.comp [N].
+/// Returns the force of a node's rows on it, from row_forces.comp [N].
 vec3 rowForce(uint slot, NodeBits bits) {
   vec4 sum = vec4(0.0f);
   for (uint axis = 0u; axis < 3u; ++axis) {

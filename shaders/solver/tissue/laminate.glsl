@@ -1,9 +1,10 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A cell of two materials that meet in a plane with the normal N (physics.md 1, Two materials in a cell): its layers have the gradients
-// F + s a N^T, s the share of the other layer with a sign, and a is where their energy is least, that is where both have one traction.
-// The tractions shear e + kappa m, e = (F - C) N, m = C N, C = cof F, put a in the plane of e and m: a = alpha e + beta m, two unknowns.
+// A cell of two materials with a plane interface of normal N (physics.md 1, Two materials in a cell). Its layers have the
+// gradients F + s a N^T, with s the signed share of the other layer. The jump a minimises their energy; then the tractions of
+// both are equal. The tractions shear e + kappa m, with e = (F - C) N, m = C N, C = cof F, put a in the plane of e and m: a =
+// alpha e + beta m, two unknowns.
 // After the stress and the density of law.glsl. Feature: LAMINATES
 
 /// Both layers at their jump.
@@ -13,20 +14,22 @@ struct LawLaminate {
   float size_a, size_b;  // |F|^2 - 3
 };
 
-/// How kappa and shear of a layer change along a change of a, over its s: by e as m.da, by size as 2 f.da, f = F N.
+/// Return the derivatives of kappa and shear of a layer along a change of a, over its s: by_e is m.da, by_f is f.da with f = F N.
 float lawKappaAlong(LawLayer y, float bulk, float by_e, float by_f) {
   float of_e = 0.5f * bulk * (1.0f + y.inverse * y.inverse) + y.shear * y.inverse * (1.0f + 5.0f / 3.0f * y.off);
   return of_e * by_e - (2.0f / 3.0f) * y.shear * y.inverse * by_f;
 }
 float lawShearAlong(LawLayer y, float by_e) { return -2.0f / 3.0f * y.shear * y.slope * by_e; }
 
-/// Returns the share of a step of Newton's method in which a layer loses no more than 0.7 of its volume. @param gains  of volume, by the whole step
+/// Returns the share of a Newton step in which a layer loses at most 0.7 of its volume. @param gains  change of volume by the
+/// whole step
 float lawLaminateStep(LawLayer y, float gains) {
   float most = max(0.7f * (1.0f + y.e), 0.1f);
   return gains < -most ? -most / gains : 1.0f;
 }
 
-/// Returns the layers at the jump at which their tractions are one. @param d, c, e  mean gradient less 1, its cofactors less 1 and its dilation
+/// Returns the layers at the jump with equal tractions. @param d, c, e  mean gradient less 1, its cofactors less 1 and its
+/// dilation
 LawLaminate lawLaminate(CellMoments t, LawColumns d, LawColumns c, float e, float stiffening) {
   vec3 n = t.plane.xyz, m = n + n.x * c.a + n.y * c.b + n.z * c.c;
   vec3 off = n.x * (d.a - c.a) + n.y * (d.b - c.b) + n.z * (d.c - c.c);
@@ -43,7 +46,7 @@ LawLaminate lawLaminate(CellMoments t, LawColumns d, LawColumns c, float e, floa
     out_.a = a;
     out_.b = b;
     if (step == kLaminateSteps) break;
-    // What the tractions differ by, along e and along m, and how that changes with alpha and beta.
+    // Difference of the tractions along e and along m, and its derivatives by alpha and beta.
     float along_off = ra * a.shear * (1.0f + sa * alpha) - rb * b.shear * (1.0f + sb * alpha);
     float along_m = ra * (a.shear * sa * beta + a.kappa) - rb * (b.shear * sb * beta + b.kappa);
     float of_a = of + sa * (alpha * oo + beta * om), of_b = of + sb * (alpha * oo + beta * om);
@@ -64,14 +67,14 @@ LawLaminate lawLaminate(CellMoments t, LawColumns d, LawColumns c, float e, floa
   return out_;
 }
 
-/// What a N^T adds to F, and to its cofactors. @param d  F - 1
+/// Return the change of F, and of its cofactors, by a N^T. @param d  F - 1
 LawColumns lawJumpColumns(vec3 a, vec3 n) { return lawColumns(n.x * a, n.y * a, n.z * a); }
 LawColumns lawJumpCofactors(LawColumns d, vec3 a, vec3 n) {
   vec3 fa = vec3(1.0f, 0.0f, 0.0f) + d.a, fb = vec3(0.0f, 1.0f, 0.0f) + d.b, fc = vec3(0.0f, 0.0f, 1.0f) + d.c;
   return lawColumns(cross(a, n.y * fc - n.z * fb), cross(a, n.z * fa - n.x * fc), cross(a, n.x * fb - n.y * fa));
 }
 
-/// dW/dF of both layers over their mean mu, and their W over it. @param c, e  cofactors and dilation of d
+/// Returns dW/dF of both layers over their mean mu; sets their W over it. @param c, e  cofactors and dilation of d
 LawColumns lawLaminateStress(CellMoments t, LawColumns d, LawColumns c, float e, float stiffening, OUT(float) density) {
   LawLaminate y = lawLaminate(t, d, c, e, stiffening);
   float ca = t.plane.w * t.layers.x, cb = (1.0f - t.plane.w) * t.layers.y, sa = 1.0f - t.plane.w, sb = -t.plane.w;

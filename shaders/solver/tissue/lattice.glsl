@@ -1,15 +1,16 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The implicit lattice: bricks of 4x4x4 nodes, neighbours by offset, springs as small counts. model/body/neighbors.h is its twin.
+// The implicit lattice: bricks of 4x4x4 nodes, neighbours by offset, springs as small counts. model/body/neighbors.h is its C++
+// version.
 #include "layout.h"
 
-#ifndef __cplusplus  // there src/solver/cpu/text/glsl_kernel.h says where bricks and bodies are
+#ifndef __cplusplus  // in C++ src/solver/cpu/kernels/glsl_kernel.h provides bricks and bodies
 layout(local_size_x = GROUP_SIZE) in;
-// Two ways to the same buffers. Feature TEXELS (the solver's kernels): bricks by texel fetch, bodies in a uniform block,
-// which software rasterisers run several times faster than storage loads; otherwise storage buffers. LOADS beside it (set by
-// gpu/program.cpp where a driver has blocks enough): what every node reads of its neighbours by storage loads again, which a
-// GPU runs several times faster than texel fetches of 16 bytes.
+// Two kinds of access to the same buffers. Feature TEXELS (the solver's kernels): bricks by texel fetch, bodies in a uniform
+// block, which software rasterisers run several times faster than storage loads; otherwise storage buffers. With LOADS in
+// addition (set by gpu/program.cpp where a driver supports enough blocks) the data of neighbours are read by storage loads again,
+// which a GPU runs several times faster than texel fetches of 16 bytes.
 #ifdef LOADS
 #define stateAt(name, index) name[index]
 #else
@@ -37,7 +38,7 @@ ivec3 brickCoord(uint slot) {
 }
 uint brickBody(uint slot) { return bricks[slot >> 6].body; }
 #endif
-#ifdef NETWORK  // some body has explicit connections: where its nodes lie is in a table
+#ifdef NETWORK  // some body has explicit connections: rest positions of its nodes are in a table
 #ifdef TEXELS
 layout(binding = kUnitRest) uniform samplerBuffer rest_positions;
 vec3 tabulatedRest(uint slot) { return texelFetch(rest_positions, int(slot)).xyz; }
@@ -47,7 +48,7 @@ vec3 tabulatedRest(uint slot) { return rest_positions[slot].xyz; }
 #endif
 #endif
 
-/// Index of this invocation over all groups (gpu/program.cpp folds many groups into rows).
+/// Returns the index of this invocation over all groups (gpu/program.cpp folds many groups into rows).
 uint globalIndex() {
   return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
 }
@@ -63,11 +64,12 @@ uint globalIndex() {
 
 ivec3 localCoord(uint slot) { return ivec3(slot & 3u, (slot >> 2) & 3u, (slot >> 4) & 3u); }
 
-/// Place of one of the numbers that a node has in an array of `planes` of them: brick by brick, each number in a plane of its own, so
-/// that nodes side by side read side by side.
+/// Returns the index of a node's number in an array with `planes` numbers per node: brick by brick, each number in a plane of its
+/// own, so neighbouring invocations read neighbouring words.
 uint inPlanes(uint slot, uint plane, uint planes) { return ((slot >> 6) * planes + plane) * kBrickSlots + (slot & (kBrickSlots - 1u)); }
 
-/// Slot of the neighbour at an offset of -1, 0, 1 per axis. Where no node is, some valid slot: its spring count is 0.
+/// Returns the slot of the neighbour at an offset of -1, 0, 1 per axis. Without a node there, some valid slot: its spring count
+/// is 0.
 uint neighborSlot(uint slot, ivec3 offset) {
   ivec3 p = localCoord(slot) + offset;  // -1 .. 4
   ivec3 side = (p + 4) >> 2;            // 0, 1, 2
@@ -76,7 +78,7 @@ uint neighborSlot(uint slot, ivec3 offset) {
   return brick * kBrickSlots + q.x + 4u * q.y + 16u * q.z;
 }
 
-/// Strength of a spring: axial 0..4 quarters, diagonal 0..2 halves.
+/// Returns the strength of a spring: axial 0..4 quarters, diagonal 0..2 halves.
 uint springCount(NodeBits bits, uint spring) {
   return spring < kAxialSprings ? (bits.lo >> (3u * spring)) & 7u : (bits.hi >> (2u * (spring - kAxialSprings))) & 3u;
 }
@@ -97,10 +99,10 @@ uint bodyAt(uint slot) { return brickBody(slot); }
 #endif
 bool isIsolated(NodeBits bits) { return (bits.lo & kAxialMask) == 0u && (bits.hi & kDiagonalMask) == 0u; }
 
-/// Integer coordinates of a node, from its body's node (0, 0, 0).
+/// Returns the integer coordinates of a node, from its body's node (0, 0, 0).
 ivec3 nodeCoord(uint slot) { return brickCoord(slot) * int(kBrickEdge) + localCoord(slot); }
 
-/// Rest position of a node [m, tissue frame].
+/// Returns the rest position of a node [m, tissue frame].
 vec3 restPosition(uint slot) {
   BodyParams body = bodies[bodyAt(slot)];
 #ifdef NETWORK

@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The neo-Hookean law of a cell (physics.md 1, Law): W(F*) + s.K.s/2 + 5/36 mu |H_xyz|^2 over its volume, with
-// W = mu/2 (J^(-2/3) |F|^2 - 3) + K/4 (J^2 - 1 - 2 ln J), s = F^-1 H its hourglass motions in the material's frame and F* the deformation
-// gradient at the centroid of the part of the cell that is tissue. Everything is computed from D = F - 1, so that nothing cancels
-// near rest. With a stiffening b the first term is mu/(2 b) (exp(b x) - 1), x = J^(-2/3) |F|^2 - 3, straight from b x = kMostExponent on.
-// A cell that is stressed at rest has S : (F^T F - 1) / 2 besides, of F* (physics.md 1, Prestress).
-// After cell_motion.glsl.
+// The neo-Hookean law of a cell (physics.md 1, Law): W(F*) + s.K.s/2 + 5/36 mu |H_xyz|^2 over its volume, with W = mu/2 (J^(-2/3)
+// |F|^2 - 3) + K/4 (J^2 - 1 - 2 ln J). s = F^-1 H are its hourglass modes in the material's frame. F* is the deformation gradient
+// at the centroid of the tissue part of the cell. Everything is computed from D = F - 1, so nothing cancels near rest. With a
+// stiffening b the first term is mu/(2 b) (exp(b x) - 1), x = J^(-2/3) |F|^2 - 3, continued linearly from b x = kMostExponent. A
+// cell that is stressed at rest has in addition S : (F^T F - 1) / 2, of F* (physics.md 1, Prestress).
+// After cell_modes.glsl.
 
 /// Columns of a 3x3 matrix.
 struct LawColumns {
@@ -18,7 +18,7 @@ LawColumns lawColumns(vec3 a, vec3 b, vec3 c) {
   return out_;
 }
 
-/// cof(1 + D) - 1.
+/// Returns cof(1 + D) - 1.
 LawColumns lawCofactors(LawColumns d) {
   vec3 a = d.a, b = d.b, c = d.c;
   return lawColumns(vec3(b.y + c.z + (b.y * c.z - b.z * c.y), b.z * c.x - (b.x * c.z + b.x), b.x * c.y - (b.y * c.x + c.x)),
@@ -26,14 +26,15 @@ LawColumns lawCofactors(LawColumns d) {
                     vec3(a.y * b.z - (a.z * b.y + a.z), a.z * b.x - (a.x * b.z + b.z), a.x + b.y + (a.x * b.y - a.y * b.x)));
 }
 
-/// det(1 + D) - 1. @param c  lawCofactors(d)
+/// Returns det(1 + D) - 1. @param c  lawCofactors(d)
 float lawDilation(LawColumns d, LawColumns c) { return d.a.x + c.a.x + dot(d.a, c.a); }
 
-/// (1 + M) v and (1 + M)^T v.
+/// Return (1 + M) v and (1 + M)^T v.
 vec3 lawTimes(LawColumns m, vec3 v) { return v + v.x * m.a + v.y * m.b + v.z * m.c; }
 vec3 lawTransposed(LawColumns m, vec3 v) { return v + vec3(dot(m.a, v), dot(m.b, v), dot(m.c, v)); }
 
-/// What W needs of J = 1 + e: phi = J^(-2/3), its slope as -3/2 phi'/phi, and 1/J. Below kLeastVolume phi levels off and 1/J is constant.
+/// Functions of J = 1 + e in W: phi = J^(-2/3), its slope as -3/2 phi'/phi, and 1/J. Below kLeastVolume phi levels off and 1/J is
+/// constant.
 struct LawVolume {
   float phi, slope, inverse;
 };
@@ -52,13 +53,13 @@ LawVolume lawVolume(float e) {
   return v;
 }
 
-/// |1 + D|^2 - 3.
+/// Returns |1 + D|^2 - 3.
 float lawSize(LawColumns d) { return 2.0f * (d.a.x + d.b.y + d.c.z) + dot(d.a, d.a) + dot(d.b, d.b) + dot(d.c, d.c); }
 
-/// How much more shear resists, at x.
+/// Returns the factor by which shear stiffens at x.
 float lawStiffer(float x, float stiffening) { return stiffening == 0.0f ? 1.0f : exp(min(stiffening * x, kMostExponent)); }
 
-/// What makes up dW/dF = shear (F - C) + kappa C over mu, C = cof F; `off` is what kappa loses to shear, over shear.
+/// Terms of dW/dF = shear (F - C) + kappa C over mu, C = cof F; `off` is the part of kappa due to shear, over shear.
 struct LawLayer {
   float e, shear, kappa, off, inverse, slope;
 };
@@ -76,7 +77,7 @@ LawLayer lawLayer(float e, float size, float bulk, float stiffening) {
   return y;
 }
 
-/// dW/dF over mu. @param c, e  cofactors and dilation of d   @param bulk  K/mu
+/// Returns dW/dF over mu. @param c, e  cofactors and dilation of d   @param bulk  K/mu
 LawColumns lawStress(LawColumns d, LawColumns c, float e, float bulk, float stiffening) {
   LawLayer y = lawLayer(e, lawSize(d), bulk, stiffening);
   float of_c = y.kappa - y.shear;
@@ -87,7 +88,7 @@ LawColumns lawStress(LawColumns d, LawColumns c, float e, float bulk, float stif
   return p;
 }
 
-/// ln(1 + x) and exp(x) - 1, to float's rounding near 0 too.
+/// Return ln(1 + x) and exp(x) - 1, to float rounding also near 0.
 float lawLog1(float x) {
   if (abs(x) > 0.1f) return log(1.0f + x);
   float z = x / (2.0f + x), q = z * z;
@@ -98,14 +99,14 @@ float lawExp1(float x) {
   return x * (1.0f + x * (0.5f + x * (1.0f / 6.0f + x * (1.0f / 24.0f + x * (1.0f / 120.0f)))));
 }
 
-/// (exp(b x) - 1) / b, straight from b x = kMostExponent on; x without stiffening.
+/// Returns (exp(b x) - 1) / b, continued linearly from b x = kMostExponent; x without stiffening.
 float lawShear(float x, float stiffening) {
   if (stiffening == 0.0f) return x;
   float y = stiffening * x, least = min(y, kMostExponent);
   return (lawExp1(least) + exp(least) * (y - least)) / stiffening;
 }
 
-/// W over mu. @param size  |F|^2 - 3
+/// Returns W over mu. @param size  |F|^2 - 3
 float lawDensity(float size, float e, float bulk, float stiffening) {
   float j = 1.0f + e;
   if (j >= kLeastVolume) {
@@ -117,7 +118,7 @@ float lawDensity(float size, float e, float bulk, float stiffening) {
   return 0.5f * lawShear(lawVolume(e).phi * (3.0f + size) - 3.0f, stiffening) + 0.25f * bulk * (j * j - 1.0f - 2.0f * log_);
 }
 
-/// Second moments of a cell's tissue about its centroid, and what its law depends on.
+/// Second moments of a cell's tissue about its centroid, and constants of its law.
 struct LawCell {
   vec3 center, square, mixed;
   float poisson, along, aside;  // lambda / (lambda + 2 mu); plane stress over mu
@@ -134,7 +135,7 @@ LawCell lawCell(CellMoments t, float ratio) {
   return cell;
 }
 
-/// Derivatives of s.K.s/2 by s, over mu: rows are the axes of the frame. @param s  s_al, row by row
+/// Returns the derivatives of s.K.s/2 by s, over mu: rows are the axes of the frame. @param s  s_al, row by row
 LawColumns lawBends(LawCell t, LawColumns s) {
   vec3 gx = vec3(s.b.z, s.c.y, s.b.y + s.c.z);  // yy, zz, 2 yz
   vec3 gy = vec3(s.c.x, s.a.z, s.c.z + s.a.x);  // zz, xx, 2 zx
@@ -152,7 +153,7 @@ LawColumns lawBends(LawCell t, LawColumns s) {
   return lawColumns(vec3(by.z + bz.z, bz.x, by.y), vec3(bz.y, bz.z + bx.z, bx.x), vec3(by.x, bx.y, bx.z + by.z));
 }
 
-/// G of F* = F (1 + G): its columns. @param s  s_al, row by row
+/// Returns the columns of G of F* = F (1 + G). @param s  s_al, row by row
 LawColumns lawAtCentroid(LawCell t, LawColumns s) {
   vec3 c = t.center;
   float p = t.poisson;
@@ -164,7 +165,7 @@ LawColumns lawAtCentroid(LawCell t, LawColumns s) {
                          s.c.y * c.x + s.c.x * c.y - p * c.z * (s.a.y + s.b.x)));
 }
 
-/// Adds to r, the derivatives by s, what q = F^T dW/dF* does by G.
+/// Adds to r, the derivatives by s, the contribution of q = F^T dW/dF* through G.
 void lawAddCentroid(LawCell t, LawColumns q, INOUT(LawColumns) r) {
   vec3 c = t.center;
   float px = t.poisson * c.x * q.a.x, py = t.poisson * c.y * q.b.y, pz = t.poisson * c.z * q.c.z;
@@ -173,8 +174,8 @@ void lawAddCentroid(LawCell t, LawColumns q, INOUT(LawColumns) r) {
   r.c += vec3(c.z * q.b.z + c.y * q.c.z - c.z * q.c.y - py, c.z * q.a.z + c.x * q.c.z - c.z * q.c.x - px, c.y * q.a.z + c.x * q.b.z);
 }
 
-/// s = F^-1 H, row by row. @param c, e  cofactors and dilation of the mean edges
-LawColumns lawFrame(CellMotion q, LawColumns c, float e) {
+/// Returns s = F^-1 H, row by row. @param c, e  cofactors and dilation of the mean edges
+LawColumns lawFrame(CellModes q, LawColumns c, float e) {
   float inverse = 1.0f / max(1.0f + e, kLeastVolume);
   vec3 gx = lawTransposed(c, q.hx), gy = lawTransposed(c, q.hy), gz = lawTransposed(c, q.hz);
   return lawColumns(inverse * vec3(gx.x, gy.x, gz.x), inverse * vec3(gx.y, gy.y, gz.y), inverse * vec3(gx.z, gy.z, gz.z));
@@ -191,7 +192,7 @@ void lawAddPrestress(CellMoments t, LawColumns d, INOUT(LawColumns) p, INOUT(flo
   density += 0.5f * (dot(fa, d.a) + dot(fb, d.b) + dot(fc, d.c) + dot(a, d.a) + dot(b, d.b) + dot(c, d.c));
 }
 
-/// What it adds to the fastest wave at most, over mu: its largest row sum.
+/// Returns a bound on its contribution to the fastest wave, over mu: its largest row sum.
 float lawTension(CellMoments t) {
   vec3 sheared = abs(t.sheared), rows = abs(t.pulled) + sheared.zxy + sheared.yzx;
   return max(rows.x, max(rows.y, rows.z));
@@ -202,7 +203,7 @@ float lawTension(CellMoments t) {
 #include "solver/tissue/laminate.glsl"
 #endif
 
-/// dW/dF over mu at the centroid of a cell's tissue, and W over mu. @param c, e  cofactors and dilation of d
+/// Returns dW/dF over mu at the centroid of a cell's tissue; sets W over mu. @param c, e  cofactors and dilation of d
 LawColumns lawPoint(LawColumns d, LawColumns c, float e, float bulk, float stiffening, CellMoments t, OUT(float) density) {
 #ifdef LAMINATES
   if (t.plane.w < 1.0f) return lawLaminateStress(t, d, c, e, stiffening, density);
@@ -211,15 +212,15 @@ LawColumns lawPoint(LawColumns d, LawColumns c, float e, float bulk, float stiff
   return lawStress(d, c, e, bulk, stiffening);
 }
 
-/// P* (1 + G)^T: what dW/dF* does by the mean edges, the frame held.
+/// Returns P* (1 + G)^T: the derivative by the mean edges, with the frame held constant.
 LawColumns lawByEdges(LawColumns ps, LawColumns g) {
   return lawColumns(ps.a + g.a.x * ps.a + g.b.x * ps.b + g.c.x * ps.c, ps.b + g.a.y * ps.a + g.b.y * ps.b + g.c.y * ps.c,
                     ps.c + g.a.z * ps.a + g.b.z * ps.b + g.c.z * ps.c);
 }
 
-/// Leaves the derivatives by the motion [J]. @param c, e  cofactors and dilation of d   @param s  row by row
-/// @param p  by the mean edges, the frame held   @param r  by s, row by row; both over mu
-void lawLeave(CellMotion q, LawColumns d, LawColumns c, float e, LawColumns s, LawColumns p, LawColumns r, float rigidity, INOUT(CellPull) pull) {
+/// Writes the derivatives by the modes [J]. @param c, e  cofactors and dilation of d   @param s  row by row
+/// @param p  by the mean edges, with the frame held constant   @param r  by s, row by row; both over mu
+void lawLeave(CellModes q, LawColumns d, LawColumns c, float e, LawColumns s, LawColumns p, LawColumns r, float rigidity, INOUT(CellForce) pull) {
   float inverse = 1.0f / max(1.0f + e, kLeastVolume);
   pull.hx = inverse * lawTimes(c, vec3(r.a.x, r.b.x, r.c.x));
   pull.hy = inverse * lawTimes(c, vec3(r.a.y, r.b.y, r.c.y));
@@ -250,8 +251,9 @@ void lawLeave(CellMotion q, LawColumns d, LawColumns c, float e, LawColumns s, L
 #include "solver/tissue/law_walls.glsl"
 #endif
 
-/// The law's energy and its derivatives. @param rigidity  mu h^3 times the cell's share [J]   @param bulk_j  (lambda - mu) h^3 times the same [J]
-CellPull lawPull(CellMotion q, CellMoments moments, float rigidity, float bulk_j, float stiffening) {
+/// Returns the law's energy and its derivatives. @param rigidity  mu h^3 times the cell's share [J]   @param bulk_j  (lambda -
+/// mu) h^3 times the same [J]
+CellForce lawPull(CellModes q, CellMoments moments, float rigidity, float bulk_j, float stiffening) {
 #ifdef WALLS
   if (moments.wall.w > 0.0f) return lawWallPull(q, moments, rigidity, bulk_j, stiffening);
 #endif
@@ -260,7 +262,7 @@ CellPull lawPull(CellMotion q, CellMoments moments, float rigidity, float bulk_j
   LawColumns d = lawColumns(q.da, q.db, q.dc), c = lawCofactors(d);
   float e = lawDilation(d, c);
   LawColumns s = lawFrame(q, c, e), r = lawBends(t, s);
-  CellPull pull;
+  CellForce pull;
   pull.energy = 0.5f * (dot(r.a, s.a) + dot(r.b, s.b) + dot(r.c, s.c)) + 0.5f * kLawAlternating * dot(q.hxyz, q.hxyz);
   LawColumns p;
   if (dot(t.center, t.center) == 0.0f) {
@@ -288,15 +290,15 @@ CellPull lawPull(CellMotion q, CellMoments moments, float rigidity, float bulk_j
   return pull;
 }
 
-/// Largest row sum of |M|^T |M| for M = 1 + m: at least the square of its largest stretch.
+/// Returns the largest row sum of |M|^T |M| for M = 1 + m: at least the square of its largest stretch.
 float lawLargest(LawColumns m) {
   vec3 a = vec3(1.0f, 0.0f, 0.0f) + m.a, b = vec3(0.0f, 1.0f, 0.0f) + m.b, c = vec3(0.0f, 0.0f, 1.0f) + m.c;
   float ab = abs(dot(a, b)), bc = abs(dot(b, c)), ca = abs(dot(c, a));
   return max(dot(a, a) + ab + ca, max(dot(b, b) + ab + bc, dot(c, c) + bc + ca));
 }
 
-/// How much faster squared the fastest wave in a lattice of cells with a gradient 1 + D is than at rest, 1 or more (physics.md 2): exact for
-/// waves along principal stretches. @param c  lawCofactors(d)   @param ratio  lambda/mu - 1
+/// Returns the square of the fastest wave in a lattice of cells with a gradient 1 + D over that at rest, at least 1 (physics.md
+/// 2). It is exact for waves along principal stretches. @param c  lawCofactors(d)   @param ratio  lambda/mu - 1
 /// @param tension  lawTension(), or 0
 float lawStiffeningAt(LawColumns d, LawColumns c, float ratio, float stiffening, float tension) {
   float e = lawDilation(d, c), bulk = ratio + 5.0f / 3.0f;
@@ -316,7 +318,8 @@ float lawStiffeningAt(LawColumns d, LawColumns c, float ratio, float stiffening,
 #ifdef LAMINATES
 LawColumns lawSum(LawColumns a, float s, LawColumns b) { return lawColumns(a.a + s * b.a, a.b + s * b.b, a.c + s * b.c); }
 
-/// The same of a cell of two materials: the mean of its layers', by what they are of the fastest wave at rest.
+/// Returns the same for a cell of two materials: the mean over its layers, weighted by their contributions to the fastest wave at
+/// rest.
 float lawLaminateStiffening(CellMoments t, LawColumns d, LawColumns c, float ratio, float stiffening, float tension) {
   LawLaminate y = lawLaminate(t, d, c, lawDilation(d, c), stiffening);
   LawColumns by = lawJumpColumns(y.jump, t.plane.xyz), turn = lawJumpCofactors(d, y.jump, t.plane.xyz);
@@ -327,8 +330,8 @@ float lawLaminateStiffening(CellMoments t, LawColumns d, LawColumns c, float rat
 }
 #endif
 
-/// The larger of those at the cell's mean gradient and at its tissue's centroid.
-float lawStiffening(CellMotion q, CellMoments moments, float ratio, float stiffening) {
+/// Returns the larger of those at the cell's mean gradient and at its tissue's centroid.
+float lawStiffening(CellModes q, CellMoments moments, float ratio, float stiffening) {
   LawColumns d = lawColumns(q.da, q.db, q.dc), c = lawCofactors(d);
   LawCell t = lawCell(moments, ratio);
 #ifdef PRESTRESS

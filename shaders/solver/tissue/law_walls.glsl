@@ -1,29 +1,30 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The law of cells in thin walls, whose second derivatives along their own axes come from rows of nodes (physics.md 1, Thin walls).
-// With e_k those along axis k in the frame and a_k what the law has of its own, G and the gradients of strain get v_k = share (e_k - a_k)
-// besides, and F* = F (1 + G) + tau, tau of how second derivatives vary within the cell. Within law.glsl, before lawPull(). Feature: WALLS
+// The law of cells in thin walls, with second derivatives along their own axes from rows of nodes (physics.md 1, Thin walls).
+// Let e_k be those along axis k in the frame, and a_k those of the law without rows. G and the gradients of strain then get the
+// additional terms v_k = share (e_k - a_k). F* = F (1 + G) + tau, where tau is due to the variation of second derivatives within
+// the cell. Included within law.glsl, before lawPull(). Feature: WALLS
 
-/// What rows add.
+/// Contributions of rows.
 struct LawWall {
-  vec3 share;     // of second derivatives along each axis that comes from rows
+  vec3 share;     // share of the second derivatives along each axis that comes from rows
   mat3 by_rows;   // columns e_k
   mat3 more;      // columns v_k
   mat3 varies;    // tau
-  vec3 ends;      // what second derivatives along k move the faces across l by: of their variation along l
+  vec3 ends;      // factors of the variation along l of second derivatives along k, in the motion of the faces across l
   vec3 mixed;     // moments of yz, zx, xy about the cell's middle, times the share of the variation
 };
 
-/// Second derivatives along each axis that the law has without rows, in the frame: columns a_k. @param s  s_al, row by row
+/// Returns the second derivatives along each axis of the law without rows, in the frame: columns a_k.   @param s  s_al, row by row
 mat3 lawOwn(LawCell t, LawColumns s) {
   float p = t.poisson;
   return mat3(vec3(-p * (s.b.z + s.c.y), -s.a.z, -s.a.y), vec3(-s.b.z, -p * (s.c.x + s.a.z), -s.b.x),
               vec3(-s.c.y, -s.c.x, -p * (s.a.y + s.b.x)));
 }
 
-/// @param c, e  cofactors and dilation of the mean edges
-LawWall lawWall(CellMotion q, CellMoments moments, LawCell t, LawColumns c, float e, LawColumns s) {
+/// Returns the contributions of rows.   @param c, e  cofactors and dilation of the mean edges
+LawWall lawWall(CellModes q, CellMoments moments, LawCell t, LawColumns c, float e, LawColumns s) {
   float inverse = 1.0f / max(1.0f + e, kLeastVolume);
   LawWall w;
   w.share = moments.wall.w * q.rows.there;
@@ -39,13 +40,13 @@ LawWall lawWall(CellMotion q, CellMoments moments, LawCell t, LawColumns c, floa
   return w;
 }
 
-/// G of F* = F (1 + G) + tau.
+/// Returns G of F* = F (1 + G) + tau.
 LawColumns lawWallCentroid(LawCell t, LawColumns s, LawWall w) {
   LawColumns g = lawAtCentroid(t, s);
   return lawColumns(g.a + t.center.x * w.more[0], g.b + t.center.y * w.more[1], g.c + t.center.z * w.more[2]);
 }
 
-/// F* - 1. @param g  lawWallCentroid()
+/// Returns F* - 1.   @param g  lawWallCentroid()
 LawColumns lawWallStar(LawColumns d, LawColumns g, LawWall w) {
   return lawColumns(d.a + (lawTimes(d, g.a) + w.varies[0]), d.b + (lawTimes(d, g.b) + w.varies[1]), d.c + (lawTimes(d, g.c) + w.varies[2]));
 }
@@ -54,9 +55,9 @@ LawColumns lawWallStar(LawColumns d, LawColumns g, LawWall w) {
 struct LawGradients {
   mat3 x, y, z;
 };
-/// @param on  xx, yy, zz   @param off  yz, zx, xy
+/// Returns a symmetric tensor.   @param on  xx, yy, zz   @param off  yz, zx, xy
 mat3 lawSymmetric(vec3 on, vec3 off) { return mat3(on.x, off.z, off.y, off.z, on.y, off.x, off.y, off.x, on.z); }
-/// @param more  columns v_k
+/// Returns the gradients of strain.   @param more  columns v_k
 LawGradients lawGradients(LawCell t, LawColumns s, mat3 more) {
   float p = t.poisson;
   vec3 x = more[0], y = more[1], z = more[2];
@@ -67,7 +68,8 @@ LawGradients lawGradients(LawCell t, LawColumns s, mat3 more) {
   return g;
 }
 
-/// Stress of a strain over mu, less the share `relieved` (lambda + 2) of what it has across the wall. @param lambda  over mu
+/// Returns the stress of a strain over mu, without the share `relieved` (lambda + 2) of its component across the wall.
+/// @param lambda  over mu
 mat3 lawRelieved(mat3 strain, float lambda, vec3 normal, float relieved) {
   float trace = strain[0].x + strain[1].y + strain[2].z;
   float across = relieved * (lambda * trace + 2.0f * dot(normal, strain * normal)), pressure = lambda * (trace - across);
@@ -80,7 +82,8 @@ mat3 lawRelieved(mat3 strain, float lambda, vec3 normal, float relieved) {
 
 float lawProduct(mat3 a, mat3 b) { return dot(a[0], b[0]) + dot(a[1], b[1]) + dot(a[2], b[2]); }
 
-/// What gradients of strain within the cell cost, over mu. @param lambda  over mu   @param r  derivatives by s, row by row   @param by_more  by v_k, columns
+/// Returns the energy of the gradients of strain within the cell, over mu.
+/// @param lambda  over mu   @param r  derivatives by s, row by row   @param by_more  derivatives by v_k, columns
 float lawWallBends(LawCell t, LawColumns s, vec4 wall, float lambda, mat3 more, OUT(LawColumns) r, OUT(mat3) by_more) {
   float relieved = wall.w * (1.0f - kRowStressAcross) / (lambda + 2.0f), p = t.poisson;
   LawGradients g = lawGradients(t, s, more);
@@ -94,7 +97,7 @@ float lawWallBends(LawCell t, LawColumns s, vec4 wall, float lambda, mat3 more, 
   return 0.5f * (lawProduct(g.x, x) + lawProduct(g.y, y) + lawProduct(g.z, z));
 }
 
-/// Adds to r what the derivatives by e_k do by s, as v_k loses what the law has of its own. @param by_rows  columns
+/// Adds to r the derivatives by s through a_k, which v_k subtracts.   @param by_rows  derivatives by e_k, columns
 void lawAddOwn(LawCell t, mat3 by_rows, INOUT(LawColumns) r) {
   vec3 x = by_rows[0], y = by_rows[1], z = by_rows[2], p = t.poisson * vec3(x.x, y.y, z.z);
   r.a += vec3(0.0f, x.z + p.z, x.y + p.y);
@@ -102,8 +105,8 @@ void lawAddOwn(LawCell t, mat3 by_rows, INOUT(LawColumns) r) {
   r.c += vec3(z.y + p.y, z.x + p.x, 0.0f);
 }
 
-/// Leaves the derivatives by rows, and adds to those by mean edges what these do in the frame. @param p  dW/dF* over mu
-void lawLeaveRows(CellMotion q, LawColumns d, LawColumns c, float e, LawWall w, LawColumns p, mat3 by_rows, float rigidity, INOUT(CellPull) pull) {
+/// Writes the derivatives by rows, and adds to the derivatives by mean edges those through the frame.   @param p  dW/dF* over mu
+void lawLeaveRows(CellModes q, LawColumns d, LawColumns c, float e, LawWall w, LawColumns p, mat3 by_rows, float rigidity, INOUT(CellForce) pull) {
   float inverse = 1.0f / max(1.0f + e, kLeastVolume);
   mat3 by_second = (rigidity * inverse) * mat3(lawTimes(c, by_rows[0]), lawTimes(c, by_rows[1]), lawTimes(c, by_rows[2]));
   for (int k = 0; k < 3; ++k) pull.rows.second[k] = by_second[k];
@@ -119,7 +122,7 @@ void lawLeaveRows(CellMotion q, LawColumns d, LawColumns c, float e, LawWall w, 
     pull.a -= turned[0];
     pull.b -= turned[1];
     pull.c -= turned[2];
-  } else {  // as lawLeave() does
+  } else {  // as in lawLeave()
     vec3 fa = vec3(1.0f, 0.0f, 0.0f) + d.a, fb = vec3(0.0f, 1.0f, 0.0f) + d.b, fc = vec3(0.0f, 0.0f, 1.0f) + d.c;
     mat3 of = (rigidity * inverse) * (mat3(q.rows.second[0], q.rows.second[1], q.rows.second[2]) * transpose(by_rows));
     pull.a += cross(of[1], fc) + cross(fb, of[2]);
@@ -128,8 +131,8 @@ void lawLeaveRows(CellMotion q, LawColumns d, LawColumns c, float e, LawWall w, 
   }
 }
 
-/// lawPull() of a cell in a thin wall.
-CellPull lawWallPull(CellMotion q, CellMoments moments, float rigidity, float bulk_j, float stiffening) {
+/// Returns lawPull() for a cell in a thin wall.
+CellForce lawWallPull(CellModes q, CellMoments moments, float rigidity, float bulk_j, float stiffening) {
   float ratio = bulk_j / rigidity;
   LawCell t = lawCell(moments, ratio);
   LawColumns d = lawColumns(q.da, q.db, q.dc), c = lawCofactors(d);
@@ -137,7 +140,7 @@ CellPull lawWallPull(CellMotion q, CellMoments moments, float rigidity, float bu
   LawColumns s = lawFrame(q, c, e), r;
   LawWall w = lawWall(q, moments, t, c, e, s);
   mat3 by_more;
-  CellPull pull;
+  CellForce pull;
   pull.energy = lawWallBends(t, s, moments.wall, ratio + 1.0f, w.more, r, by_more) + 0.5f * kLawAlternating * dot(q.hxyz, q.hxyz);
   LawColumns g = lawWallCentroid(t, s, w), star = lawWallStar(d, g, w), of_star = lawCofactors(star);
   float density;
@@ -146,7 +149,7 @@ CellPull lawWallPull(CellMotion q, CellMoments moments, float rigidity, float bu
   LawColumns by_g = lawColumns(lawTransposed(d, ps.a), lawTransposed(d, ps.b), lawTransposed(d, ps.c));
   lawAddCentroid(t, by_g, r);
   by_more = mat3(w.share.x * (by_more[0] + t.center.x * by_g.a), w.share.y * (by_more[1] + t.center.y * by_g.b),
-                 w.share.z * (by_more[2] + t.center.z * by_g.c));  // now by e_k
+                 w.share.z * (by_more[2] + t.center.z * by_g.c));  // from here on by e_k
   lawAddOwn(t, by_more, r);
   lawLeave(q, d, c, e, s, lawByEdges(ps, g), r, rigidity, pull);
   lawLeaveRows(q, d, c, e, w, ps, by_more, rigidity, pull);

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Explicit connections (VR05 2.5.1, GW 4): a node's links lie one behind the other. After lattice.glsl and spring.glsl.
+// Explicit connections (VR05 2.5.1, GW 4): a node's links are consecutive. After lattice.glsl and spring.glsl.
 #ifndef __cplusplus
 layout(binding = kUnitLinkStarts) uniform usamplerBuffer link_starts;  // [slots + 1]
 layout(binding = kUnitLinks) uniform usamplerBuffer link_words;        // two texels per Link
@@ -12,12 +12,12 @@ Link linkAt(uint link) {
 }
 #endif
 
-/// The links of a node.
+/// Loops over the links of a node.
 #define FOR_EACH_LINK_INDEX(link)                                                  \
     uint link_end = linkStart(slot + 1u);                                          \
     for (uint link = linkStart(slot); link < link_end; ++link)
 
-/// As FOR_EACH_LINK (elastic.glsl), of a node with explicit connections.
+/// As FOR_EACH_LINK (elastic.glsl), for a node with explicit connections.
 #define FOR_EACH_NETWORK_LINK                                                      \
   {                                                                                \
     FOR_EACH_LINK_INDEX(link) {                                                    \

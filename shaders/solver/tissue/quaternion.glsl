@@ -3,7 +3,7 @@
 #ifndef QUATERNION_GLSL
 #define QUATERNION_GLSL
 
-/// v turned by the unit quaternion q (xyzw).
+/// Returns v rotated by the unit quaternion q (xyzw).
 vec3 rotated(vec4 q, vec3 v) { return v + 2.0f * cross(xyz(q), cross(xyz(q), v) + q.w * v); }
 
 vec4 conjugate(vec4 q) { return vec4(-xyz(q), q.w); }

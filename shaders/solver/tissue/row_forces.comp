@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// row_forces.comp - what cells in thin walls do to rows of nodes, for their nodes to gather.   Owner: solver/gpu/forces/row_pass.h
+// row_forces.comp - forces of cells in thin walls on rows of nodes, for their nodes to gather.   Owner: solver/gpu/forces/row_pass.h
 // physics.md 1, Thin walls
-// in  wall pulls, nodes     out  cell forces from kCellVectors on: of the row through a node what acts on its second difference [N]
+// in  wall pulls, nodes     out  cell forces from kCellVectors on: the force on the second difference of the row through a node [N]
 // Features: WALLS, AWAKE (wall_nodes.glsl).
 #define MAKES_CELL_FORCES
 #include "layout.h"
@@ -20,7 +20,7 @@ layout(std430, binding = kBindCellForces) writeonly buffer CellForcesBuffer { ve
 
 vec3 wallPull(uint cell, uint vector) { return xyz(stateAt(wall_pulls, int(inPlanes(cell, vector, kWallVectors)))); }
 
-/// Of the cells around a node, by the difference that it has along an axis [J].
+/// Returns the derivative of the energy of the cells around a node by the node's difference along an axis [J].
 vec3 pullAt(uint slot, uint axis) {
   uint next = axis == 2u ? 0u : axis + 1u, last = axis == 0u ? 2u : axis - 1u;
   vec3 sum = vec3(0.0f);
@@ -38,7 +38,7 @@ vec3 pullAt(uint slot, uint axis) {
   return sum;
 }
 
-/// The same by its own second difference, which rows' ends next to it have too.
+/// Returns the same by the node's own second difference, which adjacent ends of the row use too.
 vec3 pullOfRow(uint slot, NodeBits bits, uint axis) {
   if (!isWithinRow(bits, axis)) return vec3(0.0f);
   vec3 sum = pullAt(slot, axis);

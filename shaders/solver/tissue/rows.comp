@@ -3,7 +3,7 @@
 //
 // rows.comp - second differences of rows of nodes in thin walls.   Owner: solver/gpu/forces/row_pass.h   physics.md 1, Thin walls
 // in  displacement, velocity, nodes     out  rows [kRowVectors * slots]
-// Features: WALLS, DASHPOT (of where nodes will be, as cell_forces.comp), AWAKE (wall_nodes.glsl).
+// Features: WALLS, DASHPOT (of predicted positions, as in cell_forces.comp), AWAKE (wall_nodes.glsl).
 #define MAKES_CELL_FORCES
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
@@ -12,7 +12,7 @@
 
 layout(std430, binding = kBindRows) writeonly buffer RowsOut { vec4 rows_out[]; };
 
-/// Where a node is, or will be; over h.
+/// Returns the displacement of a node over h, predicted with a dashpot.
 vec3 place(uint slot, BodyParams body) {
   vec3 u = xyz(stateAt(displacement, int(slot)));
 #ifdef DASHPOT
@@ -21,7 +21,7 @@ vec3 place(uint slot, BodyParams body) {
   return u / body.origin_spacing.w;
 }
 
-/// Of a node within a row; w 1. Elsewhere 0.
+/// Returns the second difference at a node within a row, with w = 1; elsewhere 0.
 vec4 differenceAt(uint slot, NodeBits bits, uint axis, BodyParams body) {
   if (!isWithinRow(bits, axis)) return vec4(0.0f);
   vec3 here = place(slot, body);
@@ -29,7 +29,7 @@ vec4 differenceAt(uint slot, NodeBits bits, uint axis, BodyParams body) {
   return vec4(below + above, 1.0f);
 }
 
-/// A row's end has that of the node next to it.
+/// Returns the second difference at a node; the end of a row uses that of the node next to it.
 vec4 rowAt(uint slot, NodeBits bits, uint axis, BodyParams body) {
   if (isWithinRow(bits, axis)) return differenceAt(slot, bits, axis, body);
   for (int side = -1; side < 2; side += 2) {

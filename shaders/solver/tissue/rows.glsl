@@ -1,14 +1,14 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What cells in thin walls see of rows of nodes (physics.md 1, Thin walls). After elastic.glsl and corners.glsl. Feature: WALLS
+// Input of cells in thin walls from rows of nodes (physics.md 1, Thin walls). After elastic.glsl and corners.glsl. Feature: WALLS
 #ifdef LOADS
 layout(std430, binding = kBindRows) restrict readonly buffer RowsIn { vec4 rows[]; };  // [kRowVectors * slots], of rows.comp
 #else
 layout(binding = kUnitRows) uniform samplerBuffer rows;  // the same
 #endif
 
-/// @param slot  lowest corner of the cell
+/// Returns the second derivatives of a cell and their variation.   @param slot  lowest corner of the cell
 CellRows cellRows(uint slot) {
   CellRows q;
   for (int i = 0; i < 3; ++i) q.second[i] = vec3(0.0f);

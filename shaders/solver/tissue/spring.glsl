@@ -4,20 +4,21 @@
 // The force of one spring on the node at its near end (physics.md 1, 2).
 
 const float kSqrt2 = 1.41421356237309505f;
-const float kShortest = 1e-6f;  // of the rest length: below it a spring has no direction of its own and keeps its rest one
+const float kShortest = 1e-6f;  // of the rest length: a shorter spring keeps its direction at rest
 
 struct Spring {
   vec3 direction;   // unit vector towards the far end
   float extension;  // L - l0 [m]
 };
 
-/// Dot product without freedom: `precise` keeps the compiler from factoring or fusing, fma() says what is fused.
+/// Returns the dot product in a fixed order: `precise` keeps the compiler from factoring or fusing, fma() specifies the fused
+/// operations.
 float fixedDot(vec3 a, vec3 b) {
   precise float sum = fma(a.x, b.x, fma(a.y, b.y, a.z * b.z));
   return sum;
 }
 
-/// Is a lattice's spring mild (kMildStretch)? @param d, l0, w  as of springBetween()
+/// Returns whether a lattice's spring is mild (kMildStretch). @param d, l0, w  as in springBetween()
 bool isMild(vec3 d, float l0, vec3 w) {
   precise float more = fma(2.0f, fixedDot(d, w), fixedDot(w, w));
   return abs(more) < kMildStretch * (l0 * l0);
@@ -28,9 +29,9 @@ bool isMild(vec3 d, float l0, vec3 w) {
 /// L - l0 = (2 d.w + w.w + prestrain) / (L + l0): no cancellation at small strain; antisymmetric to the bit under
 /// (d, w) -> (-d, -w).
 #if defined(NETWORK) || defined(PRESTRESS)
-/// A spring of no length at all has no direction and pulls nowhere.
+/// A spring of zero length has no direction and exerts no force.
 Spring springBetween(vec3 d, float l0, float prestrain, vec3 w) {
-  const float least = 1e-30f;  // [m, m2] far below any length, so that nothing is divided by 0
+  const float least = 1e-30f;  // [m, m2] far below any length: avoids a division by 0
   precise vec3 e = d + w;
   precise float l = sqrt(fixedDot(e, e));
   precise vec3 direction = l > max(kShortest * l0, least) ? e / l : d / sqrt(max(fixedDot(d, d), least));

@@ -1,23 +1,23 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What every integrator is told of a substep, and which nodes do not take part (physics.md 2, 5). After elastic.glsl.
+// Parameters of a substep for every integrator, and the nodes that do not take part (physics.md 2, 5). After elastic.glsl.
 #include "solver/tissue/sleep.glsl"
 #ifndef __cplusplus
 #ifndef AWAKE
 uniform uint active_count;
 #endif
-uniform float dt_s;              // drift: how long u moves on
-uniform float kick_s;            // leapfrog's kick: half the substep before, half this one; half in the first
+uniform float dt_s;              // drift: time step of u
+uniform float kick_s;            // leapfrog's kick: half the previous substep plus half of this one; half of dt_s in the first
 uniform vec3 gravity;            // m/s2
 
 #ifdef TOOLS
 uniform uint slot_count;
-uniform float push_speed;        // m/s: a probe pushes a node out no faster
+uniform float push_speed;        // m/s: largest speed at which a probe pushes a node out
 #endif
 #endif
 
-/// Fixed, or alone and not held: a lone node sleeps; it would fall for ever.
+/// Fixed, or isolated and not held: an isolated node sleeps, as it would fall endlessly.
 bool isAtRest(NodeBits bits) {
   return (bits.lo & kFixedBit) != 0u || (isIsolated(bits) && (bits.lo & kGrabMask) == 0u);
 }

@@ -1,25 +1,25 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Where blades and grips look for a node's tissue. After lattice.glsl; reads displacement[].
-#include "solver/tissue/surface_way.glsl"
+// Position of a node's tissue, for blades and grips. After lattice.glsl; reads displacement[].
+#include "solver/tissue/surface_offset.glsl"
 
-/// From a node to its tissue in the state at hand [m].
+/// Returns the displacement from a node to its tissue in the current state [m].
 vec3 toTissue(uint slot, float h) {
-  uint way = surfaceWay(slot);
+  uint way = surfaceOffset(slot);
   if (way == 0u) return vec3(0.0f);
   return toTissueIn(way, h, xyz(displacement[slot]), xyz(displacement[wayEnd(slot, way, 0u)]),
                     xyz(displacement[wayEnd(slot, way, 1u)]), xyz(displacement[wayEnd(slot, way, 2u)]));
 }
 
-/// Position of a node relative to the blade's first tip [m].
+/// Returns the position of a node relative to the blade's first tip [m].
 vec3 nodeFromBlade(uint slot, ToolMotion m) {
   precise vec3 x = (restPosition(slot) - xyz(m.from)) + xyz(displacement[slot]);
   return x;
 }
 
-/// Position of a node's tissue relative to the blade's first tip [m]: a blade in the air cuts nothing, one that ends there
-/// spares nothing.
+/// Returns the position of a node's tissue relative to the blade's first tip [m]: a blade in the air cuts nothing, and one that
+/// ends in the air spares no tissue.
 vec3 seenFromBlade(uint slot, ToolMotion m, float h) {
   precise vec3 tissue = nodeFromBlade(slot, m) + toTissue(slot, h);
   return tissue;

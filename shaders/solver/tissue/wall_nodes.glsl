@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The nodes that kernels of thin walls visit: corners of cells in them. After elastic.glsl. Features: AWAKE (only where cells are listed,
-// as awake_bricks.comp has it).
+// The nodes that kernels of thin walls visit: corners of cells in these walls. After elastic.glsl. Features: AWAKE (only in bricks with
+// listed cells, see awake_bricks.comp).
 layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits nodes[]; };
 layout(std430, binding = kBindWallNodes) readonly buffer WallNodesBuffer { uint wall_nodes[]; };
 uniform uint wall_node_count;

@@ -1,18 +1,19 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a swept blade crosses and what an eraser reaches (VR05 2.7.3). All vectors are from the blade's first tip.
-// Who asks from either end of a spring asks in the same order of ends, at one place in its text (cut.comp): a compiler that makes
-// another sum of a test where it is written down again would cut a spring on one side only. All verdicts rest on `precise`.
+// Geometry of a swept blade and of an eraser (VR05 2.7.3). All vectors are relative to the blade's first tip.
+// From either end of a spring the test is called with the ends in the same order, at one place in the text (cut.comp). A compiler
+// that evaluates a second copy of the test in another order would cut a spring on one side only. All decisions use `precise`.
 #include "layout/blade.h"
 
-/// Six times the signed volume of the tetrahedron (o, a, b, c) with o at the origin of the vectors.
+/// Returns six times the signed volume of the tetrahedron (o, a, b, c) with o at the origin of the vectors.
 float triple(vec3 a, vec3 b, vec3 c) {
   precise float v = dot(cross(a, b), c);
   return v;
 }
 
-/// Does the segment a..b cross the triangle p q r? One end belongs to a side, so no end lies between; edges belong to it.
+/// Returns whether the segment a..b crosses the triangle p q r, including its edges. A point on the plane counts as on one side,
+/// so no end is between.
 bool crossesTriangle(vec3 a, vec3 b, vec3 p, vec3 q, vec3 r) {
   precise vec3 normal = cross(q - p, r - p);
   precise float area2 = dot(normal, normal), side_a = dot(a - p, normal), side_b = dot(b - p, normal);
@@ -24,24 +25,25 @@ bool crossesTriangle(vec3 a, vec3 b, vec3 p, vec3 q, vec3 r) {
 }
 
 /// The blade sweeps a quadrilateral: tip and far end at the start, far end and tip at the end.
-/// Which of its two triangles the segment a..b crosses, 1 or 2; 0 where it crosses none.
+/// Returns which of its two triangles the segment a..b crosses, 1 or 2; 0 if none.
 uint crossedPart(vec3 a, vec3 b, ToolMotion m) {
   precise vec3 tip = xyz(m.to) - xyz(m.from), far_from = xyz(m.blade_from) - xyz(m.from), far_to = xyz(m.blade_to) - xyz(m.from);
   if (crossesTriangle(a, b, vec3(0.0f), far_from, far_to)) return 1u;
   return crossesTriangle(a, b, vec3(0.0f), far_to, tip) ? 2u : 0u;
 }
 
-// kOverlap (layout/blade.h) of a sweep: it begins that much before the end of the last one, whatever is rounded.
+// kOverlap (layout/blade.h) of a sweep: it begins this far before the end of the last one, against rounding.
 
-/// What the start of the sweep is moved by for a spring that has come `way` since the last one: there the last sweep ended, as the
-/// spring saw it. Without this, one that slips past the blade's edge between two substeps would be in neither sweep.
+/// Returns the offset of the start of the sweep for a spring that has moved by `way` since the last one: there the last sweep
+/// ended, as seen by the spring. Without it, a spring that slips past the blade's edge between two substeps would be in neither
+/// sweep.
 vec3 startOffset(ToolMotion m, vec3 way) {
   precise vec3 offset = way - kOverlap * (xyz(m.to) - xyz(m.from));
   return offset;
 }
 
-/// The same of a blade that cuts along its edge only: what sways sideways against its flats stays whole, and what comes along its way
-/// does not; one at rest cuts nothing.
+/// Returns the same for a blade that cuts along its edge only. Tissue that moves sideways against its flats is not cut; tissue
+/// that moves along the blade's path is. A blade at rest cuts nothing.
 vec3 startOffsetAlong(ToolMotion m, vec3 way) {
   precise vec3 move = (xyz(m.to) - xyz(m.from)) + (xyz(m.blade_to) - xyz(m.blade_from));
   precise float move2 = dot(move, move);
@@ -59,14 +61,14 @@ ToolMotion startingAt(ToolMotion m, vec3 offset) {
   return m;
 }
 
-const float kLeastShare = 0.02f;  // a spring is not shown cut nearer to one of its ends than this share of it
+const float kLeastShare = 0.02f;  // a cut is not recorded nearer to an end of the spring than this share of its length
 
-/// Where the line a..b passes the plane of a part of the sweep: the share of a..b on a's side. Where a and b lie on the same
-/// side of it, at the nearer end.
-/// @param part  1 or 2, as crossedPart() says
+/// Returns where the line a..b crosses the plane of a triangle of the sweep, as the share of a..b on a's side. If a and b are on
+/// the same side of it, returns the nearer end.
+/// @param part  1 or 2, from crossedPart()
 float shareBefore(vec3 a, vec3 b, uint part, ToolMotion m) {
   vec3 tip = xyz(m.to) - xyz(m.from), far_from = xyz(m.blade_from) - xyz(m.from), far_to = xyz(m.blade_to) - xyz(m.from);
-  // Of two vectors of which one is the blade and the other a way: of two blades that are almost one another little is left.
+  // The cross product of the blade and a displacement: that of two almost equal blades would lose its digits.
   vec3 normal = part == 1u ? cross(far_from, xyz(m.blade_to) - xyz(m.blade_from)) : cross(far_to, tip);
   float da = dot(a, normal), db = dot(b, normal);
   return da == db ? 0.5f : clamp(da / (da - db), kLeastShare, 1.0f - kLeastShare);
@@ -89,7 +91,7 @@ float planeDistanceInside(vec3 p, vec3 q, vec3 r, vec3 x, float otherwise) {
   return pq >= 0.0f && qr >= 0.0f && rp >= 0.0f ? min(otherwise, away) : otherwise;
 }
 
-/// Is a node within the eraser's radius of the swept blade?
+/// Returns whether a node is within the eraser's radius of the swept blade.
 bool erased(vec3 x, ToolMotion m) {
   vec3 tip = xyz(m.to) - xyz(m.from), far_from = xyz(m.blade_from) - xyz(m.from), far_to = xyz(m.blade_to) - xyz(m.from);
   precise float d = min(min(segmentDistance(vec3(0.0f), far_from, x), segmentDistance(tip, far_to, x)),
@@ -99,8 +101,8 @@ bool erased(vec3 x, ToolMotion m) {
   return d <= m.blade_from.w;
 }
 
-/// Sphere around all that the sweep may cut: around the sweep itself, grown by the longest spring there may be. xyz centre,
-/// from the blade's first tip [m], w radius [m].
+/// Returns a sphere around everything that the sweep may cut: around the sweep itself, enlarged by the longest possible spring.
+/// xyz centre relative to the blade's first tip [m], w radius [m].
 vec4 bladeSphere(ToolMotion m, float h) {
   vec3 tip = xyz(m.to) - xyz(m.from), far_from = xyz(m.blade_from) - xyz(m.from), far_to = xyz(m.blade_to) - xyz(m.from);
   vec3 centre = 0.25f * (tip + far_from + far_to);
@@ -108,7 +110,7 @@ vec4 bladeSphere(ToolMotion m, float h) {
   return vec4(centre, radius + kLongest * 1.41421356f * h + m.blade_from.w);
 }
 
-/// @param sphere  bladeSphere()
+/// Returns whether a point is outside the sphere. @param sphere  bladeSphere()
 bool farFromBlade(vec3 x, vec4 sphere) {
   precise float away = distance(x, xyz(sphere));
   return away > sphere.w;

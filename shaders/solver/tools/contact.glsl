@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a probe does to a node, and where a held node goes (VR05 2.7.1, 2.7.2; physics.md 5). Included by the integrators.
-#include "solver/tissue/surface_way.glsl"
+// Effect of a probe on a node, and the position of a held node (VR05 2.7.1, 2.7.2; physics.md 5). Included by the integrators.
+#include "solver/tissue/surface_offset.glsl"
 #include "solver/tools/touch.glsl"
 
 #ifndef __cplusplus
@@ -10,40 +10,42 @@ layout(std140, binding = kBindToolMotions) uniform ToolMotionsBlock { ToolMotion
 layout(std430, binding = kBindGrabOffsets) readonly buffer GrabOffsetsBuffer { vec4 grab_offsets[]; };
 layout(std430, binding = kBindImpulses) buffer ImpulsesBuffer { vec4 impulses[]; };
 
-/// Adds a change of momentum to what a stylus gave this node in this tick; w counts substeps of contact.
+/// Adds an impulse to the sum of a stylus on this node in this tick; w counts substeps of contact.
 void giveMomentum(uint stylus, uint slot, vec3 impulse) { impulses[stylus * slot_count + slot] += vec4(impulse, 1.0f); }
 #endif
 
-/// Swept sphere: a node inside the final sphere goes to its surface along the radius; one that the sphere has passed over
-/// goes out of the swept capsule sideways, so no sweep is too fast. Its normal velocity becomes the tool's.
+/// Applies a swept sphere. A node inside the final sphere moves to its surface along the radius. One that the sphere has passed
+/// over moves out of the swept capsule sideways, so no sweep is too fast. Its normal velocity becomes the tool's.
 /// @param below  surfaceDepth() of the node
 void probe(ToolMotion motion, float below, vec3 x, INOUT(vec3) x_next, INOUT(vec3) v_next) {
   ProbeSide side = sideOfProbe(motion, x, x_next, below);
   if (!side.inside) return;
   vec3 travel = xyz(motion.to) - xyz(motion.from);
-  // Out of the tool, but no faster than waves travel: a tool that appears inside the tissue must not shoot it away.
+  // Out of the tool, but no faster than waves travel: a tool that appears inside the tissue must not eject it.
   x_next += min(side.depth, push_speed * dt_s) * side.normal;
   float approach = dot(v_next - travel / dt_s, side.normal);
   if (approach < 0.0f) v_next -= approach * side.normal;
 }
 
-/// From a node to its tissue at the beginning of the substep [m].
+/// Returns the displacement from a node to its tissue at the beginning of the substep [m].
 vec3 toTissueBefore(uint slot) {
-  uint way = surfaceWay(slot);
+  uint way = surfaceOffset(slot);
   if (way == 0u) return vec3(0.0f);
   return toTissueIn(way, bodies[bodyAt(slot)].origin_spacing.w, xyz(stateAt(displacement, int(slot))),
                     xyz(stateAt(displacement, int(wayEnd(slot, way, 0u)))), xyz(stateAt(displacement, int(wayEnd(slot, way, 1u)))),
                     xyz(stateAt(displacement, int(wayEnd(slot, way, 2u)))));
 }
 
-/// Is the tissue of a node within reach of a probe that only feels? A node in the air beside it is not: from there a tip may push.
-/// @param below  surfaceDepth(): of tissue that lies less deep more is within reach   @param x  of the node at the end of the substep [m]
+/// Returns whether the tissue of a node is within reach of a probe that only feels. A node in the air next to the tip does not
+/// count: from there a tip may push.
+/// @param below  surfaceDepth(): a positive depth adds to the reach   @param x  position of the node at the end of the substep
+/// [m]
 bool isFelt(ToolMotion motion, uint slot, float below, vec3 x) {
   float reach = motion.from.w + max(below, 0.0f) + distance(xyz(motion.from), xyz(motion.to));
   return distance(x + toTissueBefore(slot), xyz(motion.to)) < reach;
 }
 
-/// Where a stylus has a node that it holds at the end of the substep: displacement [m].
+/// Returns the displacement at which a stylus holds a node at the end of the substep [m].
 vec3 heldDisplacement(uint stylus, uint slot) {
   return xyz(tool_motions[stylus].to) + rotated(xyzw(tool_motions[stylus].orientation), xyz(grab_offsets[slot])) - restPosition(slot);
 }

@@ -3,11 +3,12 @@
 //
 // cut.comp - erase the springs that the swept blade crosses, from both ends.   Owner: solver/gpu/contact/cut_pass.h   VR05 2.7.3
 // in  displacement, velocity, tool motions     in/out  nodes (spring counts), stats.springs_cut; RECORD: axial_cut[3 * slots], cut_sides[slots]
-// Features: PARTICLES erases every spring of the nodes near the blade instead (VR05's simple scheme). RECORD: axial springs
-// remember where they were cut, and nodes on which side of it. Whether a spring is, its ends' tissue decides; where, the line between its nodes says.
+// Features: PARTICLES erases every spring of the nodes near the blade instead (VR05's simple scheme). RECORD: records where axial
+// springs were cut, and on which side of the cut nodes are. The tissue points of a spring's ends decide whether it is cut, the
+// line between its nodes where.
 //
-// Each end decides for itself. That both come to the same verdict rests on this: the test is called at one place, with the two ends
-// in the order of their slots, and every position and every way comes from the same `precise` expression.
+// Each end decides for itself. Both reach the same decision because the test is called at one place, with the two ends in the
+// order of their slots, and every position and displacement comes from the same `precise` expression.
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
 #include "solver/tools/blade.glsl"
@@ -27,8 +28,8 @@ layout(std430, binding = kBindAxialCut) writeonly buffer AxialCutBuffer { float 
 
 uniform uint active_count;
 uniform uint stylus;
-uniform uint spared;  // bodies that are not cut, a bit each
-bool mayCross(uint slot, uint other) { return true; }  // C++ has looked at the box around the sweep
+uniform uint spared;  // bodies that are not cut, one bit each
+bool mayCross(uint slot, uint other) { return true; }  // in C++ it tests the box around the sweep
 #endif
 #include "solver/tissue/surface_point.glsl"
 #if defined(RECORD) && !defined(PARTICLES)
@@ -44,7 +45,7 @@ vec3 wayOf(uint first, uint second, ToolMotion m) {
   return startOffsetAlong(m, way);
 }
 
-/// The part of the sweep that a segment between two nodes crosses, which came to where it is in the last substep; 0 none.
+/// Returns the triangle of the sweep that a segment between two nodes crosses, given its motion in the last substep; 0: none.
 /// @param first, second  the nodes, in the order of their slots   @param a, b  the ends
 uint crossedOnTheWay(uint first, uint second, vec3 a, vec3 b, ToolMotion m) {
   vec3 offset = wayOf(first, second, m);
@@ -54,9 +55,9 @@ uint crossedOnTheWay(uint first, uint second, vec3 a, vec3 b, ToolMotion m) {
 }
 #endif
 
-/// Which part of the sweep severs a spring; 0 where none does. The near end has been found not to be far; the far end must not
-/// be either, or the two ends would disagree.
-/// @param x  of `slot`, on its side
+/// Returns the triangle of the sweep that severs a spring; 0: none. The near end was found not to be far; the far end must not be
+/// either, or the two ends would disagree.
+/// @param x  position of `slot`, on its side
 uint severingPart(uint slot, vec3 x, uint other, ToolMotion m, vec4 sphere, float h) {
   vec3 y = seenFromBlade(other, m, h);
   if (farFromBlade(y, sphere)) return 0u;
@@ -64,13 +65,14 @@ uint severingPart(uint slot, vec3 x, uint other, ToolMotion m, vec4 sphere, floa
 #ifdef PARTICLES
   return erased(x, m) || erased(y, m) ? 1u : 0u;
 #else
-  bool first = slot < other;  // chosen before the one call: compiled twice, the test might round in two ways
+  bool first = slot < other;  // chosen before the single call: if compiled twice, the test might be rounded in two ways
   return crossedOnTheWay(first ? slot : other, first ? other : slot, first ? x : y, first ? y : x, m);
 #endif
 }
 
 #ifdef RECORD
-/// Notes where a spring was cut, at the node from which it leads along +x, +y or +z. A spring is cut once, so the first cut stays.
+/// Records where a spring was cut, at the node from which it points along +x, +y or +z. A spring is cut once, so the first cut
+/// stays.
 void record(uint slot, uint spring, uint other, uint part, ToolMotion m) {
   if (spring >= kAxialSprings || (spring & 1u) != 0u) return;
 #ifdef PARTICLES
@@ -92,14 +94,14 @@ void main() {
   NodeBits bits = nodes[slot];
   ToolMotion m = tool_motions[stylus];
 #ifdef NETWORK
-  if (bodies[bodyOf(bits)].connections != kImplicit) return;  // cut_links.comp has them
+  if (bodies[bodyOf(bits)].connections != kImplicit) return;  // handled by cut_links.comp
 #endif
-#ifndef __cplusplus  // which knows its bodies
+#ifndef __cplusplus  // in C++ the caller selects bodies
   if (((spared >> bodyOf(bits)) & 1u) != 0u) return;
 #endif
   float h = bodies[bodyOf(bits)].origin_spacing.w;
   vec4 sphere = bladeSphere(m, h);
-#ifndef __cplusplus  // which asks near nodes alone; where its tissue is need not be known of one that is far
+#ifndef __cplusplus  // in C++ the caller passes near nodes only; the tissue point of a far node is not needed
   if (farFromBlade(nodeFromBlade(slot, m), vec4(xyz(sphere), sphere.w + kFarthestTissue * h))) return;
 #endif
   vec3 x = seenFromBlade(slot, m, h);

@@ -3,8 +3,8 @@
 //
 // cut_links.comp - erase the explicit connections that the swept blade crosses, from both ends.   Owner: solver/gpu/contact/cut_pass.h
 // in  displacement, tool motions     in/out  links (stiffness), spring_cut, nodes (valence or counts), stats.springs_cut
-// One invocation per spring, so the two ends cannot disagree. No node is lost, and no mass. Whether a spring is cut, its ends'
-// tissue decides; where, the line between its nodes says, on which skins and walls are.
+// One invocation per spring, so the two ends cannot disagree. No node is lost, and no mass. The tissue points of a spring's ends
+// decide whether it is cut; the line between its nodes, which surface meshes and walls follow, decides where.
 // Feature: PARTICLES erases the springs of the nodes near the blade instead.
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
@@ -22,11 +22,11 @@ layout(std430, binding = kBindStats) buffer StatsBuffer { TickStats stats; };
 
 uniform uint spring_count;
 uniform uint stylus;
-uniform uint spared;  // bodies that are not cut, a bit each
+uniform uint spared;  // bodies that are not cut, one bit each
 #endif
 #include "solver/tissue/surface_point.glsl"
 
-/// One link less at a node: of its valence, or of a lattice's counts.
+/// Removes one link from a node: from its valence, or from a lattice's counts.
 void loseLink(uint slot, uint lattice_spring) {
   if (bodies[bodyOf(nodes[slot])].connections == kNetwork) {
     atomicAdd(nodes[slot].lo, 0xffffffffu);

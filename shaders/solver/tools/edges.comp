@@ -1,9 +1,10 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// edges.comp - probes meet the skin between nodes, after leapfrog.comp.   Owner: solver/gpu/contact/edges_pass.h   physics.md 5
+// edges.comp - contact of probes with the surface between nodes, after leapfrog.comp.   Owner: solver/gpu/contact/edges_pass.h
+// physics.md 5
 // in  nodes that leapfrog.comp listed; tool motions     in/out  state at the end of the substep; impulses
-// One group does all, as each round waits for the one before. Features: LATTICE, NETWORK, PARTS (elastic.glsl).
+// One group does all the work, as each round depends on the previous one. Features: LATTICE, NETWORK, PARTS (elastic.glsl).
 #define TOOLS
 #define MAKES_CELL_FORCES  // none are read
 #include "layout.h"
@@ -29,7 +30,8 @@ layout(std430, binding = kBindEdgeNodes) buffer EdgeNodesBuffer {
 shared uint pushed;
 uint lane() { return gl_LocalInvocationID.x; }
 
-/// A node's sum of its parts of points times their ways; it is kept in the state's fourth numbers, which are 0 otherwise.
+/// Returns a node's sums of weights times displacements of points, stored in the fourth components of the state, which are
+/// otherwise 0.
 vec2 edgeSums(uint slot) { return vec2(next_displacement[slot].w, next_velocity[slot].w); }
 
 void sumEdges(EdgeTip tip, uint slot) {
@@ -65,7 +67,7 @@ EdgePush pushOfEdges(EdgeTip tip, uint slot) {
   return push;
 }
 
-/// @return whether any node was pushed; all invocations get the same
+/// Pushes all nodes once. @return whether any node was pushed; the same for all invocations
 bool pushAll(uint stylus, EdgeTip tip, uint count) {
   if (lane() == 0u) pushed = 0u;
   barrier();

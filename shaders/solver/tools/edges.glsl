@@ -1,13 +1,13 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a probe does to springs on the skin that it touches between their ends (physics.md 5). After skin.glsl; reads and
-// changes the state at the end of a substep, next_displacement and next_velocity.
+// Contact of a probe with springs on the surface between their ends (physics.md 5). After skin.glsl; reads and changes the state
+// at the end of a substep, next_displacement and next_velocity.
 
 /// A probe at the end of a substep.
 struct EdgeTip {
   vec3 at;            // its centre [m]
-  ToolMotion motion;  // as seen from there, so that tissue far from the origin is not seen rounded to what positions there are
+  ToolMotion motion;  // relative to the centre, so positions far from the origin do not lose digits
 };
 
 EdgeTip tipOf(ToolMotion motion) {
@@ -19,27 +19,27 @@ EdgeTip tipOf(ToolMotion motion) {
   return tip;
 }
 
-/// A node at the end of the substep, as seen from the tip's centre [m].
+/// Returns the position of a node at the end of the substep, relative to the tip's centre [m].
 vec3 seenFromTip(EdgeTip tip, uint slot) {
   precise vec3 rest = restPosition(slot) - tip.at;
   return rest + xyz(next_displacement[slot]);
 }
 
-/// How far the chord of a skin that follows a wide sphere lies within it [m], at a place on it; of none that is not wider than the
-/// chord is long, which a lattice's skin cannot follow.
+/// Returns the sagitta at a point of a chord of a surface that follows a wide sphere [m]; 0 for a sphere not wider than the chord
+/// is long, which a lattice's surface cannot follow.
 float chordWithin(float radius, float length2, float share) {
   float wider = 1.0f - sqrt(length2) / max(radius, 1e-9f);
   return wider > 0.0f ? wider * share * (1.0f - share) * length2 / (2.0f * radius) : 0.0f;
 }
 
-/// What a probe asks of a spring's point that is nearest to its centre.
+/// Correction that a probe demands of the point of a spring nearest to its centre.
 struct EdgeWay {
-  vec2 way;           // out of the probe, of its position [m] and its velocity [m/s]; 0 where it is left alone
+  vec2 way;           // out of the probe: of its position [m] and its velocity [m/s]; 0: none
   vec3 normal;
-  float near, share;  // of the point the part of the node, and the other end's
+  float near, share;  // weights of the node and of the other end in the point
 };
 
-/// @param n  at the other end of the spring
+/// Returns the correction of a spring. @param n  node at the other end of the spring
 EdgeWay wayOfEdge(EdgeTip tip, uint slot, uint n) {
   vec3 x = seenFromTip(tip, slot), along = seenFromTip(tip, n) - x;
   float length2 = dot(along, along), on_way = -dot(x, along);
@@ -53,22 +53,22 @@ EdgeWay wayOfEdge(EdgeTip tip, uint slot, uint n) {
   vec3 v = xyz(next_velocity[slot]);
   v += share * (xyz(next_velocity[n]) - v);
   float approach = dot(v + xyz(tip.motion.from) / dt_s, side.normal);
-  float slowest = min(side.depth, 0.0f) / dt_s;  // what is not inside may come as far as the surface
+  float slowest = min(side.depth, 0.0f) / dt_s;  // a point outside may come as far as the surface
   EdgeWay it = {vec2(clamp(side.depth, 0.0f, push_speed * dt_s), max(slowest - approach, 0.0f)), side.normal, 1.0f - share, share};
   return it;
 }
 
-/// A node's mass is divided among the points that ask something of it, by its part of each times its way: so one that is only just
-/// touched changes nothing. The point of a spring goes as it is asked by an impulse along the normal, which moves both ends by their parts
-/// of it over the masses that they have for it: m_i w_i d / s_i, with the sum s_i of w d over all at that end. So forces on the ends are in
-/// the ratio of their parts, and no impulse has a part along the probe's surface.
+/// A node's mass is divided among the points that need a correction, by its weight in each times their displacement: a point that
+/// is barely touched changes nothing. A point is moved by an impulse along the normal, which moves both ends by their weights
+/// over the masses available for it: m_i w_i d / s_i, with s_i the sum of w d over all points at that end. So the forces on the
+/// ends are in the ratio of their weights, and no impulse is tangential to the probe's surface.
 struct EdgePush {
-  vec3 x, v;  // of a node's position [m] and velocity [m/s]
+  vec3 x, v;  // change of a node's position [m] and velocity [m/s]
 };
 
 /// @param give  1/mass of the node and of the other end [1/kg]
 void addEdge(EdgeWay it, vec2 give, vec2 sums, vec2 far_sums, INOUT(EdgePush) push) {
-  const float least = 1e-30f;  // far below any way, so that nothing is divided by 0
+  const float least = 1e-30f;  // far below any displacement: avoids a division by 0
   vec2 part = it.near * give.x * it.way * it.way / max(it.near * give.x * sums + it.share * give.y * far_sums, vec2(least));
   push.x += part.x * it.normal;
   push.v += part.y * it.normal;
@@ -79,7 +79,7 @@ float massAt(uint slot) {
   return nodeMass(slot, bits, bodies[bodyOf(bits)]);
 }
 
-// FOR_EACH_EDGE does VISIT_EDGE(n) for the other ends n of all springs on the skin at the node `slot` with `bits` and `body`.
+// FOR_EACH_EDGE executes VISIT_EDGE(n) for the other ends n of all surface springs of the node `slot` with `bits` and `body`.
 #define SPRING_EDGE(spring, offset)                  \
   if (springCount(bits, spring) != 0u) {             \
     uint n = neighborSlot(slot, offset);             \
@@ -104,7 +104,7 @@ float massAt(uint slot) {
 #define FOR_EACH_EDGE FOR_EACH_SPRING(SPRING_EDGE)
 #endif
 
-/// Moves a node that points ask something of.
+/// Moves a node by the corrections of its points.
 void giveEdges(uint stylus, uint slot, EdgePush push) {
   if (push.x == vec3(0.0f) && push.v == vec3(0.0f)) return;
   next_displacement[slot] = vec4(xyz(next_displacement[slot]) + push.x, 0.0f);

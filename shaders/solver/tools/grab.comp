@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// grab.comp - take hold of the nodes around a stylus tip, or let them go.   Owner: solver/gpu/contact/grab_pass.h   VR05 2.7.2
+// grab.comp - grips the nodes around a stylus tip, or releases them.   Owner: solver/gpu/contact/grab_pass.h   VR05 2.7.2
 // in  displacement, stats     in/out  nodes (grab bits), velocity     out  grab offsets
-// Feature: RELEASE lets go; without it the pass takes hold.
+// Feature: RELEASE releases; without it the pass grips.
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
 #include "solver/tissue/quaternion.glsl"
@@ -21,7 +21,7 @@ uniform vec4 tip;          // xyz tip [m], w grab radius [m]
 uniform vec4 orientation;  // of the stylus, quaternion xyzw
 uniform float release_speed;  // largest |v| after release [m/s]
 #ifdef RELEASE
-uniform float above;  // let go only if the stylus gave more than this in the tick [N s]; below 0: in any case
+uniform float above;  // release only if the stylus gave more than this in the tick [N s]; below 0: in any case
 layout(std430, binding = kBindStats) readonly buffer StatsBuffer { TickStats stats; };
 #endif
 #endif
@@ -29,7 +29,7 @@ layout(std430, binding = kBindStats) readonly buffer StatsBuffer { TickStats sta
 #ifndef RELEASE
 #include "solver/tissue/surface_point.glsl"
 
-/// A node is held where its tissue is within reach.
+/// Grips a node if its tissue is within reach.
 void takeHold(uint slot, NodeBits bits) {
   if ((bits.lo & (kFixedBit | kGrabMask)) != 0u || isIsolated(bits)) return;
   vec3 offset = restPosition(slot) + xyz(displacement[slot]) - xyz(tip);

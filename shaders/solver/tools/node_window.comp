@@ -1,11 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// node_window.comp - what the host sees of a few nodes, and changes of them.   Owner: solver/gpu/contact/node_window.h
+// node_window.comp - transfers the state of a few nodes to the host, and changes to them back.
+// Owner: solver/gpu/contact/node_window.h
 // in  slots of the nodes     GATHER: out  window: displacements, then velocities     else: in  window: changes of velocity
 // in/out  displacement, velocity, impulses. Feature ASLEEP: bricks may sleep; a change wakes them.
-// An invocation per node; no node is there twice.
-#undef LOADS  // what it writes must not be read by another name
+// One invocation per node; no node is listed twice.
+#undef LOADS  // the buffer that it writes must not be read through another binding
 #include "layout.h"
 #include "solver/tissue/lattice.glsl"
 #include "solver/tissue/elastic.glsl"
@@ -19,7 +20,7 @@ layout(std430, binding = kBindSleepingBricks) buffer SleepingBuffer { SleepingBr
 uniform uint node_count;
 
 #ifdef GATHER
-/// 1 where what the window does must wake it first.
+/// Returns 1 if a change of the node must wake its brick first.
 float asleep(uint slot) {
 #ifdef ASLEEP
   SleepingBrick brick = sleeping[slot >> 6];
@@ -39,7 +40,7 @@ layout(std430, binding = kBindDisplacementIn) buffer DisplacementIn { vec4 own_d
 layout(std430, binding = kBindVelocityIn) buffer VelocityIn { vec4 own_velocity[]; };
 layout(std430, binding = kBindImpulses) buffer ImpulsesBuffer { vec4 impulses[]; };
 uniform uint slot_count;
-uniform uint giver;  // stylus that gives the momentum; kMaxStyluses: none does
+uniform uint giver;  // stylus that gives the momentum; kMaxStyluses: none
 
 void wake(uint slot) {
 #ifdef ASLEEP

@@ -1,12 +1,13 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Which nodes have springs that a probe may touch between their ends (physics.md 5). After contact.glsl.
+// Nodes with springs that a probe may touch between their ends (physics.md 5). After contact.glsl.
 #ifndef __cplusplus
-uniform float edge_reach;  // [m] beyond a probe: where nodes of springs that it touches may be, see edgeReach()
+uniform float edge_reach;  // [m] distance from a probe at which nodes of springs that it touches may be, see edgeReach()
 #endif
 
-/// A node of a lattice that has all its springs, and no surface near it, lies inside. In networks all are on the skin.
+/// Returns whether a node is on the surface. A node of a lattice with all its springs, and no surface near it, is inside. In
+/// networks all are on it.
 bool onSkin(uint slot, NodeBits bits) {
   const uint axial_units = 0x9249u, diagonal_units = 0x555555u;
   uint axial = (bits.lo | bits.lo >> 1 | bits.lo >> 2) & axial_units, diagonal = (bits.hi | bits.hi >> 1) & diagonal_units;
@@ -15,7 +16,7 @@ bool onSkin(uint slot, NodeBits bits) {
 
 bool pushesEdges(ToolMotion motion) { return (motion.info.y & (kToolPushes | kToolFeels)) == kToolPushes; }
 
-/// May a probe touch springs of a node that ends the substep at x, and move it by them?
+/// Returns whether a probe may touch springs of a node that ends the substep at x, and move it through them.
 bool mayFeelEdges(uint slot, NodeBits bits, vec3 x) {
   if ((bits.lo & (kGrabMask | kFixedBit)) != 0u || !onSkin(slot, bits)) return false;
   bool near = false;

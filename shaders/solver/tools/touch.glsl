@@ -1,49 +1,51 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// How far a node is from probes and obstacles: every test of a node's distance to either is here (physics.md 5, 8).
+// Distances of a node from probes and obstacles: every such test is in this file (physics.md 5, 8).
 #ifndef TOUCH_GLSL
 #define TOUCH_GLSL
 #include "solver/tissue/quaternion.glsl"
 
-/// Point of the segment a..b that is nearest to x.
+/// Returns the point of the segment a..b nearest to x.
 vec3 nearestOnSegment(vec3 a, vec3 b, vec3 x) {
   vec3 ab = b - a;
   float length2 = dot(ab, ab);
   return length2 > 0.0f ? a + clamp(dot(x - a, ab) / length2, 0.0f, 1.0f) * ab : a;
 }
 
-/// A swept sphere at the end of a substep, as a node at x sees it.
+/// A swept sphere at the end of a substep, relative to a node at x.
 struct ProbeSide {
   bool inside;
   vec3 normal;  // out of the probe
-  float depth;  // to its surface along the normal [m]; below 0 outside
+  float depth;  // depth below its surface along the normal [m]; negative outside
 };
 
-// Of the radius: so near to the final sphere nothing is seen as swept over. What was put on its surface stays there, however it is rounded.
+// Factor on the radius: nodes nearer than that to the final sphere are not treated as swept over. A node placed on its surface
+// stays there despite rounding.
 const float kOnSphere = 1.001f;
 
-/// A node inside the final sphere sees its surface along the radius; one that the sphere has passed over, that of the swept capsule.
-/// @param came_from  where the node was before the substep, for one at the centre, which has no direction
-/// @param below      surfaceDepth() of the node: for it the probe is as much larger
+/// Returns the side of a probe. A node inside the final sphere sees its surface along the radius; one that the sphere has passed
+/// over, that of the swept capsule.
+/// @param came_from  position before the substep, for a node at the centre, where there is no direction
+/// @param below      surfaceDepth() of the node: the probe is enlarged by it
 ProbeSide sideOfProbe(ToolMotion motion, vec3 came_from, vec3 x, float below) {
   float radius = max(motion.from.w + below, 0.0f);
   vec3 travel = xyz(motion.to) - xyz(motion.from);
   vec3 centre = distance(x, xyz(motion.to)) < kOnSphere * radius ? xyz(motion.to) : nearestOnSegment(xyz(motion.from), xyz(motion.to), x);
   vec3 out_of = x - centre;
   float depth2 = dot(out_of, out_of);
-  // It leaves where it came from, or against the travel, or upwards.
+  // A node leaves towards where it came from, or against the travel, or upwards.
   vec3 fallback = distance(came_from, centre) > 0.0f ? came_from - centre : dot(travel, travel) > 0.0f ? -travel : vec3(0.0f, 0.0f, 1.0f);
   vec3 normal = normalize(depth2 > 1e-12f * radius * radius ? out_of : fallback);
   ProbeSide side = {depth2 < radius * radius, normal, radius - dot(out_of, normal)};
   return side;
 }
 
-/// Where a node touches an obstacle, in the obstacle's frame.
+/// Contact of a node with an obstacle, in the obstacle's frame.
 struct Touch {
   bool touches;
   vec3 normal;   // out of the obstacle
-  vec3 surface;  // where the node goes [m]
+  vec3 surface;  // position to which the node is moved [m]
 };
 
 Touch touchAt(bool touches, vec3 normal, vec3 surface) {
@@ -52,16 +54,16 @@ Touch touchAt(bool touches, vec3 normal, vec3 surface) {
 }
 Touch noTouch() { return touchAt(false, vec3(0.0f), vec3(0.0f)); }
 
-/// The tissue is on the +z side.
+/// Returns the contact with a plane; the tissue is on its +z side.
 Touch touchPlane(vec3 to) { return touchAt(to.z < 0.0f, vec3(0.0f, 0.0f, 1.0f), vec3(to.x, to.y, 0.0f)); }
 
-/// A capsule's axis; of a sphere (half length 0) its centre.
+/// Returns the nearest point of a capsule's axis; of a sphere (half length 0) its centre.
 vec3 nearestOnAxis(ObstacleMotion o, vec3 p) { return vec3(0.0f, 0.0f, clamp(p.z, -o.to.w, o.to.w)); }
 float roundDistance(ObstacleMotion o, vec3 p) { return distance(p, nearestOnAxis(o, p)) - o.from.w; }
 vec3 pointBetween(vec3 a, vec3 b, float s) { return a + s * (b - a); }
 
-/// Where a way enters a sphere or capsule: 0..1 of it, above 1 if it does not. The distance along it is convex, so its lowest
-/// point, and then the first zero, are found by halving.
+/// Returns where a path enters a sphere or capsule: 0..1 along it, above 1 if it does not. The distance along it is convex, so
+/// its minimum, and then the first zero, are found by interval reduction.
 float entryOfRound(ObstacleMotion o, vec3 from, vec3 to) {
   const int steps = 24;
   float low = 0.0f, high = 1.0f;
@@ -82,9 +84,10 @@ float entryOfRound(ObstacleMotion o, vec3 from, vec3 to) {
   return low;
 }
 
-/// A node that is inside goes out along the radius. One that has passed through, or beyond the middle, goes to where it came in.
+/// Returns the contact along the radius for a node inside. One that has passed through, or beyond the middle, returns to where it
+/// entered.
 Touch touchRound(ObstacleMotion o, vec3 from, vec3 to) {
-  const float slow = 0.25f;  // of the radius: on a shorter way no more than 1/128 of it can be cut off
+  const float slow = 0.25f;  // of the radius: a shorter path cuts off at most 1/128 of it
   float radius = o.from.w;
   vec3 out_of = to - nearestOnAxis(o, to);
   bool inside = dot(out_of, out_of) < radius * radius;
@@ -98,15 +101,16 @@ Touch touchRound(ObstacleMotion o, vec3 from, vec3 to) {
   }
   if (!inside) return noTouch();
   vec3 came_from = from - nearestOnAxis(o, from);
-  const float middle = 1e-6f;  // of the radius: there is no direction there
+  const float middle = 1e-6f;  // of the radius: nearer to the axis there is no direction
   vec3 normal = vec3(1.0f, 0.0f, 0.0f);
   if (dot(out_of, out_of) > middle * middle * radius * radius) normal = normalize(out_of);
   else if (dot(came_from, came_from) > middle * middle * radius * radius) normal = normalize(came_from);
   return touchAt(true, normal, nearestOnAxis(o, to) + radius * normal);
 }
 
-/// Which face a node meets is said by where it was: the face that its way came in by, or the nearest if it was inside. So a box
-/// thinner than a substep's way holds nodes up, and one that lies on a face stays on it.
+/// Returns the contact with a face of a box, chosen by the previous position: the face through which the path entered, or the
+/// nearest one if the node was inside. So a box thinner than a substep's displacement supports nodes, and a node that rests on a
+/// face stays on it.
 Touch touchBox(vec3 half_size, vec3 from, vec3 to) {
   vec3 depth = half_size - abs(from);
   vec3 depth_to = half_size - abs(to);
@@ -115,7 +119,7 @@ Touch touchBox(vec3 half_size, vec3 from, vec3 to) {
     if (min(min(depth_to.x, depth_to.y), depth_to.z) <= 0.0f) return noTouch();
     for (int k = 1; k < 3; ++k) face = depth[k] < depth[face] ? k : face;
   } else {
-    float enter = -1.0f, leave = 1.0f;  // of the way
+    float enter = -1.0f, leave = 1.0f;  // shares of the path
     for (int k = 0; k < 3; ++k) {
       float way = to[k] - from[k];
       if (way == 0.0f) {
@@ -139,15 +143,15 @@ Touch touchBox(vec3 half_size, vec3 from, vec3 to) {
   return touchAt(true, normal, surface);
 }
 
-/// Where a node meets an obstacle on its way in a substep, tissue frame.
+/// Contact of a node with an obstacle during a substep, tissue frame.
 struct Meeting {
   bool touches;
   vec3 normal;    // out of the obstacle
-  vec3 out_of;    // from where the node goes without it to the surface [m]
-  float way;      // that it went, as seen from the obstacle [m]
+  vec3 out_of;    // from the node's position without contact to the surface [m]
+  float way;      // displacement relative to the obstacle [m]
 };
 
-/// An obstacle as a node sees it that lies below the surface of its tissue: as much larger. @param below  surfaceDepth() [m]
+/// Returns an obstacle enlarged by the depth of a node below the surface of its tissue. @param below  surfaceDepth() [m]
 ObstacleMotion seenFrom(float below, ObstacleMotion o) {
   if (below == 0.0f) return o;
   if (o.info.x == kShapePlane) {
@@ -168,7 +172,7 @@ ObstacleMotion seenFrom(float below, ObstacleMotion o) {
   return o;
 }
 
-/// @param o  as seenFrom()
+/// @param o  from seenFrom()
 Meeting meetingOf(ObstacleMotion o, vec3 x, vec3 x_next) {
   vec3 from = rotated(conjugate(xyzw(o.from_orientation)), x - xyz(o.from));
   vec3 to = rotated(conjugate(xyzw(o.to_orientation)), x_next - xyz(o.to));
@@ -182,18 +186,19 @@ Meeting meetingOf(ObstacleMotion o, vec3 x, vec3 x_next) {
   return meeting;
 }
 
-/// The half space outside an obstacle that a node at x must end a substep in: xyz its normal, w how far inside x is [m]. Of a
-/// round one the tangent plane nearest to x: it lies wholly outside. @param meeting  of the node's way, for faces
+/// Returns the half space outside an obstacle in which a node at x must end a substep: xyz its normal, w depth of x inside [m].
+/// For round obstacles it is bounded by the tangent plane nearest to x, with the obstacle wholly on the other side.
+/// @param meeting  of the node's path, for faces
 vec4 outsideOf(ObstacleMotion o, Meeting meeting, vec3 x, vec3 x_next) {
   vec4 side = vec4(meeting.normal, dot(meeting.normal, x_next + meeting.out_of - x));
   if (o.info.x == kShapePlane || o.info.x == kShapeBox) return side;
   vec3 p = rotated(conjugate(xyzw(o.to_orientation)), x - xyz(o.to));
   vec3 out_of = p - nearestOnAxis(o, p);
-  const float middle = 1e-6f;  // of the radius: there is no direction there
+  const float middle = 1e-6f;  // of the radius: nearer to the axis there is no direction
   if (dot(out_of, out_of) <= middle * middle * o.from.w * o.from.w) return side;
   return vec4(rotated(xyzw(o.to_orientation), normalize(out_of)), o.from.w - length(out_of));
 }
 
-/// How far the surface of an obstacle that is at x goes in a substep [m].
+/// Returns the displacement of the surface of an obstacle at x in a substep [m].
 vec3 wayOfSurface(ObstacleMotion o, vec3 x, float dt) { return dt * (xyz(o.velocity) + cross(xyz(o.spin), x - xyz(o.to))); }
 #endif

@@ -22,8 +22,8 @@ using Kept = std::vector<gdcm::SmartPointer<gdcm::SequenceOfItems>>;
 
 constexpr size_t kMostFiles = 20000;
 constexpr double kMostSlices = 65534;
-constexpr double kSamePlaceMm = 0.01;                   ///< nearer slices are one place twice
-constexpr double kUnevenMm = 0.1, kUnevenShare = 0.02;  ///< how far a slice may be from its place
+constexpr double kSamePlaceMm = 0.01;                   ///< closer slices are duplicates
+constexpr double kUnevenMm = 0.1, kUnevenShare = 0.02;  ///< largest deviation of a slice from its position
 constexpr double kSameDirection = 1e-4, kSameSpacingMm = 1e-3;
 const char kSegmentation[] = "1.2.840.10008.5.1.4.1.1.66.4";
 
@@ -33,14 +33,14 @@ std::string text(double value) {
   return buffer;
 }
 
-/// The header, up to the pixels. @returns false: no DICOM file
+/// Reads a file up to its pixels. @returns false: not a DICOM file
 bool readHead(gdcm::Reader& reader, const std::string& file) {
   nowReading(file);
   reader.SetFileName(file.c_str());
   return reader.CanRead() && reader.ReadUpToTag(Tag(0x7fe0, 0x0010), {Tag(0x7fe0, 0x0010)});
 }
 
-/// The first of groups that has an element of a macro's only item.
+/// Returns the only item of a macro in the first group that has it.
 const gdcm::DataSet* macro(const std::vector<const gdcm::DataSet*>& groups, Tag tag, Kept& kept) {
   for (const gdcm::DataSet* group : groups) {
     const auto items = itemsOf(*group, tag, kept);
@@ -55,9 +55,10 @@ void place(Frame& frame, const gdcm::DataSet& position, const gdcm::DataSet& ori
              s = numbersOf(measures, Tag(0x0028, 0x0030)), t = numbersOf(measures, Tag(0x0018, 0x0050)),
              b = numbersOf(measures, Tag(0x0018, 0x0088));
   if (p.size() != 3 || o.size() != 6 || s.size() != 2)
-    throw SceneError(frame.file +
-                     ": does not say where its slices are; accepted: ImagePositionPatient, ImageOrientationPatient and "
-                     "PixelSpacing");
+    throw SceneError(
+        frame.file +
+        ": does not state the positions of its slices; it needs ImagePositionPatient, ImageOrientationPatient and "
+        "PixelSpacing");
   frame.position = Vector3d(p[0], p[1], p[2]);
   frame.along_row = Vector3d(o[0], o[1], o[2]);
   frame.down_column = Vector3d(o[3], o[4], o[5]);
@@ -68,7 +69,7 @@ void place(Frame& frame, const gdcm::DataSet& position, const gdcm::DataSet& ori
   if (!(std::abs(frame.normal().norm() - 1) < 1e-2))
     throw SceneError(
         frame.file +
-        ": its rows and columns are not perpendicular unit vectors; accepted: ImageOrientationPatient of such");
+        ": its rows and columns are not perpendicular unit vectors; ImageOrientationPatient must hold such vectors");
 }
 
 bool beginsAsDicom(const std::string& file, std::string& head) {
@@ -80,7 +81,7 @@ bool beginsAsDicom(const std::string& file, std::string& head) {
   return head.compare(std::min(kMagicAt, head.size()), 4, "DICM") == 0;
 }
 
-/// Folders below that hold DICOM files, the first few.
+/// Returns the first few folders below that contain DICOM files.
 std::vector<std::string> foldersBelow(const std::string& path) {
   constexpr int kMostEntries = 5000;
   constexpr size_t kMostFolders = 3;
@@ -97,23 +98,22 @@ std::vector<std::string> foldersBelow(const std::string& path) {
   return found;
 }
 
-/// Why a folder or file has no series that is read.
+/// Throws an error that says why a folder or file has no readable series.
 [[noreturn]] void refuseEmpty(const std::string& path, const std::vector<std::string>& files) {
   const std::string deflated = "1.2.840.10008.1.2.1.99", directory = "1.2.840.10008.1.3.10";
   std::string why, head;
   for (const std::string& file : files) {
     if (!beginsAsDicom(file, head)) continue;
     if (head.find(deflated) != std::string::npos)
-      why = "; " + file + " is deflated as a whole, which is not read: dcmconv +te undoes it";
+      why = "; " + file + " is a deflated file, which is not read; convert it with dcmconv +te";
     else if (why.empty() && head.find(directory) != std::string::npos)
-      why = "; " + file + " is the index of a medium: name the folder that holds the pictures";
+      why = "; " + file + " is the index of a medium; name the folder with the images";
   }
   if (fs::is_directory(path)) {
     const std::vector<std::string> below = foldersBelow(path);
-    for (size_t n = 0; n < below.size(); ++n)
-      why += (n == 0 ? "; folders in it are not read: name " : " or ") + below[n];
+    for (size_t n = 0; n < below.size(); ++n) why += (n == 0 ? "; subfolders are not read; name " : " or ") + below[n];
   }
-  throw SceneError(path + ": no DICOM file with pictures" + (why.empty() ? "; accepted: files of DICOM part 10" : why));
+  throw SceneError(path + ": no DICOM file with images" + (why.empty() ? "; accepted: files of DICOM part 10" : why));
 }
 
 }  // namespace
@@ -134,7 +134,7 @@ std::vector<Series> seriesOf(const std::string& path) {
     if (!readHead(reader, file)) continue;
     const gdcm::DataSet& data = reader.GetFile().GetDataSet();
     std::string uid = textOf(data, Tag(0x0020, 0x000e));
-    if (uid.empty()) uid = "none";  // as who makes files nameless leaves it
+    if (uid.empty()) uid = "none";  // files written without a UID
     if (uid.find(' ') != std::string::npos || shortOf(data, Tag(0x0028, 0x0010)) == 0) continue;
     Series& series = all[uid];
     series.uid = uid;
@@ -156,12 +156,12 @@ bool isSegmentation(const std::string& file) {
 
 std::vector<Frame> framesOf(const std::string& file) {
   gdcm::Reader reader;
-  if (!readHead(reader, file)) throw SceneError(file + ": no DICOM file");
+  if (!readHead(reader, file)) throw SceneError(file + ": not a DICOM file");
   const gdcm::DataSet& data = reader.GetFile().GetDataSet();
   const std::string kind = textOf(data, Tag(0x0008, 0x0008));
   if (kind.find("MOSAIC") != std::string::npos)
-    throw SceneError(file + ": is a mosaic of slices in one picture (ImageType " + kind +
-                     "), which is not read; accepted: a picture a slice, or NIfTI, as dcm2niix makes of it");
+    throw SceneError(file + ": is a mosaic of slices in one image (ImageType " + kind +
+                     "), which is not read; accepted: one image per slice, or NIfTI, which dcm2niix makes from it");
   Kept kept;
   Frame frame;
   frame.file = file;
@@ -171,12 +171,13 @@ std::vector<Frame> framesOf(const std::string& file) {
   const auto count = numbersOf(data, Tag(0x0028, 0x0008));
   if (each.empty()) {
     if (!count.empty() && count[0] != 1)
-      throw SceneError(file + ": several frames without a place of each; accepted: functional groups per frame");
+      throw SceneError(file + ": several frames without a position for each; accepted: per-frame functional groups");
     place(frame, data, data, data);
     return {frame};
   }
   if (count.size() != 1 || count[0] != static_cast<double>(each.size()))
-    throw SceneError(file + ": NumberOfFrames is not the number of places of frames, " + std::to_string(each.size()));
+    throw SceneError(file + ": NumberOfFrames differs from the number of frame positions, " +
+                     std::to_string(each.size()));
   std::vector<Frame> frames;
   for (const gdcm::DataSet* group : each) {
     std::vector<const gdcm::DataSet*> groups = {group};
@@ -200,16 +201,16 @@ namespace {
 
 [[noreturn]] void refuseUneven(const Frame& frame, double usual) {
   throw SceneError(frame.file + ": uneven slices: the one at " + text(frame.height()) + " mm along the normal is not " +
-                   text(usual) + " mm from that before; accepted: steps that are equal within 0.1 mm or 2 %");
+                   text(usual) + " mm from the one before; accepted: steps that are equal within 0.1 mm or 2 %");
 }
 
-/// How far a slice may be from its place.
+/// Returns the largest accepted deviation of a slice from its position.
 double mostOff(double step) {
   return std::max(kUnevenMm, kUnevenShare * step);
 }
 
-/// The step where every slice is some times `height` above the one before; none: that is no step of theirs.
-/// @param off  how far slices may be from such places
+/// Returns the step if every slice is a multiple of `height` above the previous one; nothing otherwise.
+/// @param off  largest accepted deviation
 std::optional<Vector3d> stepOfHeight(const std::vector<Frame>& frames, double height, double off) {
   std::vector<double> places = {0};
   for (size_t n = 1; n < frames.size(); ++n) {
@@ -225,10 +226,10 @@ std::optional<Vector3d> stepOfHeight(const std::vector<Frame>& frames, double he
   return step;
 }
 
-/// The largest step that leads from each slice to the next in whole steps. What is said of it counts where positions
-/// leave it open: whether planes between slices are empty, or there are none.
+/// Returns the largest step of which all distances between slices are multiples. If positions do not determine whether
+/// planes between slices are empty or do not exist, the specified spacing decides.
 Vector3d sparseStep(const std::vector<Frame>& frames, double least) {
-  constexpr int kMostParts = 3;  // of the least step: more would fit anything
+  constexpr int kMostParts = 3;  // most fractions of the least step: more would fit anything
   if (const auto step = stepOfHeight(frames, least, mostOff(least))) return *step;
   const double said = frames.front().between;
   if (said > kSamePlaceMm)
@@ -254,7 +255,7 @@ Vector3d evenStep(const std::vector<Frame>& frames, const std::vector<double>& s
       throw SceneError(frames[n].file + ": slices are missing, " + std::to_string(static_cast<int>(times) - 1) +
                        ", between " + text(frames[n - 1].height()) + " and " + text(frames[n].height()) +
                        " mm along the normal; accepted: steps of " + text(usual) +
-                       " mm, or --fill-slices, which puts the nearest there");
+                       " mm, or --fill-slices, which repeats the nearest slice");
   }
   for (size_t n = 1; n < frames.size(); ++n)
     if (std::abs(steps[n - 1] - usual) > most ||
@@ -269,17 +270,16 @@ Vector3d stepOf(const std::vector<Frame>& frames, bool gaps) {
   const Frame& first = frames.front();
   if (frames.size() == 1) {
     const double height = first.between > 0 ? first.between : first.thickness;
-    if (!(height > 0))
-      throw SceneError(first.file + ": one slice that does not say how thick it is; accepted: SliceThickness");
+    if (!(height > 0)) throw SceneError(first.file + ": a single slice without a thickness; it needs SliceThickness");
     return first.normal() * height;
   }
   std::vector<double> steps;
   for (size_t n = 1; n < frames.size(); ++n) {
     steps.push_back(frames[n].height() - frames[n - 1].height());
     if (steps.back() < kSamePlaceMm)
-      throw SceneError(frames[n].file + ": a slice is there twice, at " + text(frames[n].height()) +
-                       " mm along the normal (and in " + frames[n - 1].file +
-                       "); accepted: one slice a place; take one of them out of the folder");
+      throw SceneError(frames[n].file + ": two slices have the same position, " + text(frames[n].height()) +
+                       " mm along the normal (the other is in " + frames[n - 1].file +
+                       "); accepted: one slice per position. Remove one of them from the folder");
   }
   return gaps ? sparseStep(frames, *std::min_element(steps.begin(), steps.end())) : evenStep(frames, steps);
 }
@@ -299,8 +299,8 @@ Stack stackOf(std::vector<Frame>& frames) {
         (f.down_column - one.down_column).norm() > kSameDirection ||
         std::abs(f.between_rows - one.between_rows) > kSameSpacingMm ||
         std::abs(f.between_columns - one.between_columns) > kSameSpacingMm)
-      throw SceneError(f.file + ": a slice of another size, direction or spacing than in " + one.file +
-                       "; accepted: slices of one volume; take it out of the folder");
+      throw SceneError(f.file + ": a slice with another size, direction or spacing than in " + one.file +
+                       "; accepted: slices of one volume. Remove it from the folder");
   std::stable_sort(frames.begin(), frames.end(),
                    [](const Frame& a, const Frame& b) { return a.height() < b.height(); });
   Stack stack;

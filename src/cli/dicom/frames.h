@@ -11,17 +11,17 @@
 
 namespace viscera::dicom {
 
-/// One picture of a file, and where it is in LPS [mm].
+/// One image of a file, with its pose in LPS [mm].
 struct Frame {
   std::string file;
-  unsigned index = 0;  ///< in its file
+  unsigned index = 0;  ///< index in its file
   int rows = 0, columns = 0;
   Vector3d position = Vector3d::Zero(), along_row = Vector3d::Zero(), down_column = Vector3d::Zero();
   double between_columns = 0, between_rows = 0;
-  double between = 0;    ///< SpacingBetweenSlices; 0: not said
-  double thickness = 0;  ///< SliceThickness; 0: not said
-  int segment = 0;       ///< of DICOM SEG
-  std::string rescale;   ///< slope and intercept of this frame, as text; empty: of the file
+  double between = 0;    ///< SpacingBetweenSlices [mm]; 0: not specified
+  double thickness = 0;  ///< SliceThickness [mm]; 0: not specified
+  int segment = 0;       ///< segment number in DICOM SEG
+  std::string rescale;   ///< slope and intercept of this frame, as text; empty: the file's
 
   Vector3d normal() const { return along_row.cross(down_column); }
   double height() const { return normal().dot(position); }
@@ -38,31 +38,32 @@ struct Stack {
   Vector3d origin = Vector3d::Zero();
 };
 
-/// Says which file is read, in case that the library ends this process there.
+/// Records which file is read, for the error message if the library ends this process.
 void nowReading(const std::string& file);
 
-/// Of a folder or one file, in order of UIDs. @throws SceneError  none is there
+/// Returns the series of a folder or file, ordered by UID. @throws SceneError  there is none
 std::vector<Series> seriesOf(const std::string& path);
 bool isSegmentation(const std::string& file);
-/// @throws SceneError  naming the file: it has no place, or its pixels are cut off
+/// Returns the frames of a file. @throws SceneError  names the file: it has no position, or its pixels are truncated
 std::vector<Frame> framesOf(const std::string& file);
 
-/// A file may end within its pixels, of which GDCM says nothing. @throws SceneError
+/// Checks that a file does not end within its pixels, which GDCM does not report. @throws SceneError
 void requireWhole(const std::string& file);
 
-/// Sorts frames along their normal. @throws SceneError  missing, doubled, uneven, or of several sizes, saying where
+/// Sorts frames along their normal.
+/// @throws SceneError  missing, duplicate or uneven frames, or several sizes; says where
 Stack stackOf(std::vector<Frame>& frames);
-/// Step between sorted slices, as their positions have it. Of one slice: what its file says.
-/// @param gaps  slices may be missing, as in DICOM SEG
+/// Returns the step between sorted slices from their positions. For one slice, returns the step in its file.
+/// @param gaps  whether slices may be missing, as in DICOM SEG
 Vector3d stepOf(const std::vector<Frame>& frames, bool gaps);
-/// Which slice of such a step each frame is, from 0.
+/// Returns the slice index of each frame for this step, from 0.
 std::vector<int> slicesOf(const std::vector<Frame>& frames, const Vector3d& step);
 
 void writeHeader(const Stack& stack, int layers, const std::vector<std::string>& segments);
 void writeSlice(const std::vector<float>& values);
-/// @param fill  missing slices are like the nearest
+/// Writes a volume. @param fill  whether missing slices are copied from the nearest
 void writeVolume(const std::vector<std::string>& files, bool fill);
-/// A line ahead of the header: what is odd and no mistake.
+/// Writes a line before the header about something unusual that is not an error.
 void writeNote(const std::string& note);
 void writeSegmentation(const std::string& file, int layer);
 

@@ -12,24 +12,25 @@
 
 #include "cli/dicom/frames.h"
 
-// viscera-dicom list PATH | read PATH SERIES LAYER fill|refuse: what src/model/scan/dicom.cpp starts and reads. Apart
-// from it, since what GDCM does with spoilt files (assertions, memory without bound) must end this process alone.
+// viscera-dicom list PATH | read PATH SERIES LAYER fill|refuse: started and read by src/model/scan/dicom.cpp. It is a
+// separate process, since GDCM may fail on corrupt files (assertions, unbounded memory).
 namespace viscera::dicom {
 namespace {
 
-char reading[4096] = "";  ///< the file that is read
+char reading[4096] = "";  ///< the file being read
 
-/// GDCM ends the process by assertions and worse: the one line that is left to say names the file.
+/// Prints one line that names the file, when GDCM ends the process by an assertion or a signal.
 void sayFile(int) {
-  const char what[] = ": the library that reads DICOM ends at it; accepted: sound files: take it out of the folder\n";
-  if (ftruncate(STDERR_FILENO, 0) == 0) lseek(STDERR_FILENO, 0, SEEK_SET);  // its own words
+  const char what[] =
+      ": the library that reads DICOM crashed on it; accepted: undamaged files. Remove it from the folder\n";
+  if (ftruncate(STDERR_FILENO, 0) == 0) lseek(STDERR_FILENO, 0, SEEK_SET);  // removes GDCM's own messages
   const bool said =
       write(STDERR_FILENO, reading, std::strlen(reading)) >= 0 && write(STDERR_FILENO, what, sizeof what - 1) >= 0;
   _exit(said ? 1 : 3);
 }
 
 void requireWritten(bool written) {
-  if (!written) std::_Exit(1);  // the other end is closed
+  if (!written) std::_Exit(1);  // the reader has closed the pipe
 }
 
 void list(const std::string& path) {
@@ -56,10 +57,10 @@ void read(const std::string& path, const std::string& asked, int layer, bool fil
                std::to_string(all[n].files.size()) + " files, " + all[n].description;
   }
   if (!chosen)
-    throw SceneError(path + ": " + (asked.empty() ? "holds several series" : "has no series '" + asked + "'") +
-                     "; accepted: all, which joins them, or a number or UID of:" + known);
+    throw SceneError(path + ": " + (asked.empty() ? "contains several series" : "has no series '" + asked + "'") +
+                     "; accepted: all, which joins them, or the number or UID of one:" + known);
   if (!isSegmentation(chosen->files[0])) return writeVolume(chosen->files, fill);
-  if (chosen->files.size() > 1) throw SceneError(path + ": several files of segments; accepted: one, named by itself");
+  if (chosen->files.size() > 1) throw SceneError(path + ": several segmentation files; name one of them");
   writeSegmentation(chosen->files[0], layer);
 }
 
@@ -107,7 +108,7 @@ int main(int count, char** arguments) {
       return 2;
     }
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "%s: takes more memory than DICOM may have\n", dicom::reading);
+    std::fprintf(stderr, "%s: needs more memory than the limit for DICOM\n", dicom::reading);
     return 1;
   } catch (const SceneError& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -13,12 +13,12 @@ namespace {
 
 using gdcm::Tag;
 
-/// Bits or bytes of all frames, one after the other, without gaps.
+/// Bits or bytes of all frames, consecutive and without gaps.
 struct Planes {
   std::vector<char> bytes;
   size_t pixels = 0;
   bool bits = true;
-  int half = 1;  ///< least value, of bytes, that is of the segment
+  int half = 1;  ///< least byte value that belongs to the segment
 
   bool at(size_t frame, size_t pixel) const {
     const size_t n = frame * pixels + pixel;
@@ -38,11 +38,11 @@ Planes planesOf(const std::string& file, const gdcm::File& read, const std::vect
       data.FindDataElement(Tag(0x7fe0, 0x0010)) ? data.GetDataElement(Tag(0x7fe0, 0x0010)).GetByteValue() : nullptr;
   if (syntax.IsEncapsulated() || !bytes)
     throw SceneError(file + ": segments of transfer syntax " + syntax.GetString() +
-                     "; accepted: segments that are not packed");
+                     "; accepted: uncompressed segments");
   const size_t needed = planes.bits ? (planes.pixels * frames.size() + 7) / 8 : planes.pixels * frames.size();
   if (bytes->GetLength() < needed)
-    throw SceneError(file + ": ends early: " + std::to_string(needed) + " bytes of pixels are said to be there, and " +
-                     std::to_string(bytes->GetLength()) + " are");
+    throw SceneError(file + ": ends early: " + std::to_string(needed) + " bytes of pixels are announced, and it has " +
+                     std::to_string(bytes->GetLength()));
   planes.bytes.assign(bytes->GetPointer(), bytes->GetPointer() + bytes->GetLength());
   return planes;
 }
@@ -53,7 +53,7 @@ void writeSegmentation(const std::string& file, int layer) {
   requireWhole(file);
   gdcm::Reader reader;
   reader.SetFileName(file.c_str());
-  if (!reader.Read()) throw SceneError(file + ": no DICOM file");
+  if (!reader.Read()) throw SceneError(file + ": not a DICOM file");
   std::vector<gdcm::SmartPointer<gdcm::SequenceOfItems>> kept;
   std::vector<std::string> lines;
   std::vector<int> numbers;
@@ -63,7 +63,7 @@ void writeSegmentation(const std::string& file, int layer) {
                     textOf(*item, Tag(0x0062, 0x0005)).substr(0, 64));
   }
   std::vector<Frame> frames = framesOf(file);
-  if (numbers.empty()) throw SceneError(file + ": has no segments; accepted: a SegmentSequence");
+  if (numbers.empty()) throw SceneError(file + ": has no segments; it needs a SegmentSequence");
   if (layer < 0 || static_cast<size_t>(layer) >= numbers.size())
     throw SceneError(file + ": has no layer " + std::to_string(layer) + "; accepted: 0 .. " +
                      std::to_string(numbers.size() - 1));

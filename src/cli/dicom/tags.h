@@ -12,7 +12,7 @@
 
 namespace viscera::dicom {
 
-/// The text of an element, without blanks at its end; empty: not there.
+/// Returns the text of an element, without trailing blanks; empty if it does not exist.
 inline std::string textOf(const gdcm::DataSet& data, gdcm::Tag tag) {
   if (!data.FindDataElement(tag)) return "";
   const gdcm::ByteValue* bytes = data.GetDataElement(tag).GetByteValue();
@@ -24,7 +24,7 @@ inline std::string textOf(const gdcm::DataSet& data, gdcm::Tag tag) {
   return text;
 }
 
-/// Numbers written as text, parted by backslashes; none: not there, or no numbers.
+/// Returns numbers written as text, separated by backslashes; empty if they do not exist or are not numbers.
 inline std::vector<double> numbersOf(const gdcm::DataSet& data, gdcm::Tag tag) {
   std::vector<double> all;
   const std::string text = textOf(data, tag);
@@ -39,7 +39,7 @@ inline std::vector<double> numbersOf(const gdcm::DataSet& data, gdcm::Tag tag) {
   return all;
 }
 
-/// An unsigned 16-bit number; 0: not there. GDCM has turned it to this machine's order.
+/// Returns an unsigned 16-bit number; 0 if it does not exist. GDCM has converted it to this machine's byte order.
 inline int shortOf(const gdcm::DataSet& data, gdcm::Tag tag) {
   if (!data.FindDataElement(tag)) return 0;
   const gdcm::ByteValue* bytes = data.GetDataElement(tag).GetByteValue();

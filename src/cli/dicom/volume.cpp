@@ -12,14 +12,14 @@
 namespace viscera::dicom {
 using gdcm::Tag;
 
-constexpr uint64_t kMostTail = 1 << 20;  ///< bytes of a file's end in which packed pixels must end
+constexpr uint64_t kMostTail = 1 << 20;  ///< size of a file's end in which compressed pixels must end [bytes]
 
 void requireWhole(const std::string& file) {
   nowReading(file);
   std::ifstream head(file, std::ios::binary);
   gdcm::Reader reader;
   reader.SetStream(head);
-  if (!reader.ReadUpToTag(Tag(0x7fe0, 0x0010), {Tag(0x7fe0, 0x0010)})) throw SceneError(file + ": no DICOM file");
+  if (!reader.ReadUpToTag(Tag(0x7fe0, 0x0010), {Tag(0x7fe0, 0x0010)})) throw SceneError(file + ": not a DICOM file");
   const gdcm::DataSet& data = reader.GetFile().GetDataSet();
   const gdcm::TransferSyntax& syntax = reader.GetFile().GetHeader().GetDataSetTransferSyntax();
   const auto count = numbersOf(data, Tag(0x0028, 0x0008));
@@ -32,8 +32,8 @@ void requireWhole(const std::string& file) {
   if (!syntax.IsEncapsulated()) {
     if (size < at + bytes)
       throw SceneError(file + ": ends early: " + std::to_string(bytes) +
-                       " bytes of pixels are said to be there, and at most " +
-                       std::to_string(size - std::min(size, at)) + " are");
+                       " bytes of pixels are announced, and it has at most " +
+                       std::to_string(size - std::min(size, at)));
     return;
   }
   const uint64_t tail = std::min<uint64_t>(size, kMostTail);
@@ -42,14 +42,14 @@ void requireWhole(const std::string& file) {
   stream.seekg(static_cast<std::streamoff>(size - tail));
   stream.read(end.data(), static_cast<std::streamsize>(tail));
   if (end.find(std::string("\xfe\xff\xdd\xe0\0\0\0\0", 8)) == std::string::npos)
-    throw SceneError(file + ": ends early: its packed pixels have no end");
+    throw SceneError(file + ": ends early: the end of its compressed pixels is missing");
 }
 
 namespace {
 
 struct Rescale {
   double slope = 1, intercept = 0;
-  int shift = 0;  ///< bits below the lowest that is stored
+  int shift = 0;  ///< number of bits below the lowest stored bit
 };
 
 template <typename T>
@@ -64,21 +64,21 @@ void convert(const char* from, const Rescale& rescale, std::vector<float>& value
   }
 }
 
-/// Bits below the lowest that is stored, of pixels that are not packed.
+/// Returns the number of bits below the lowest stored bit, for uncompressed pixels.
 int shiftOf(const gdcm::File& file) {
   if (file.GetHeader().GetDataSetTransferSyntax().IsEncapsulated()) return 0;
   const gdcm::DataSet& data = file.GetDataSet();
   return std::max(0, shortOf(data, Tag(0x0028, 0x0102)) + 1 - shortOf(data, Tag(0x0028, 0x0101)));
 }
 
-/// The pixels of a file; of the last one that was asked for they are kept.
+/// Pixels of a file. Those of the last requested file are kept.
 class Pixels {
  public:
   void slice(const Frame& frame, std::vector<float>& values) {
     if (frame.file != file_) open(frame.file);
     const size_t bytes = values.size() * format_.GetPixelSize(), at = bytes * frame.index;
     if (at + bytes > buffer_.size())
-      throw SceneError(frame.file + ": ends early: has no frame " + std::to_string(frame.index));
+      throw SceneError(frame.file + ": ends early: it has no frame " + std::to_string(frame.index));
     const char* from = buffer_.data() + at;
     switch (format_.GetScalarType()) {
       case gdcm::PixelFormat::UINT8:
@@ -95,7 +95,7 @@ class Pixels {
         return convert<int32_t>(from, rescale_, values);
       default:
         throw SceneError(frame.file +
-                         ": pixels of a kind that is not read; accepted: whole numbers of 8, 16 or 32 bits");
+                         ": the type of its pixels is not supported; accepted: whole numbers of 8, 16 or 32 bits");
     }
   }
 
@@ -106,22 +106,23 @@ class Pixels {
     reader.SetFileName(file.c_str());
     const bool read = reader.Read();
     const std::string syntax = reader.GetFile().GetHeader().GetDataSetTransferSyntax().GetString();
-    const std::string kinds = "; accepted: one grey number a pixel, as it is or as JPEG, JPEG-LS, JPEG 2000 or RLE";
+    const std::string kinds =
+        "; accepted: one grey number per pixel, uncompressed or as JPEG, JPEG-LS, JPEG 2000 or RLE";
     if (!read) throw SceneError(file + ": its pixels, of transfer syntax " + syntax + ", cannot be read" + kinds);
     const gdcm::Image& image = reader.GetImage();
     format_ = image.GetPixelFormat();
     const auto colours = image.GetPhotometricInterpretation();
     if (format_.GetSamplesPerPixel() != 1 || (colours != gdcm::PhotometricInterpretation::MONOCHROME1 &&
                                               colours != gdcm::PhotometricInterpretation::MONOCHROME2))
-      throw SceneError(file + ": colours (" + colours.GetString() + ")" + kinds);
+      throw SceneError(file + ": colour pixels (" + colours.GetString() + ")" + kinds);
     const gdcm::DataElement& raw = reader.GetFile().GetDataSet().GetDataElement(Tag(0x7fe0, 0x0010));
     const gdcm::ByteValue* bytes = raw.GetByteValue();
     const int shift = shiftOf(reader.GetFile());
     buffer_.resize(image.GetBufferLength());
-    if (shift > 0 && bytes)  // GDCM takes the lowest bits for those that are stored
+    if (shift > 0 && bytes)  // GDCM would assume that the lowest bits are stored
       buffer_.assign(bytes->GetPointer(), bytes->GetPointer() + bytes->GetLength());
     else if (!image.GetBuffer(buffer_.data()))
-      throw SceneError(file + ": its pixels, of transfer syntax " + syntax + ", cannot be unpacked" + kinds);
+      throw SceneError(file + ": its pixels, of transfer syntax " + syntax + ", cannot be decompressed" + kinds);
     rescale_ = {image.GetSlope(), image.GetIntercept(), shift};
     file_ = file;
   }
@@ -141,7 +142,7 @@ void writeVolume(const std::vector<std::string>& files, bool fill) {
   for (const Frame& frame : frames)
     if (frame.rescale != frames.front().rescale && frame.file == frames.front().file)
       throw SceneError(frame.file +
-                       ": frames with slopes of their own; accepted: one RescaleSlope and RescaleIntercept of all");
+                       ": frames have different slopes; accepted: one RescaleSlope and RescaleIntercept for all");
   Stack stack = stackOf(frames);
   stack.axes.col(2) = stepOf(frames, fill);
   const std::vector<int> slices = slicesOf(frames, stack.axes.col(2));
@@ -149,7 +150,7 @@ void writeVolume(const std::vector<std::string>& files, bool fill) {
   const size_t missing = static_cast<size_t>(stack.size[2]) - frames.size();
   if (missing > 0)
     writeNote(frames.front().file + ": " + std::to_string(missing) + " missing slices, of " +
-              std::to_string(stack.size[2]) + ", are like the nearest");
+              std::to_string(stack.size[2]) + ", repeat the nearest slice");
   writeHeader(stack, 1, {});
   Pixels pixels;
   std::vector<float> values(static_cast<size_t>(stack.size[0]) * static_cast<size_t>(stack.size[1]));

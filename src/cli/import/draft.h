@@ -11,7 +11,8 @@
 
 namespace viscera::cli {
 
-/// A folder beside the one that is asked for, which it becomes, or else goes away with all that is in it.
+/// Temporary folder next to the requested one. It is renamed to the requested one at the end, or removed with its
+/// contents.
 class Draft {
  public:
   explicit Draft(const std::string& out) : out_(std::filesystem::absolute(out).lexically_normal()) {
@@ -19,10 +20,10 @@ class Draft {
     std::error_code error;
     if (std::filesystem::exists(out_, error) &&
         !(std::filesystem::is_directory(out_, error) && std::filesystem::is_empty(out_, error)))
-      throw Error(out + ": is there already; accepted by --out: a new or an empty folder");
+      throw Error(out + ": already exists; --out must be a new or an empty folder");
     draft_ = out_.string() + ".part-XXXXXX";
     if (!mkdtemp(draft_.data()))
-      throw Error(out + ": cannot be written; accepted by --out: a folder within one that is there");
+      throw Error(out + ": cannot be written; the parent folder of --out must exist and be writable");
     std::filesystem::permissions(draft_, std::filesystem::perms(0755), error);
   }
   ~Draft() {

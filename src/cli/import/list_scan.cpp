@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kLargestLabel = 1 << 24;  ///< as labels.h has it
-constexpr size_t kMostListed = 255;        ///< labels of a map
+constexpr double kLargestLabel = 1 << 24;  ///< as in labels.h
+constexpr size_t kMostListed = 255;        ///< most labels of a map
 
 std::string formatOf(const std::string& path) {
   std::error_code error;
@@ -47,14 +47,14 @@ void printFrame(const VolumeFrame& frame) {
   std::cout << "size: " << frame.size.x() << " x " << frame.size.y() << " x " << frame.size.z() << " voxels\n"
             << "spacing: " << listText(frame.spacing_m(), 1000) << " mm\n"
             << "world: from " << listText(box.min()) << " to " << listText(box.max())
-            << " m (x anterior, y left, z up); i, j, k lead to " << axes << '\n';
+            << " m (x anterior, y left, z up); directions of i, j, k: " << axes << '\n';
 }
 
 void printLabels(const ImportOptions& options) {
   const LabelVolume map = readLabels(options.scan, options.labels);
   std::vector<size_t> voxels(map.names.size(), 0);
   for (const uint8_t label : map.labels) ++voxels[label];
-  std::cout << "labels, should this be a label map (value, name, voxels):\n";
+  std::cout << "labels, if this is a label map (value, name, voxels):\n";
   for (size_t n = 1; n < map.names.size(); ++n) {
     const std::string& name = map.names[n].name;
     std::cout << "  " << map.names[n].value << ", " << (name.empty() ? "-" : oneLine(name)) << ", " << voxels[n]
@@ -80,7 +80,7 @@ int listScan(const ImportOptions& options) {
                 << all[n].files << " files, " << oneLine(all[n].uid) << '\n';
     }
     if (all.size() > 1 && options.labels.series.empty()) {
-      std::cout << "--series says which is read\n";
+      std::cout << "choose a series with --series\n";
       return 0;
     }
   }

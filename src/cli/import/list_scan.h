@@ -12,8 +12,8 @@ namespace viscera::cli {
 /// Returns "x, y, z", six digits each.
 std::string listText(const Vector3d& v, double scale = 1);
 
-/// Prints what a scan holds: format, series, size, spacing, place, values and labels. @returns status of the command
-/// @throws SceneError  as openScan()
+/// Prints the contents of a scan: format, series, size, spacing, position, values and labels.
+/// @returns exit status of the command
 int listScan(const ImportOptions& options);
 
 }  // namespace viscera::cli

@@ -14,10 +14,10 @@
 namespace viscera::cli {
 namespace {
 
-constexpr double kPlayableNu = 0.45;  ///< instead of 0.49 of wet tissue: half the substeps (docs/tissues.md)
-constexpr size_t kMostParts = 64;     ///< of a body, as body_fields.h has it
+constexpr double kPlayableNu = 0.45;  ///< replaces 0.49 of wet tissue: half the substeps (docs/tissues.md)
+constexpr size_t kMostParts = 64;     ///< most parts of a body, as in body_fields.h
 
-/// As YAML has it, whatever the text.
+/// Returns the text quoted for YAML.
 std::string quoted(const std::string& text) {
   YAML::Emitter out;
   out << YAML::DoubleQuoted << text;
@@ -50,7 +50,7 @@ std::vector<bool> rigidLabels(const std::vector<LabelName>& names, const ImportO
       if (asked != value && asked != names[n].name) continue;
       known = rigid[n] = true;
     }
-    if (!known) throw SceneError(options.scan + ": --rigid names '" + asked + "'; accepted: " + accepted);
+    if (!known) throw SceneError(options.scan + ": --rigid names unknown label '" + asked + "'; accepted: " + accepted);
   }
   return rigid;
 }
@@ -58,9 +58,8 @@ std::vector<bool> rigidLabels(const std::vector<LabelName>& names, const ImportO
 std::string oneBodySource(const std::vector<LabelName>& names, const std::vector<bool>& there,
                           const std::vector<bool>& rigid, const ImportOptions& options) {
   if (names.size() - 1 > kMostParts)
-    throw SceneError(options.scan + ": " + std::to_string(names.size() - 1) +
-                     " labels; accepted by --one-body: at most " + std::to_string(kMostParts) +
-                     ", of labels that --labels chooses");
+    throw SceneError(options.scan + ": " + std::to_string(names.size() - 1) + " labels; --one-body accepts at most " +
+                     std::to_string(kMostParts) + ". Choose fewer with --labels");
   const LabelOptions& of = options.labels;
   std::string out = "source: labels\n    scan:\n      file: " + absolute(options.scan) + "\n";
   for (size_t n = 0; n < of.labels.size(); ++n) out += (n ? ", " : "      labels: [") + quoted(of.labels[n]);

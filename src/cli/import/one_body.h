@@ -11,22 +11,22 @@
 
 namespace viscera::cli {
 
-/// [largest label + 1] whether --rigid names a label, by name or number.
+/// Returns [largest label + 1] whether --rigid names a label, by name or number.
 /// @throws SceneError  it names one that is not imported
 std::vector<bool> rigidLabels(const std::vector<LabelName>& names, const ImportOptions& options);
 
-/// Keys of the elasticity of a label: its tissue, with a nu that is not the last of the steps' time, or else a soft
-/// one.
+/// Returns the YAML keys of a label's elasticity: those of its tissue, with a Poisson ratio that needs fewer substeps,
+/// or else of a soft tissue.
 /// @param tissue  null: no preset has the label's name
 std::string materialOf(const TissuePreset* tissue);
 
-/// Lines of a body that is made of all labels together: its source and a part for each label that is not rigid.
-/// @param there  [largest label + 1] whether a label has voxels
+/// Returns the YAML lines of a body made of all labels: its source and a part for each label that is not rigid.
+/// @param there  [largest label + 1] whether the label has voxels
 /// @throws SceneError  more labels than a body may have parts
 std::string oneBodySource(const std::vector<LabelName>& names, const std::vector<bool>& there,
                           const std::vector<bool>& rigid, const ImportOptions& options);
 
-/// Entries that hold the rigid labels of such a body; empty: none is rigid.
+/// Returns the entries that fix the rigid labels of such a body; empty if none is rigid.
 std::string heldParts(const std::vector<LabelName>& names, const std::vector<bool>& there,
                       const std::vector<bool>& rigid);
 

@@ -13,14 +13,14 @@
 namespace viscera::cli {
 namespace {
 
-constexpr int kLongest = 768;                       ///< pixels along the longer side of a picture
-constexpr double kMargin = 0.06;                    ///< of a picture, around organs: letters are there
-constexpr double kAmbient = 0.25;                   ///< of the light of a side view
-constexpr double kLowest = 0.01, kHighest = 0.995;  ///< shares of the slices' values that are black and white
-constexpr double kInside = 0.4;                     ///< of an organ's colour, where a slice has no grey
+constexpr int kLongest = 768;                       ///< longer side of an image [pixels]
+constexpr double kMargin = 0.06;                    ///< margin around organs for the letters, relative to the image
+constexpr double kAmbient = 0.25;                   ///< ambient share of the light in a side view
+constexpr double kLowest = 0.01, kHighest = 0.995;  ///< quantiles of the slices' values that become black and white
+constexpr double kInside = 0.4;                     ///< brightness of an organ's interior if a slice has no grey values
 constexpr Rgb kLatticeColor = {90, 130, 255};
 
-/// What a picture's right and top are, in the scan's axes (x anterior, y left, z up).
+/// Right and up directions of an image, in the scan's axes (x anterior, y left, z up).
 struct View {
   std::string name;
   Vector3d right, up;
@@ -36,7 +36,7 @@ void mark(PreviewCanvas& canvas, const View& view) {
   canvas.letters(letterOf(-view.right), letterOf(view.right), letterOf(view.up), letterOf(-view.up));
 }
 
-/// Colours that are told apart, without the blue of lattices. @param share  of full brightness
+/// Returns distinguishable colours, other than the blue of lattices. @param share  brightness, 0..1
 Rgb colorOf(size_t organ, double share = 1) {
   constexpr double kColors[][3] = {{230, 90, 70},  {250, 200, 70}, {90, 200, 110},  {220, 120, 220}, {90, 210, 210},
                                    {240, 150, 60}, {170, 220, 60}, {240, 130, 160}, {200, 160, 110}, {150, 150, 150}};
@@ -60,7 +60,7 @@ void writeSide(const std::string& folder, const View& view, const std::vector<co
       std::array<Vector3d, 3> corners;
       for (size_t c = 0; c < 3; ++c)
         corners[c] = scale * (turn * organs[n]->positions_m[t[c]].cast<double>() - middle) + shift;
-      // y goes down in the picture: what faces the viewer turns clockwise there
+      // y points down in the image, so front faces are clockwise there
       const Vector3d normal = (corners[2] - corners[0]).cross(corners[1] - corners[0]).normalized();
       canvas.triangle(corners, colorOf(n, kAmbient + (1 - kAmbient) * std::abs(normal.z())));
     }
@@ -68,14 +68,14 @@ void writeSide(const std::string& folder, const View& view, const std::vector<co
   canvas.write(folder + "/" + view.name + ".png");
 }
 
-/// A slice as a picture: which of the volume's axes goes right and which up, and whether the other way round.
+/// A slice as an image: which axes of the volume point right and up, and whether they are reversed.
 struct SliceView {
   View view;
   int axis, right, up;
   bool right_back, up_back;
 };
 
-/// The file's axes as the axes of the body that they are nearest to, all together: [axis] 0 anterior, 1 left, 2 up.
+/// Returns the body axis closest to each of the file's axes, jointly optimal: [axis] 0 anterior, 1 left, 2 up.
 std::array<int, 3> nearestAxes(const Matrix3d& axes) {
   std::array<int, 3> order = {0, 1, 2}, best = order;
   double most = -1;
@@ -102,7 +102,7 @@ SliceView sliceView(const VolumeFrame& frame, const View& view, int normal) {
   return out;
 }
 
-/// Pixels of the places of a slice.
+/// Maps positions to pixels of a slice.
 class SlicePlane {
  public:
   SlicePlane(const ScanSlices& slices, const SliceView& view)
@@ -116,7 +116,7 @@ class SlicePlane {
     const Eigen::Vector2d size = (size_.cast<double>().cwiseProduct(step_) * scale_).array().round().cwiseMax(1.0);
     return {static_cast<int>(size.x()), static_cast<int>(size.y())};
   }
-  /// Of a place along the volume's axes [voxels].
+  /// Returns the pixel of a position along the volume's axes [voxels].
   Eigen::Vector2d pixel(const Vector3d& voxel) const {
     const double right = voxel[view_.right] + 0.5, up = voxel[view_.up] + 0.5;
     return Eigen::Vector2d(view_.right_back ? size_.x() - right : right, view_.up_back ? up : size_.y() - up)
@@ -135,7 +135,7 @@ class SlicePlane {
     return slices_.values[static_cast<size_t>(view_.axis)]
                          [fast + static_cast<size_t>(right_first ? size_.x() : size_.y()) * slow];
   }
-  /// Draws where a surface crosses the slice.
+  /// Draws the intersection of a surface with the slice.
   void outline(const TriangleMesh& mesh, const Vector3d& moved_m, const Rgb& color, PreviewCanvas& canvas) const {
     const Matrix3d inverse = slices_.frame.axes.inverse();
     for (const auto& t : mesh.triangles) {
@@ -157,10 +157,10 @@ class SlicePlane {
   const SliceView& view_;
   Eigen::Vector2i size_;
   Eigen::Vector2d step_;
-  double scale_;  ///< pixels a metre
+  double scale_;  ///< pixels per metre
 };
 
-/// Values that are black and white.
+/// Returns the values that become black and white.
 std::array<float, 2> greyRange(const ScanSlices& slices) {
   std::vector<float> all;
   for (const std::vector<float>& values : slices.values)
@@ -175,7 +175,7 @@ std::array<float, 2> greyRange(const ScanSlices& slices) {
   return {low, high > low ? high : low + 1};
 }
 
-/// The faces of a lattice's cells behind which there is none.
+/// Returns the outer faces of a lattice's cells.
 TriangleMesh outerFaces(const Solid& solid) {
   TriangleMesh mesh;
   const auto corner = [&](const Vector3i& node) {
@@ -305,7 +305,7 @@ void writePreviews(const std::string& folder, const std::vector<const TriangleMe
     try {
       cells.push_back(outerFaces(makeTissue(body, scene.folder)->fill(body.spacing_m, {}).solid));
     } catch (const Error& error) {
-      notes.push_back(body.name + " has no lattice: " + error.what());
+      notes.push_back(body.name + " has no lattice in the previews: " + error.what());
     }
   }
   writeSlices(folder, slices, organs, cells, scene.bodies.at(0).position_m);

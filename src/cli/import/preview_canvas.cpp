@@ -11,12 +11,12 @@
 namespace viscera::cli {
 namespace {
 
-constexpr int kLetterWidth = 5, kLetterHeight = 7;  ///< dots
-constexpr int kDot = 2;                             ///< pixels
-constexpr int kFromEdge = 6;                        ///< pixels
+constexpr int kLetterWidth = 5, kLetterHeight = 7;  ///< [dots]
+constexpr int kDot = 2;                             ///< [pixels]
+constexpr int kFromEdge = 6;                        ///< [pixels]
 constexpr Rgb kLetterColor = {255, 255, 255};
 
-/// Rows of a letter from the top, the leftmost dot in the highest of five bits.
+/// Returns the rows of a letter from the top, with the leftmost dot in the highest of five bits.
 std::array<uint8_t, kLetterHeight> rowsOf(char name) {
   switch (name) {
     case 'A':
@@ -30,7 +30,7 @@ std::array<uint8_t, kLetterHeight> rowsOf(char name) {
     case 'S':
       return {15, 16, 16, 14, 1, 1, 30};
     default:
-      return {14, 4, 4, 4, 4, 4, 14};  // I
+      return {14, 4, 4, 4, 4, 4, 14};  // for I
   }
 }
 

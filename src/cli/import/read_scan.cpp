@@ -17,13 +17,13 @@ ReadScan inWindow(const ImportOptions& options, Stages& stages) {
   LabelVolume& map = read.map;
   map = windowed(*openScan(options.scan, options.labels), options.window, &report);
   map.names = {{0, ""}, {1, "window"}};
-  stages.end();  // its line
+  stages.end();  // ends the line of progress
   std::cout << "values: " << report.least << " to " << report.largest << "; " << report.in_window
-            << " voxels in the window, " << report.at_border << " of them at the scan's border, " << report.not_numbers
-            << " no numbers\npieces: " << report.pieces << ", kept " << report.kept << ": " << report.kept_cm3
-            << " cm3, holes filled " << report.filled_cm3 << " cm3; largest [cm3]:";
+            << " voxels in the window, " << report.at_border << " of them at the border of the scan, "
+            << report.not_numbers << " not numbers\npieces: " << report.pieces << ", kept " << report.kept << ": "
+            << report.kept_cm3 << " cm3, holes filled " << report.filled_cm3 << " cm3; largest [cm3]:";
   for (const double cm3 : report.largest_cm3) std::cout << ' ' << cm3;
-  std::cout << "\nThis is no segmentation: what has the same values and touches came along (docs/scans.md).\n";
+  std::cout << "\nThis is not a segmentation: connected tissue with the same values is included (docs/scans.md).\n";
   stages.begin("reading values at borders");
   const std::unique_ptr<ScanSource> source = openScan(options.scan, options.labels);
   const Vector3i middle = middleOf(map).cast<int>() + report.first;
@@ -33,7 +33,7 @@ ReadScan inWindow(const ImportOptions& options, Stages& stages) {
   return read;
 }
 
-/// A map that was made finer has stairs of so many voxels, which no net of its borders smooths.
+/// Undoes upsampling: an upsampled map has steps of several voxels, which surface nets do not smooth.
 void takeRepeats(LabelVolume& map, const ImportOptions& options, std::vector<std::string>& notes) {
   const std::array<Repeats, 3> repeats = repeatsOf(map);
   std::string along;
@@ -41,10 +41,10 @@ void takeRepeats(LabelVolume& map, const ImportOptions& options, std::vector<std
     if (repeats[axis].times > 1)
       along += (along.empty() ? "" : ", ") + std::to_string(repeats[axis].times) + " along " + "ijk"[axis];
   if (along.empty()) return;
-  notes.push_back(
-      options.scan + ": its labels change every few voxels only (" + along +
-      "): it was made finer without more detail; " +
-      (options.smooth ? "read as it was before" : "--smooth reads it as it was before, for smooth surfaces"));
+  notes.push_back(options.scan + ": its labels change only every few voxels (" + along +
+                  "): it was resampled to a finer grid; " +
+                  (options.smooth ? "read at its original resolution"
+                                  : "--smooth reads it at its original resolution, for smooth surfaces"));
   if (options.smooth) map = withoutRepeats(map, repeats);
 }
 
@@ -60,21 +60,23 @@ ReadScan byLabels(const ImportOptions& options, Stages& stages, std::vector<std:
     of_grey.series.clear();
     const VolumeFrame& frame = read.map.frame;
     read.slices = slicesAt(*openScan(options.grey, of_grey), frame.axes * middleOf(read.map) + frame.origin);
-    if (read.slices.empty()) notes.push_back(options.grey + ": the labels' middle is not in it: previews are without");
+    if (read.slices.empty())
+      notes.push_back(options.grey + ": does not contain the centre of the labels; previews do not show it");
   }
   if (read.slices.empty()) read.slices = slicesOf(read.map);
   return read;
 }
 
-/// Before surfaces are made, which takes longest. @throws SceneError  a scene cannot hold organs that are so far away
+/// Checks the position before surfaces are computed, which takes longest.
+/// @throws SceneError  the organs are too far away for a scene
 void requireNear(const VolumeFrame& frame, const std::string& scan) {
-  constexpr double kFarthest_m = 10;  // as bodies[].position_m
+  constexpr double kFarthest_m = 10;  // as for bodies[].position_m
   const Vector3d last = (frame.size.array() - 1).matrix().cast<double>();
   const Vector3d middle_m = frame.axes * (0.5 * last) + frame.origin;
   if (middle_m.cwiseAbs().maxCoeff() <= kFarthest_m) return;
   std::ostringstream out;
-  out << scan << ": its middle is at " << middle_m.x() << ", " << middle_m.y() << ", " << middle_m.z()
-      << " m; accepted: within " << kFarthest_m << " m of its origin: set the offset of its sform, its qform or its "
+  out << scan << ": its centre is at " << middle_m.x() << ", " << middle_m.y() << ", " << middle_m.z()
+      << " m; accepted: within " << kFarthest_m << " m of the origin. Set the offset of its sform, its qform or its "
       << "space origin to 0";
   throw SceneError(out.str());
 }

@@ -14,17 +14,17 @@
 
 namespace viscera::cli {
 
-/// What is read of a scan: who is where, and what is beside it.
+/// The data read from a scan: labels, slices and values.
 struct ReadScan {
   LabelVolume map;
-  ScanSlices slices;                     ///< none: no previews are wanted
-  std::unique_ptr<BorderValues> values;  ///< null: not by a window
+  ScanSlices slices;                     ///< slices for previews; empty: no previews
+  std::unique_ptr<BorderValues> values;  ///< values for a window; null: no window
 };
 
-/// Prints what a window came to. @param notes  get what is odd and no mistake
+/// Reads a scan and prints the result of a window. @param notes  receives what is unusual but not an error
 ReadScan readScan(const ImportOptions& options, Stages& stages, std::vector<std::string>& notes);
 
-/// Surfaces: where values cross the window, where there is one.
+/// Returns the surfaces. With a window, they are where values cross it.
 SurfaceNet netOf(const ReadScan& read, const WindowOptions& window);
 
 }  // namespace viscera::cli

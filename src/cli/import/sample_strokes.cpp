@@ -12,15 +12,15 @@
 namespace viscera::cli {
 namespace {
 
-constexpr double kUsualOrgan_m = 0.1;  ///< of an organ that hands' ways are written for
+constexpr double kUsualOrgan_m = 0.1;  ///< size of the organ for which the motions are written [m]
 
-/// From where hands come, the best first: as the scene's first camera looks; what holds an organ is behind it.
+/// Directions from which tools come, the best first: that of the scene's first camera. An organ is fixed at its back.
 const Vector3d kWays[] = {{1, 0.35, 0.3}, {1, 0, 0.6},    {1, -0.35, 0.3}, {0.5, 0, 1},
                           {0.3, 1, 0.2},  {0.3, -1, 0.2}, {0.5, 0, -1}};
-constexpr double kFacing = 0.85;  ///< cosine between where a place faces and where the hand is, at least
-constexpr size_t kTries = 12;     ///< places that are looked at from each way
+constexpr double kFacing = 0.85;  ///< least cosine between a surface normal and the tool's direction
+constexpr size_t kTries = 12;     ///< number of positions that are tried for each direction
 
-/// Whether a mesh is met on the way from a place outward.
+/// Returns whether a ray from a position hits a mesh.
 bool hides(const TriangleMesh& mesh, const Vector3d& place, const Vector3d& way) {
   return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const std::array<uint32_t, 3>& t) {
     Matrix3d m;  // place + s way = a + u (b - a) + v (c - a)
@@ -33,8 +33,8 @@ bool hides(const TriangleMesh& mesh, const Vector3d& place, const Vector3d& way)
   });
 }
 
-/// Places of an organ that face a way, the nearest to its middle as seen from there first.
-/// @param without  [triangles] that are no such place
+/// Returns positions of an organ that face a direction, sorted by distance from its centre as seen from there.
+/// @param without  [triangles] that are excluded
 std::vector<Vector3d> facing(const TriangleMesh& mesh, const std::vector<bool>& without, const Eigen::AlignedBox3d& box,
                              const Vector3d& way) {
   std::vector<std::pair<double, Vector3d>> found;
@@ -52,19 +52,19 @@ std::vector<Vector3d> facing(const TriangleMesh& mesh, const std::vector<bool>& 
   return places;
 }
 
-/// A place and the way out of the organ there.
+/// A position and the outward direction there.
 struct Place {
   Vector3d at_m, outward;
 };
 
-/// One that can move and is past all organs, if there is such a place; else one that is past all organs.
+/// Returns a position that can move and is not hidden by organs, if there is one; otherwise one that is not hidden.
 Place placeOn(const std::vector<const TriangleMesh*>& organs, const TriangleMesh& organ,
               const std::vector<bool>& is_held, const Eigen::AlignedBox3d& box) {
   for (const std::vector<bool>& without : {is_held, std::vector<bool>(is_held.size(), false)}) {
     for (const Vector3d& way : kWays) {
       const Vector3d outward = way.normalized();
       for (const Vector3d& place : facing(organ, without, box, outward)) {
-        const Vector3d clear = place + 1e-3 * box.sizes().norm() * outward;  // of the organ's own face
+        const Vector3d clear = place + 1e-3 * box.sizes().norm() * outward;  // clear of the organ's own triangle
         const auto isHidden = [&](const TriangleMesh* other) { return hides(*other, clear, outward); };
         if (std::none_of(organs.begin(), organs.end(), isHidden)) return {place, outward};
       }
@@ -80,18 +80,17 @@ std::string list(const Vector3d& v) {
   return out.str();
 }
 
-/// Keys in millimetres at an organ of the usual length, in the anchor's frame: x right, y up, z towards the hand.
+/// Key in millimetres for an organ of the usual size, in the anchor's frame: x right, y up, z towards the user.
 struct Key {
   double t_s;
   Vector3d at_mm;
   const char* buttons;
-  const char* turned = "";  ///< how the tool is held from here on; empty: as before
+  const char* turned = "";  ///< rotation of the tool from here on; empty: unchanged
 };
 
 constexpr const char* kGrab = ", button1: true";
 constexpr const char* kCut = ", button2: true";
-// Handles lead aside, so that a camera that looks along them sees what the tips do; a blade stays in the plane of its
-// cut.
+// Shafts point aside, so that a camera looking along them sees the tips; a blade stays in the plane of its cut.
 constexpr const char* kToTheLeft = "[0, -50, 0]";
 constexpr const char* kToTheRight = "[0, 50, 0]";
 constexpr const char* kUpwards = "[-40, 0, 0]";

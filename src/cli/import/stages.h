@@ -7,8 +7,8 @@
 
 namespace viscera::cli {
 
-/// Stages of long work: the present one and how far it is, in one line of a terminal, nothing where standard error is
-/// no terminal; and how long each took.
+/// Shows the progress of long work: the current stage and its percentage in one line of a terminal, nothing if standard
+/// error is not a terminal. Also measures the duration of each stage.
 class Stages {
  public:
   Stages();
@@ -17,8 +17,8 @@ class Stages {
   Stages& operator=(const Stages&) = delete;
 
   void begin(const std::string& name);
-  void at(double share);  ///< of the present stage, 0 .. 1
-  std::string end();      ///< as in "reading 0.4 s, surfaces 1.2 s"
+  void at(double share);  ///< progress of the current stage, 0 .. 1
+  std::string end();      ///< durations, as in "reading 0.4 s, surfaces 1.2 s"
 
  private:
   void show(const std::string& text);

@@ -8,7 +8,7 @@
 
 namespace viscera {
 
-/// @param visit  (slot) of each node of a body that has mass, ascending
+/// Calls visit(slot) for each node of a body that has mass, in ascending order.
 template <class Visit>
 void forEachNode(const Body& body, const Visit& visit) {
   if (!body.network) {
@@ -19,12 +19,12 @@ void forEachNode(const Body& body, const Visit& visit) {
     if (body.network->masses_kg[slot] > 0) visit(slot);
 }
 
-/// Has it springs of its own, which follow no lattice?
+/// Returns whether the body has springs of its own that follow no lattice.
 inline bool hasOwnNetwork(const Body& body) {
   return !body.hasCells();
 }
 
-/// How long springs are, where they are longest [m]: the spacing of lattices, mean lengths of other networks.
+/// Returns the length of springs where they are longest [m]: the spacing of lattices, mean lengths of other networks.
 inline double longestSpacing(const Model& model) {
   double out = 0;
   for (const Body& body : model.bodies)

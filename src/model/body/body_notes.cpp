@@ -11,7 +11,7 @@
 namespace viscera {
 namespace {
 
-/// Sizes of the pieces that springs hold together, largest first.
+/// Returns the sizes of the pieces that springs connect, largest first.
 /// @param for_each_neighbor  (slot, visit) calls visit(neighbour) for the other end of every spring of a node
 template <class ForEachNeighbor>
 std::vector<size_t> pieces(const Lattice& lattice, ForEachNeighbor for_each_neighbor) {
@@ -57,7 +57,7 @@ std::string latticeNote(const Lattice& lattice, size_t fixed_nodes) {
   out << "lattice: " << lattice.active_slots.size() << " nodes (" << fixed_nodes << " fixed), " << lattice.springs()
       << " springs, spacing " << lattice.spacing_m * 1e3 << " mm";
   if (lattice.fills.empty()) return out.str();
-  out << ", " << lattice.fills.size() << " cells tissue in part";
+  out << ", " << lattice.fills.size() << " partly filled cells";
   return out.str();
 }
 
@@ -79,8 +79,8 @@ std::string linksNote(const SpringNetwork& network) {
   const auto bending = std::count_if(network.springs.begin(), network.springs.end(),
                                      [](const NetworkSpring& spring) { return spring.against_bending; });
   TextOut out;
-  out << "explicit: its springs as " << 2 * network.springs.size() << " links, " << bending
-      << " springs against bending among them";
+  out << "explicit: its springs stored as " << 2 * network.springs.size() << " links, " << bending
+      << " of its springs resist bending";
   return out.str();
 }
 
@@ -88,13 +88,13 @@ std::string piecesNote(const Body& body) {
   const std::vector<size_t> sizes = body.network ? pieces(*body.network, body.lattice) : pieces(body.lattice);
   if (sizes.size() < 2) return "";
   TextOut out;
-  out << "the " << (!body.hasCells() ? "network" : "lattice") << " falls into " << sizes.size()
-      << " pieces; the largest has " << sizes[0] << " nodes, the next " << sizes[1];
+  out << "the " << (!body.hasCells() ? "network" : "lattice") << " consists of " << sizes.size()
+      << " separate pieces; the largest has " << sizes[0] << " nodes, the next " << sizes[1];
   return out.str();
 }
 
 std::string wallsNote(const std::vector<Wall>& walls, double spacing_m) {
-  constexpr double kNoise = 1 + 1e-6;  // of a spacing that is meant to be as large as a wall
+  constexpr double kNoise = 1 + 1e-6;  // tolerance for a spacing that is meant to equal a wall's thickness
   TextOut out;
   out.precision(3);
   for (const Wall& wall : walls) {
@@ -102,8 +102,8 @@ std::string wallsNote(const std::vector<Wall>& walls, double spacing_m) {
       out << (out.tellp() > 0 ? ", " : "") << wall.part << " " << wall.thickness_m * 1e3 << " mm";
   }
   if (out.tellp() <= 0) return "";
-  out << ": walls thinner than a cell of " << spacing_m * 1e3 << " mm, they have holes before anything touches them; "
-      << "a spacing_m of " << walls.front().thickness_m << " or less leaves none";
+  out << ": walls thinner than a cell of " << spacing_m * 1e3 << " mm, so they have holes from the start; "
+      << "use a spacing_m of at most " << walls.front().thickness_m;
   return out.str();
 }
 
@@ -111,19 +111,19 @@ std::string laminatesNote(const Body& body) {
   const CellLaminates laminates = cellLaminates(body);
   if (laminates.cells.empty() && laminates.others == 0) return "";
   TextOut out;
-  out << "borders of parts: " << laminates.cells.size() << " cells of two materials";
+  out << "borders between parts: " << laminates.cells.size() << " cells of two materials";
   if (laminates.others > 0)
     out << ", " << laminates.others
-        << " of three or more or without a plane between them, which have the mean stiffness";
+        << " of three or more materials, or without a plane between them, have the mean stiffness";
   return out.str();
 }
 
 std::string skinNote(const Skin& skin) {
   TextOut out;
   out << "skin: " << skin.mesh.triangles.size() << " faces, " << skin.mesh.positions_m.size() << " vertices ("
-      << skin.deep_vertices << " inside the tissue, " << skin.bridges_removed << " faces across gaps left out)";
+      << skin.deep_vertices << " inside the tissue, " << skin.bridges_removed << " faces across gaps removed)";
   if (skin.constant_vertices > 0)
-    out << "; " << skin.constant_vertices << " vertices without clear normals have the constant mapping";
+    out << "; " << skin.constant_vertices << " vertices without a clear normal use the constant mapping";
   return out.str();
 }
 

@@ -10,14 +10,14 @@
 
 namespace viscera {
 
-// What the preparation of a body came to: one line each, for a person.
+// Results of the preparation of a body: one line each, for a person.
 
 std::string latticeNote(const Lattice& lattice, size_t fixed_nodes);
 std::string networkNote(const Body& body, size_t fixed_nodes);
-std::string linksNote(const SpringNetwork& network);                      ///< of an explicit lattice
+std::string linksNote(const SpringNetwork& network);                      ///< for an explicit lattice
 std::string piecesNote(const Body& body);                                 ///< empty: one piece
-std::string wallsNote(const std::vector<Wall>& walls, double spacing_m);  ///< empty: none is thinner than a cell
-std::string laminatesNote(const Body& body);                              ///< empty: no cell is of two materials
+std::string wallsNote(const std::vector<Wall>& walls, double spacing_m);  ///< empty: no wall is thinner than a cell
+std::string laminatesNote(const Body& body);                              ///< empty: no cell has two materials
 std::string skinNote(const Skin& skin);
 
 }  // namespace viscera

@@ -8,11 +8,11 @@ namespace viscera {
 
 namespace {
 
-/// Distance between the centroids of two layers below which their plane has no direction, in cells: layers that meet in
-/// a plane are half a cell apart, but for slivers.
+/// Distance between the centroids of two layers, in cells, below which their plane has no direction. Layers that meet
+/// in a plane are half a cell apart, except for slivers.
 constexpr double kLeastDistance = 0.02;
 
-/// One material of a cell: how much of it there is, and where.
+/// One material of a cell: its amount and position.
 struct Layer {
   const Elasticity* material;
   uint16_t label;

@@ -19,7 +19,8 @@ namespace viscera {
 
 namespace {
 
-constexpr double kElsewhere = 0.9;  // share of the skin that a mesh may miss before it is a mesh of something else
+// Share of the surface that a mesh may miss before it counts as a mesh of something else.
+constexpr double kElsewhere = 0.9;
 
 TriangleMesh readDetail(const std::string& path, const DetailWanted& wanted, std::vector<std::string>& notes) {
   const BodyConfig& config = wanted.config;
@@ -41,14 +42,14 @@ bool anyMaterial(const TriangleMesh& mesh, bool textured) {
   });
 }
 
-/// A skin with too many faces for detail_px takes more. @return side of its square [px]
+/// Returns the side of the texture's square [px]; a surface with too many faces for detail_px gets a larger one.
 int neededSide(size_t faces, int detail_px, std::vector<std::string>& notes) {
-  constexpr int kMost_px = 16384;  // detail_px at most
+  constexpr int kMost_px = 16384;  // largest detail_px
   const int needed_px = std::min(DetailAtlas::leastSide(faces), kMost_px);
   if (needed_px <= detail_px) return detail_px;
   const std::string side = std::to_string(needed_px);
-  notes.push_back("skin: " + std::to_string(faces) + " faces have their detail in " + side + " x " + side +
-                  " texels, more than detail_px");
+  notes.push_back("skin: " + std::to_string(faces) + " faces need a detail texture of " + side + " x " + side +
+                  " texels, which is larger than detail_px");
   return needed_px;
 }
 
@@ -65,7 +66,7 @@ TriangleMesh detailedSurface(TriangleMesh surface, const DetailWanted& wanted, s
   }
   requireSkinSize(skin, wanted.longest_edge_m, config.import_limits.max_triangles);
   if (!fewer && config.detail_mesh.empty() && !wanted.paint.paint) return skin;
-  // Refined before it is baked: the shading normals between its vertices are those that will be bound.
+  // Refine before baking: the shading normals between its vertices are then those that will be bound.
   skin = refine(skin, wanted.longest_edge_m);
   if (!fewer && config.detail_mesh.empty()) {
     return paintDetail(skin, wanted.paint, neededSide(skin.triangles.size(), config.detail_px, notes), progress);
@@ -78,9 +79,10 @@ TriangleMesh detailedSurface(TriangleMesh surface, const DetailWanted& wanted, s
   const int side_px = neededSide(skin.triangles.size(), config.detail_px, notes);
   TriangleMesh baked = bakeDetail({skin, detailed, anyMaterial(detailed, own), side_px}, &report, progress);
   if (report.uncovered_share > kElsewhere) {
-    throw MeshError("detail_mesh '" + path + "' lies elsewhere: it is not near " +
+    throw MeshError("detail_mesh '" + path + "' does not cover the skin: it is not near " +
                     std::to_string(static_cast<int>(100 * report.uncovered_share)) +
-                    " % of the skin; it is placed as mesh_file is, with unit_scale_m, up_axis and the body's pose");
+                    " % of it. Export it in the frame and unit of mesh_file: unit_scale_m, up_axis and the body's pose "
+                    "apply to both");
   }
   notes.push_back(report.text());
   return baked;

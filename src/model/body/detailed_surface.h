@@ -12,19 +12,19 @@
 
 namespace viscera {
 
-/// What a surface is to be detailed with.
+/// Detail for a surface.
 struct DetailWanted {
   const BodyConfig& config;
-  const std::string& folder;  ///< where a relative detail_mesh is looked up
+  const std::string& folder;  ///< folder for a relative detail_mesh
   Pose file_pose;             ///< Tissue::file_pose
-  double longest_edge_m;      ///< of the skin: the lattice's spacing
-  PlacedPaint paint;          ///< Tissue::paint(), where there is no other detail
+  double longest_edge_m;      ///< longest edge of the surface mesh [m]: the lattice's spacing
+  PlacedPaint paint;          ///< Tissue::paint(), used where there is no other detail
 };
 
-/// The surface, with fewer faces and refined as its lattice wants it, and what it or a finer mesh had of shape and
-/// colour baked onto it (docs/detail.md).
-/// @param notes  gets a line of what was done
-/// @throws MeshError  a detail mesh that cannot be read, or that lies elsewhere; too many faces for detail_px
+/// Returns the surface with fewer faces, refined to the lattice's spacing. The shape and colour that it or a finer mesh
+/// had are baked onto it (docs/surface.md).
+/// @param notes  gets a line on what was done
+/// @throws MeshError  a detail mesh that cannot be read, or that is elsewhere; too many faces for detail_px
 /// @throws LatticeError  as requireSkinSize()
 TriangleMesh detailedSurface(TriangleMesh surface, const DetailWanted& wanted, std::vector<std::string>& notes,
                              const Progress& progress = {});

@@ -13,13 +13,13 @@ namespace viscera {
 
 namespace {
 
-/// Of a cell of which `share` is tissue.
+/// Returns the constants of a cell with this share of tissue.
 Elasticity scaled(const Elasticity& e, double share) {
   return {share * e.spring_n_per_m, share * e.bulk_j, share * e.rigidity_j, share * e.cell_mass_kg};
 }
 
-/// (slot, full cell) in place of that of the cell's part where a cell shares materials: the energy of a cell is an
-/// integral, so it is their mean by volume.
+/// Returns (slot, full cell) for cells that share materials, in place of the constants of the cell's part. The energy
+/// of a cell is an integral, so these are the means by volume.
 std::vector<std::pair<size_t, Elasticity>> mixtures(const Lattice& lattice, const std::vector<Elasticity>& by_label) {
   std::vector<std::pair<size_t, Elasticity>> out;
   forEachMixedCell(lattice, by_label, [&](size_t first, size_t last) {
@@ -58,7 +58,7 @@ void addCell(const Lattice& lattice, uint32_t lowest, const Elasticity& e, Sums&
   });
 }
 
-/// VR05's uniform weights: what the cells around give on average, at the full count of an inner spring or node.
+/// Applies VR05's uniform weights: the average over the cells around, at the full count of an inner spring or node.
 void makeUniform(Sums& sums) {
   for (size_t i = 0; i < sums.spring.size(); ++i) {
     const double full = i % kSpringPairs < layout::kAxialSprings / 2 ? 4 : 2;
@@ -134,7 +134,7 @@ Strengths strengths(const Body& body) {
 
 namespace {
 
-/// Makes the moments of cells that share materials those of their tissue, weighed by its rigidity.
+/// Replaces the moments of cells that share materials by those of their tissue, weighted by its rigidity.
 void weighShared(const Body& body, CellMoments& out) {
   const Lattice& lattice = body.lattice;
   const std::vector<Elasticity> by_label = elasticityByLabel(body);
@@ -155,11 +155,12 @@ void weighShared(const Body& body, CellMoments& out) {
   });
 }
 
-/// Share below which a cell is a sliver, and what its second moments are raised by at most, over those of a full cell.
+/// Share below which a cell is a sliver, and the largest increase of its second moments, over those of a full cell.
 constexpr double kSliver = 0.2, kLeastMoment = 0.1;
 
-/// Nodes that slivers alone hold bend and twist with next to nothing, and would fall out of the tissue: a cell of a
-/// hyperelastic law has second moments about its centroid of a little. Its share keeps that from being felt.
+/// Raises the second moments of slivers. Nodes that only slivers hold bend and twist with almost no resistance and
+/// would fall out of the tissue. A cell of a hyperelastic law therefore gets small second moments about its centroid;
+/// its small share keeps their effect negligible.
 void raiseSlivers(std::vector<CellFill>& fills) {
   for (CellFill& fill : fills) {
     const double lacks = std::max(0.0, 1 - fill.share / kSliver);

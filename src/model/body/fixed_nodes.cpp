@@ -16,11 +16,11 @@
 namespace viscera {
 namespace {
 
-constexpr double kOnBorder = 1e-6;      ///< of a cell: rounding of the pose
-constexpr double kNearest = 0.5;        ///< of a cell; see fixNodes()
-constexpr double kOnMeshBorder = 1e-4;  ///< of a spring: rounding of single-precision meshes
+constexpr double kOnBorder = 1e-6;      ///< in cells: rounding of the pose
+constexpr double kNearest = 0.5;        ///< in cells; see fixNodes()
+constexpr double kOnMeshBorder = 1e-4;  ///< in springs: rounding of single-precision meshes
 
-/// How far outside of a shape nodes are still held, in springs.
+/// Returns how far outside a shape nodes are still fixed, in springs.
 double slackOf(const BodyConfig& config) {
   if (isNetwork(config.structure)) return kOnMeshBorder;
   return fillsInPart(config) ? kNearest - kOnBorder : kOnBorder;
@@ -28,7 +28,7 @@ double slackOf(const BodyConfig& config) {
 
 using Holds = std::function<bool(const Vector3d& point_m)>;
 
-/// Whether a shape holds a point of the body's frame.
+/// Returns a test whether a shape contains a point of the body's frame.
 Holds shapeOf(const FixedConfig& fixed, double slack_m) {
   switch (fixed.shape) {
     case FixedShape::kBox:
@@ -43,10 +43,10 @@ Holds shapeOf(const FixedConfig& fixed, double slack_m) {
   }
 }
 
-/// How a node is held: its slot is in a shape's reach, and why it stays so.
+/// State of a node: outside all shapes, in a shape's reach, on a face that tissue does not reach, or fixed for certain.
 enum class Hold : uint8_t { kNone, kInShape, kOnFace, kFirm };
 
-/// @return  how many nodes of `slots` there are
+/// Raises the state of `slots` to `how`. @return  number of slots
 size_t hold(const std::vector<uint32_t>& slots, Hold how, std::vector<Hold>& holds) {
   for (const uint32_t slot : slots) holds[slot] = std::max(holds[slot], how);
   return slots.size();
@@ -60,10 +60,10 @@ size_t holdShape(const Holds& in_shape, const Pose& to_body, const Body& body, s
   return hold(held, Hold::kInShape, holds);
 }
 
-/// Does a cell's tissue reach its face on a side of an axis? As the slab with its mean and variance along the axis
-/// does.
+/// Returns whether a cell's tissue reaches its face on one side of an axis, judged by the slab with the same mean and
+/// variance along the axis.
 bool reaches(const CellFill& fill, int axis, int side) {
-  constexpr double kNear = 0.15;  // of a cell: what a wedge's slab lacks of its edge
+  constexpr double kNear = 0.15;  // in cells: margin for a wedge, as its slab ends before its edge
   const double mean = fill.first[axis] / fill.share, spread = fill.second(axis, axis) / fill.share - mean * mean;
   return side * mean + std::sqrt(3 * std::max(0.0, spread)) > 0.5 - kNear;
 }
@@ -82,8 +82,8 @@ void forEachFace(const std::array<uint32_t, 8>& corners, Visit visit) {
   }
 }
 
-/// Lets go of nodes on the border of what shapes hold where no tissue reaches the faces between them: tissue that ends
-/// in a cell of its own beside them would hang at what is not there. Where that would leave none, all stay.
+/// Frees nodes on the border of the fixed set where no tissue reaches the faces between them. Otherwise tissue that
+/// ends in a neighbouring cell would be attached where there is nothing. If no node would remain, all stay fixed.
 void letGoBesideTissue(const Lattice& lattice, std::vector<Hold>& holds) {
   const auto is_held = [&](uint32_t slot) { return holds[slot] != Hold::kNone; };
   const auto firmly = [&](auto& slots) { hold({slots.begin(), slots.end()}, Hold::kFirm, holds); };

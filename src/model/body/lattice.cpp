@@ -21,7 +21,7 @@ uint32_t slotInBrick(const Vector3i& node) {
   return static_cast<uint32_t>((node.x() % kEdge) + kEdge * ((node.y() % kEdge) + kEdge * (node.z() % kEdge)));
 }
 
-/// Where the node at integer coordinates is stored, whether or not there is one; -1 where there is no brick.
+/// Returns the slot for integer coordinates, with or without a node there; -1 where there is no brick.
 int64_t storedAt(const Lattice& lattice, const Vector3i& node) {
   if ((node.array() < 0).any() || (node.array() >= lattice.nodes_per_axis.array()).any()) return -1;
   const auto brick = lattice.brick_index.find(brickKey(node / kEdge));
@@ -29,7 +29,7 @@ int64_t storedAt(const Lattice& lattice, const Vector3i& node) {
   return static_cast<int64_t>(brick->second) * layout::kBrickSlots + slotInBrick(node);
 }
 
-/// Corner c of a cell, c = 0..7, bit per axis.
+/// Returns corner c of a cell, c = 0..7, one bit per axis.
 Vector3i corner(int c) {
   return {c & 1, (c >> 1) & 1, (c >> 2) & 1};
 }
@@ -78,8 +78,8 @@ void linkBricks(Lattice& lattice) {
   }
 }
 
-/// One solid cell adds a quarter to its 12 edges, a half to its 12 face diagonals, an eighth to its 8 nodes.
-/// @param fill  null where it is tissue all through
+/// Adds one solid cell: a quarter to its 12 edges, a half to its 12 face diagonals, an eighth to its 8 nodes.
+/// @param fill  null where the cell is full
 void addCell(const Solid& solid, const Vector3i& cell, const CellFill* fill, Lattice& lattice) {
   const uint16_t label = solid.label(cell.x(), cell.y(), cell.z());
   const uint32_t lowest = static_cast<uint32_t>(storedAt(lattice, cell));
@@ -97,7 +97,7 @@ void addCell(const Solid& solid, const Vector3i& cell, const CellFill* fill, Lat
     if (!lattice.labels[slot]) lattice.labels[slot] = label;
     for (int b = 0; b < 8; ++b) {
       const int spring = springIndex(corner(b) - corner(a));
-      if (spring < 0) continue;  // a node itself, or the body diagonal
+      if (spring < 0) continue;  // the same node, or the body diagonal
       const uint32_t s = static_cast<uint32_t>(spring);
       setSpringCount(bits, s, springCount(bits, s) + 1);
     }
@@ -119,15 +119,15 @@ void setShared(const Solid& solid, Lattice& lattice) {
 void setDepths(const Solid& solid, Lattice& lattice) {
   const auto deepest = static_cast<float>(lattice.spacing_m);
   lattice.depth_m.assign(lattice.nodes.size(), deepest);
-  lattice.way_to_surface_m.assign(lattice.nodes.size(), Eigen::Vector3f::Zero());
+  lattice.offset_to_surface_m.assign(lattice.nodes.size(), Eigen::Vector3f::Zero());
   for (const NodeDepth& n : solid.depths) {
     const auto slot = static_cast<size_t>(storedAt(lattice, n.node));
     lattice.depth_m[slot] = std::min(n.depth_m, deepest);
-    lattice.way_to_surface_m[slot] = n.way_m;
+    lattice.offset_to_surface_m[slot] = n.way_m;
   }
 }
 
-/// VR05's uniform weights: every spring that exists and every node counts in full.
+/// Applies VR05's uniform weights: every spring that exists and every node counts in full.
 void makeUniform(Lattice& lattice) {
   for (uint32_t slot : lattice.active_slots) {
     layout::NodeBits& bits = lattice.nodes[slot];
@@ -181,7 +181,7 @@ Lattice buildLattice(const Solid& solid, Weights weights) {
   lattice.labels.resize(lattice.nodes.size());
   lattice.cell_labels.resize(lattice.nodes.size());
   if (!solid.partial.empty()) lattice.cell_fills.resize(lattice.nodes.size());
-  size_t next = 0;  // of the partial cells, which come in the same order
+  size_t next = 0;  // index of the next partial cell, in the same order
   forEachCell(solid, [&](const Vector3i& cell) {
     const bool partial =
         next < solid.partial.size() && solid.partial[next].cell == solid.index(cell.x(), cell.y(), cell.z());

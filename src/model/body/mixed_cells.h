@@ -15,7 +15,7 @@ inline bool isSame(const Elasticity& a, const Elasticity& b) {
   return a.spring_n_per_m == b.spring_n_per_m && a.bulk_j == b.bulk_j && a.cell_mass_kg == b.cell_mass_kg;
 }
 
-/// Calls visit(first, last) for the parts of every cell that shares materials, indices into Lattice::shared.
+/// Calls visit(first, last) for the parts of every cell with several materials, indices into Lattice::shared.
 /// @param by_label  elasticityByLabel()
 template <class Visit>
 void forEachMixedCell(const Lattice& lattice, const std::vector<Elasticity>& by_label, Visit visit) {

@@ -11,7 +11,7 @@
 namespace viscera {
 namespace {
 
-/// The slots of a mesh's parts, once its vertices have become nodes.
+/// Returns the slots of a mesh's parts after its vertices have become nodes.
 PartNodes partsOf(const TriangleMesh& mesh, const std::vector<uint32_t>& slot_of_vertex) {
   const auto slots = [mesh, slot_of_vertex](uint16_t label) {
     std::vector<uint32_t> out;
@@ -32,12 +32,12 @@ void addMembrane(const BodyConfig& config, const Tissue& tissue, Body& body, Par
   size_t degenerate = 0;
   const SpringNetwork network =
       membraneNetwork(mesh, config.material, config.thickness_m, config.bending_ratio, &degenerate);
-  if (network.triangles.empty()) throw LatticeError("its surface has no triangle with an area");
+  if (network.triangles.empty()) throw LatticeError("all triangles of its surface have zero area");
   const std::vector<uint32_t> slot_of_vertex = adoptNetwork(network, body);
   if (parts) *parts = partsOf(mesh, slot_of_vertex);
   TextOut note;
   note << "surface: " << network.triangles.size() << " triangles as springs, " << config.thickness_m * 1e3
-       << " mm thick; " << degenerate << " without area left out";
+       << " mm thick; " << degenerate << " triangles without area left out";
   body.notes.push_back(note.str());
 }
 
@@ -51,9 +51,9 @@ Body plainBody(const BodyConfig& config) {
   body.parts = config.parts;
   body.color = config.color;
   body.roughness = config.roughness;
-  body.mottling = config.mottling;
-  body.wetness = config.wetness;
-  body.wall_grain = config.wall_grain;
+  body.color_variation = config.color_variation;
+  body.specular_wetness = config.specular_wetness;
+  body.cut_wall_texture = config.cut_wall_texture;
   body.blanching = config.blanching;
   body.layers = config.layers;
   body.force_n = config.force_n;

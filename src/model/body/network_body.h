@@ -7,11 +7,11 @@
 
 namespace viscera {
 
-/// Name, material and colour of a body as configured.
+/// Returns a body with name, material and colour as configured.
 Body plainBody(const BodyConfig& config);
 
-/// A body of structure surface, with notes on how it came about; nothing fixed, no skin.
-/// @param parts  set to the parts of its surface, if wanted
+/// Returns a body of structure surface with notes on its construction; nothing fixed, no surface mesh.
+/// @param parts  set to the parts of its surface, if not null
 /// @throws LatticeError  spacing_m or target_nodes out of reach, no triangle with an area
 Body networkBody(const BodyConfig& config, const Tissue& tissue, const Progress& progress, PartNodes* parts = nullptr);
 

@@ -12,7 +12,7 @@
 namespace viscera {
 namespace {
 
-/// What one triangle gives to one of its edges.
+/// Contribution of one triangle to one of its edges.
 struct EdgeShare {
   uint32_t a, b;  // a < b
   double area_m2;
@@ -47,7 +47,7 @@ NetworkSpring bendingSpring(const SpringNetwork& network, uint32_t a, uint32_t b
   return spring;
 }
 
-/// A spring between the vertices opposite to an edge, for every pair of triangles at it.
+/// Adds a spring between the vertices opposite to an edge, for every pair of triangles at it.
 void addBending(std::vector<EdgeShare>::const_iterator first, std::vector<EdgeShare>::const_iterator last,
                 double stiffness_n_per_m, const SpringNetwork& network, std::vector<NetworkSpring>& bending) {
   for (auto one = first; one != last; ++one) {
@@ -58,7 +58,7 @@ void addBending(std::vector<EdgeShare>::const_iterator first, std::vector<EdgeSh
   }
 }
 
-/// One spring per edge, of k = E t A / l^2.
+/// Adds one spring per edge, of k = E t A / l^2.
 void addSprings(std::vector<EdgeShare> shares, double modulus_n_per_m, double bending_ratio, SpringNetwork& network) {
   std::stable_sort(shares.begin(), shares.end(), before);
   std::vector<NetworkSpring> bending;
@@ -72,7 +72,7 @@ void addSprings(std::vector<EdgeShare> shares, double modulus_n_per_m, double be
     if (bending_ratio > 0) addBending(first, last, bending_ratio * spring.stiffness_n_per_m, network, bending);
     first = last;
   }
-  // Behind the edges: of springs between the same two nodes, the edge's is the first.
+  // Appended after the edges: of springs between the same two nodes, the edge's comes first.
   network.springs.insert(network.springs.end(), bending.begin(), bending.end());
   sortByEnds(network.springs);
 }
@@ -81,7 +81,8 @@ double areaOf(const std::vector<Vector3d>& positions_m, const std::array<uint32_
   return 0.5 * (positions_m[t[1]] - positions_m[t[0]]).cross(positions_m[t[2]] - positions_m[t[0]]).norm();
 }
 
-/// Without area: height over length below which three single-precision points lie on one line.
+/// Returns whether a triangle has no area: below this height over length, three single-precision points are on one
+/// line.
 bool isDegenerate(const std::vector<Vector3d>& positions_m, const std::array<uint32_t, 3>& t) {
   constexpr double kFlat = 1e-7;
   double longest = 0;
@@ -90,7 +91,7 @@ bool isDegenerate(const std::vector<Vector3d>& positions_m, const std::array<uin
   return areaOf(positions_m, t) <= 0.5 * kFlat * longest;
 }
 
-/// Stiffness and mass as the kernels of the implicit lattice have them, in float32.
+/// Stiffness and mass in float32, as the kernels of the implicit lattice compute them.
 class LatticeStrengths {
  public:
   explicit LatticeStrengths(const Body& body) : lattice_(body.lattice), has_parts_(isHeterogeneous(body)) {
@@ -102,7 +103,7 @@ class LatticeStrengths {
     if (has_parts_) table_ = strengths(body);
   }
 
-  /// @param spring  even: the table of parts holds these
+  /// @param spring  even, as in the table of parts
   double springNPerM(uint32_t slot, uint32_t spring) const {
     const auto count = static_cast<float>(springCount(lattice_.nodes[slot], spring));
     const float k = has_parts_ && count > 0 ? table_.spring_n_per_m[slot * kSpringPairs + spring / 2]
@@ -121,7 +122,7 @@ class LatticeStrengths {
   Strengths table_;
 };
 
-/// Which nodes lie in a part that is one cell thick: bit per axis across it.
+/// Returns which nodes are in a region one cell thick: one bit per axis across it.
 std::vector<uint8_t> thinAxes(const Lattice& lattice) {
   std::vector<uint8_t> is_cell(lattice.nodes.size()), thick(lattice.nodes.size());
   for (const uint32_t slot : lattice.active_slots) is_cell[slot] = lattice.nodes[slot].lo & layout::kCellBit ? 1 : 0;
@@ -142,13 +143,13 @@ std::vector<uint8_t> thinAxes(const Lattice& lattice) {
   return thick;
 }
 
-/// Springs of two spacings along sheets of one cell: on from a spring to the next in the same direction.
+/// Adds springs of two spacings along sheets of one cell, each in line with two springs in the same direction.
 void addSheetBending(const Lattice& lattice, const LatticeStrengths& strengths, double bending_ratio,
                      SpringNetwork& network) {
   const std::vector<uint8_t> thin = thinAxes(lattice);
   for (const uint32_t slot : lattice.active_slots) {
     for (uint32_t s = 0; s < layout::kSpringsPerNode; s += 2) {
-      uint8_t across = 0;  // axes that the spring keeps to
+      uint8_t across = 0;  // axes in which the spring has no extent
       for (uint32_t axis = 0; axis < 3; ++axis)
         across |= static_cast<uint8_t>((kNeighborOffsets[s][axis] == 0) << axis);
       const double near_k = strengths.springNPerM(slot, s);
@@ -258,7 +259,7 @@ Lattice slotsOfNetwork(const SpringNetwork& network) {
     if (!(network.masses_kg[slot] > 0)) continue;
     lattice.active_slots.push_back(slot);
     lattice.labels[slot] = 1;
-    lattice.nodes[slot].lo = 1u << layout::kMassShift;  // what says that there is a node
+    lattice.nodes[slot].lo = 1u << layout::kMassShift;  // marks the slot as a node
   }
   for (const NetworkSpring& spring : network.springs) {
     ++lattice.nodes[spring.a].lo;  // the valence, see layout::kValenceMask

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kBitsPerAxis = 20;
 
-/// Bits of the three coordinates, interleaved.
+/// Returns the interleaved bits of the three coordinates.
 uint64_t mortonKey(const Vector3d& fraction) {
   uint64_t key = 0;
   for (int bit = kBitsPerAxis - 1; bit >= 0; --bit) {
@@ -33,7 +33,7 @@ std::vector<uint32_t> mortonOrder(const SpringNetwork& network) {
     if (network.masses_kg[i] > 0) box.extend(network.positions_m[i]);
   }
   std::vector<Keyed> keyed;
-  const double size_m = box.isEmpty() ? 0 : box.sizes().maxCoeff();  // one scale: the curve's cells are cubes
+  const double size_m = box.isEmpty() ? 0 : box.sizes().maxCoeff();  // one scale, so that the curve's cells are cubes
   for (uint32_t i = 0; i < network.positions_m.size(); ++i) {
     if (!(network.masses_kg[i] > 0)) continue;
     const Vector3d fraction = size_m > 0 ? Vector3d((network.positions_m[i] - box.min()) / size_m) : Vector3d::Zero();

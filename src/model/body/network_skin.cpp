@@ -47,7 +47,7 @@ layout::SkinBinding oneToOne(uint32_t slot, const Vector3f& normal) {
   return binding;
 }
 
-/// Some edge has one triangle only.
+/// Returns whether some edge has only one triangle.
 bool hasBorder(const TriangleMesh& mesh) {
   std::vector<Edge> edges;
   for (const auto& triangle : mesh.triangles) {
@@ -62,8 +62,8 @@ bool hasBorder(const TriangleMesh& mesh) {
   return false;
 }
 
-/// Springs are ordered by their ends, and vertices as their slots are.
-/// @return index of the new split edge, or kNoSplitEdge where the ends have no spring of their own
+/// Adds a split edge. Springs are ordered by their ends, and vertices by their slots.
+/// @return index of the new split edge, or kNoSplitEdge where no spring joins the ends
 uint32_t addSplitEdge(const SpringNetwork& network, const Edge& edge, Skin& skin) {
   const auto before = [](const NetworkSpring& spring, const Edge& ends) { return Edge(spring.a, spring.b) < ends; };
   const Edge ends(skin.bound_slots[edge.first], skin.bound_slots[edge.second]);

@@ -7,10 +7,10 @@
 
 namespace viscera {
 
-/// One-to-one skin of a network (EGVE 3.2): a vertex per node of its surface, in the order of their slots, with the
-/// weights (1, 0, 0) of its node. Its mesh has one part.
+/// Returns the one-to-one surface mesh of a network (EGVE 3.2): a vertex per node of its surface, in the order of their
+/// slots, with the weights (1, 0, 0) of its node. Its mesh has one part.
 /// @param can_be_cut  also prepares where triangles split: the edges of the surface that are springs. Where two springs
-///                    join the same two nodes, the first stands for the edge: a blade crosses both.
+///                    join the same two nodes, the first represents the edge: a blade crosses both.
 Skin bindNetworkSkin(const SpringNetwork& network, bool can_be_cut);
 
 }  // namespace viscera

@@ -31,7 +31,8 @@ void bindVertices(const Lattice& lattice, const Solid& solid, Mapping mapping, c
   }
 }
 
-/// [slots] of the nodes: one of the nodes that paths of springs join them with, the same for all of these.
+/// Returns for each slot [slots] a representative of its piece: a node that springs connect to it, the same for the
+/// whole piece.
 std::vector<uint32_t> piecesOf(const Lattice& lattice) {
   constexpr uint32_t kNone = UINT32_MAX;
   std::vector<uint32_t> pieces(lattice.nodes.size(), kNone), reached;

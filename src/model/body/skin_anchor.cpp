@@ -12,14 +12,14 @@ namespace {
 
 // All coordinates here are in cells: point (1.5, 0, 0) is the middle of an edge of cell (1, 0, 0).
 
-/// Distance from its cell up to which a vertex still moves as that one's tissue does, as if it went on.
+/// Distance from a cell up to which a vertex still moves with that cell's tissue, by extrapolation.
 constexpr double kBeside = 0.5;
 
 Vector3i unit(int axis) {
   return Vector3i::Unit(axis);
 }
 
-/// Place on a face that is nearest to a point.
+/// Returns the point of a face that is nearest to a point.
 Vector3d closestOnFace(const Vector3d& point, const Vector3i& cell, int axis, int side) {
   Vector3d low = cell.cast<double>();
   Vector3d high = low + Vector3d::Ones();
@@ -27,8 +27,8 @@ Vector3d closestOnFace(const Vector3d& point, const Vector3i& cell, int axis, in
   return point.cwiseMax(low).cwiseMin(high);
 }
 
-/// The triangle of a face that holds a point of that face. Faces are split along the diagonal between nodes with an
-/// even sum of coordinates, so that the pattern has no preferred direction.
+/// Returns the triangle of a face that contains a point of that face. Faces are split along the diagonal between nodes
+/// with an even sum of coordinates, so that the pattern has no preferred direction.
 Anchor anchorOnFace(const Vector3d& place, const Vector3i& cell, int axis, int side) {
   const Vector3i low = cell + side * unit(axis);
   const Vector3i u = unit((axis + 1) % 3), v = unit((axis + 2) % 3);
@@ -49,7 +49,7 @@ Anchor anchorOnFace(const Vector3d& place, const Vector3i& cell, int axis, int s
   return anchor;
 }
 
-/// Cells between a cell and the grid, along the axis where it is farthest outside; 0 inside.
+/// Returns the number of cells between a cell and the grid, along the axis where it is farthest outside; 0 inside.
 int cellsOutside(const Vector3i& cell, const Vector3i& cells) {
   return (-cell).cwiseMax(cell - cells + Vector3i::Ones()).cwiseMax(Vector3i::Zero()).maxCoeff();
 }
@@ -86,7 +86,7 @@ AnchorFinder::Face AnchorFinder::nearestBoundary(const Vector3d& point, const Ve
       }
     }
   };
-  // Cells of shell r are at least r - 1 away, so the search ends once the best is nearer than that.
+  // Cells of shell r are at least r - 1 away, so the search ends once the best is nearer.
   for (int radius = cellsOutside(home, solid_.cells); best_cost > static_cast<double>(radius - 1) * (radius - 1);
        ++radius) {
     forEachCellOfShell(home, radius, look);

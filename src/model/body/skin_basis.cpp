@@ -8,8 +8,9 @@ namespace viscera {
 
 namespace {
 
-constexpr double kLeastAverage = 0.5;    // length of the averaged normal; below, the three normals disagree
-constexpr double kLeastAgreement = 0.3;  // cosine between averaged and triangle normal; keeps N_c away from T, too
+constexpr double kLeastAverage = 0.5;  // smallest length of the averaged normal; below, the three normals disagree
+// Smallest cosine between averaged and triangle normal; also keeps N_c away from T.
+constexpr double kLeastAgreement = 0.3;
 
 }  // namespace
 

@@ -20,13 +20,13 @@ Vector3d edgeOf(const Anchor& anchor, size_t node) {
   return (anchor.nodes[node] - anchor.nodes[0]).cast<double>();
 }
 
-/// Where a line along the interpolated normal goes through a vertex. In spacings, from node 0.
+/// Foot of a vertex on a triangle along the interpolated normal. Offset in spacings, from node 0.
 struct NormalFoot {
   double weight1 = 0, weight2 = 0, along = 0;
 };
 
-/// p0 + w1 e1 + w2 e2 + along N(w) = vertex, N the direction of the weighted normals of the nodes: by Newton's method
-/// for the weights, as `along` is what brings the vertex to the triangle's plane.
+/// Solver of p0 + w1 e1 + w2 e2 + along N(w) = vertex, with N the direction of the weighted normals of the nodes.
+/// Newton's method finds the weights; `along` is the offset that brings the vertex to the triangle's plane.
 class FootFinder {
  public:
   FootFinder(const Anchor& anchor, const Vector3d& vertex, const std::array<Vector3d, 3>& normals)
@@ -38,7 +38,7 @@ class FootFinder {
 
   std::optional<NormalFoot> from(double weight1, double weight2) const {
     constexpr int kSteps = 30;
-    constexpr double kStep = 1e-6, kExact = 1e-9;  // spacings
+    constexpr double kStep = 1e-6, kExact = 1e-9;  // in spacings
     Eigen::Vector2d w(weight1, weight2);
     for (int step = 0; step < kSteps; ++step) {
       const Eigen::Vector2d miss = missOf(w);
@@ -62,7 +62,7 @@ class FootFinder {
     const Vector3d foot = vertex_ - alongAt(w) * normalAt(w);
     return Eigen::Vector2d(foot.dot(edge1_), foot.dot(edge2_)) - w;
   }
-  /// Weights far from 0..1 would make much of small motions of the nodes.
+  /// Rejects weights far from 0..1, which would amplify small motions of the nodes.
   std::optional<NormalFoot> accepted(const Eigen::Vector2d& w) const {
     constexpr double kBeyond = 0.25, kLongest = 2;
     const double along = alongAt(w), least = std::min({w.x(), w.y(), 1 - w.sum()});
@@ -112,7 +112,7 @@ layout::SkinBinding SkinBinder::bindToTriangle(const Anchor& anchor, const Vecto
   }
   const float weight1 = static_cast<float>(anchor.weight1), weight2 = static_cast<float>(anchor.weight2);
   binding.weights = {1 - weight1 - weight2, weight1, weight2, 0};
-  // The offset is taken from where the rounded weights put the reference point, so that the sum comes out right.
+  // The offset is measured from the reference point of the rounded weights, so that the sum is exact.
   const Vector3d offset = position_m - referenceOf(anchor, binding);
   const SkinBasis constant = triangleBasis(edgeOf(anchor, 1), edgeOf(anchor, 2));
   binding.offset_constant = packed(constant.coordinates(offset));
@@ -128,7 +128,7 @@ layout::SkinBinding SkinBinder::bindToTriangle(const Anchor& anchor, const Vecto
   return binding;
 }
 
-/// EGVE 3.5: the reference point is moved until the offset lies along the normal there.
+/// Moves the reference point until the offset is along the normal there (EGVE 3.5).
 layout::SkinBinding SkinBinder::bindAlongNormal(const Anchor& anchor, const Vector3d& position_m,
                                                 const Vector3d& normal) const {
   const std::array<uint32_t, 3> slots = {slotOf(anchor.nodes[0]), slotOf(anchor.nodes[1]), slotOf(anchor.nodes[2])};

@@ -10,14 +10,16 @@
 
 namespace viscera {
 
-/// Binds the vertices of one skin to one lattice, one at a time, by one of the mappings of docs/mappings.md.
+/// Binder of the vertices of one surface mesh to one lattice, one at a time, by one of the mappings of
+/// docs/surface.md.
 class SkinBinder {
  public:
   SkinBinder(const Lattice& lattice, Mapping mapping) : lattice_(lattice), mapping_(mapping) {}
 
+  /// Binds a vertex.
   /// @param anchor  on the boundary, unless the mapping is kAuto   @param normal  unit
   layout::SkinBinding bind(const Anchor& anchor, const Vector3d& position_m, const Vector3d& normal) const;
-  /// Is a vertex bound as the mapping says, and not by the constant basis in its place?
+  /// Returns whether a vertex is bound by the requested mapping, not by the constant basis in its place.
   bool isAsAsked(const layout::SkinBinding& binding) const;
 
  private:

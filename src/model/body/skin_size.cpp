@@ -13,8 +13,8 @@
 namespace viscera {
 namespace {
 
-/// Halves of edges are up to a spacing long: between 2.3 and 9.2 triangles for each area of a spacing squared; slender
-/// ones are divided along their length.
+/// Returns the estimated number of pieces of a triangle. Halves of edges are up to a spacing long, so there are
+/// between 2.3 and 9.2 triangles for each area of a spacing squared; slender ones are divided along their length.
 double refinedTo(const TriangleMesh& mesh, const std::array<uint32_t, 3>& t, double longest_edge_m) {
   constexpr double kPerArea = 4;
   const auto at = [&](size_t corner) { return mesh.positions_m[t[corner]].cast<double>().eval(); };
@@ -43,11 +43,11 @@ void requireSkinSize(const TriangleMesh& mesh, double spacing_m, int most) {
   const auto largest = std::max_element(of_part.begin(), of_part.end());
   const auto part = static_cast<size_t>(largest - of_part.begin());
   TextOut out;
-  out << "the skin, divided to spacing_m " << spacing_m << ", would have about " << std::llround(all)
+  out << "the skin, refined to spacing_m " << spacing_m << ", would have about " << std::llround(all)
       << " triangles, more than import_limits.max_triangles = " << most;
   if (part < mesh.part_names.size())
     out << "; " << std::llround(*largest) << " of them in part '" << mesh.part_names[part] << "'";
-  out << ": take a stray part out of the file, use a larger spacing_m, skin: volume, or raise the limit";
+  out << ". Remove stray parts from the file, use a larger spacing_m or skin: volume, or raise the limit";
   throw LatticeError(out.str());
 }
 

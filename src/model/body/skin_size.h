@@ -6,12 +6,15 @@
 
 namespace viscera {
 
-/// Triangles that refine() makes of a mesh, about: within a factor of two or so, and without making them.
+/// Returns the approximate number of triangles that refine() makes of a mesh, within a factor of about two, without
+/// making them.
 double refinedTriangles(const TriangleMesh& mesh, double longest_edge_m);
 
-/// A skin is divided to the lattice's spacing, so a sheet that strayed beside an organ can cost more than the organ.
+/// Checks the size of the surface mesh. It is divided to the lattice's spacing, so a stray sheet next to an organ can
+/// cost more than the organ.
 /// @param most  bodies[].import_limits.max_triangles
-/// @throws LatticeError  there would be more triangles; names how many, the part with most of them, the ways out
+/// @throws LatticeError  there would be more triangles; names their number, the part with most of them, and the
+/// remedies
 void requireSkinSize(const TriangleMesh& mesh, double spacing_m, int most);
 
 }  // namespace viscera

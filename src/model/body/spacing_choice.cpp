@@ -13,27 +13,28 @@
 namespace viscera {
 namespace {
 
-constexpr double kAim = 0.98;         ///< load that is looked for: counts jump about as cells come and go
-constexpr double kNearEnough = 0.93;  ///< load that ends the search: 1.3 % of the spacing below the aim
-constexpr double kFewestNodes = 500;  ///< coarser lattices are no tissue: spacing says nothing any more
+constexpr double kAim = 0.98;         ///< target load: node counts jump as cells appear and vanish
+constexpr double kNearEnough = 0.93;  ///< load that ends the search: 1.3 % of the spacing below the target
+constexpr double kFewestNodes = 500;  ///< coarser lattices are too coarse to be tissue: the spacing means nothing then
 constexpr double kNearFewest = 1.2 * kFewestNodes;
 constexpr int kMostPasses = 12;
-constexpr double kBack = 1.05;  ///< step towards coarser spacings where a trial did not hold
+constexpr double kBack = 1.05;  ///< step towards coarser spacings after a trial that failed
 
-/// The nearest number of three digits that is not smaller.
+/// Returns the nearest number of three digits that is not smaller.
 double roundedUp(double value) {
   constexpr double kNoise = 1e-9;
   const double units = std::pow(10.0, 2 - std::floor(std::log10(value)));
   return std::ceil(value * units - kNoise) / units;
 }
 
-/// The nearest whole part of an edge that is not smaller than a spacing; of an edge that is shorter, all of it.
+/// Returns the smallest integer fraction of an edge that is not smaller than a spacing; the whole edge if it is
+/// shorter.
 double wholePart(double edge_m, double spacing_m) {
   constexpr double kNoise = 1e-9;
   return edge_m / std::max(1.0, std::floor(edge_m / spacing_m + kNoise));
 }
 
-/// Nodes as a power of the spacing, exact where it was last counted.
+/// Number of nodes as a power of the spacing, exact at the last count.
 struct NodeLaw {
   double spacing_m, nodes, power;
   double at(double h) const { return nodes * std::pow(spacing_m / h, power); }
@@ -45,7 +46,7 @@ class Search {
   Search(const std::function<size_t(double)>& nodes, const SpacingLimits& limits)
       : count_(nodes), limits_(limits), finest_m_(limits.finest_m) {}
 
-  /// Two counts make the law. The finer one may be too much for the memory.
+  /// Initialises the law from two counts. The finer one may not fit in memory.
   void begin(double start_m) {
     const double coarse = static_cast<double>(count_(start_m));
     law_ = {start_m, coarse, 3};
@@ -80,7 +81,7 @@ class Search {
   }
 
  private:
-  /// Nothing if the lattice does not fit in memory, or no cell in the body: the search then keeps clear of it.
+  /// Returns nothing if the lattice does not fit in memory, or no cell is in the body: the search then avoids it.
   std::optional<double> tryCount(double h) {
     try {
       return static_cast<double>(count_(h));
@@ -95,12 +96,12 @@ class Search {
     }
   }
 
-  /// The nearest spacing that is not finer, unless walls want one that is.
+  /// Returns the nearest spacing that is not finer, unless walls require a finer one.
   double admissible(double h) const {
     constexpr double kNoise = 1e-9;
     const double whole_m = limits_.whole_m, coarsest_m = limits_.coarsest_m;
     const double rounded_m = whole_m > 0 ? wholePart(whole_m, h) : roundedUp(h);
-    if (!(rounded_m > coarsest_m)) return rounded_m;  // of a limit of 0 there is none
+    if (!(rounded_m > coarsest_m)) return rounded_m;  // NaN for a finest spacing of 0
     return whole_m > 0 ? whole_m / std::ceil(whole_m / coarsest_m - kNoise) : coarsest_m;
   }
   bool isCoarsest(double h) const { return std::isfinite(limits_.coarsest_m) && h >= admissible(limits_.coarsest_m); }
@@ -115,7 +116,7 @@ class Search {
     return std::min({law_.spacingOf(std::min(kFewestNodes, law_.nodes)), empty_m_ / kBack, limits_.coarsest_m});
   }
 
-  /// Finest spacing that the law gives hope for.
+  /// Returns the finest spacing that the law predicts to be admissible.
   double predicted() const {
     const auto holds = [this](double h) { return load(h, law_.at(h)) <= kAim && !tooMany(law_.at(h) / kAim); };
     double fine = std::max(finest_m_, law_.spacing_m * 1e-3), coarse = std::max(coarsest_m(), fine);
@@ -131,7 +132,7 @@ class Search {
     return {h, static_cast<size_t>(nodes) + limits_.other_nodes, limits_.substeps_per_s(h), load(h, nodes), bound};
   }
 
-  /// Takes a trial as the best so far if it holds and none that is finer does.
+  /// Records a trial as the best so far if it keeps to the limits and no finer one does.
   void note(double h, double nodes) {
     last_ = choice(h, nodes, SpacingBound::kTooSlow);
     if (load(h, nodes) > 1 || tooMany(nodes) || h < limits_.finest_m) return;

@@ -15,13 +15,13 @@ namespace {
 
 constexpr double kCloseEnough = 0.02, kTooFar = 0.25;
 constexpr int kMostSearches = 24;
-constexpr double kUsualFill = 0.3;  ///< share of its box that an organ fills
+constexpr double kUsualFill = 0.3;  ///< typical share of its box that an organ fills
 
 double relativeError(size_t nodes, int target) {
   return std::abs(static_cast<double>(nodes) / target - 1);
 }
 
-/// Spacings known to give too many and too few nodes. Counts jump about as cells come and go, so that this is a guide.
+/// Spacings known to give too many and too few nodes. Counts jump as cells appear and vanish, so this is only a guide.
 struct Bracket {
   double fine_m = 0, coarse_m = std::numeric_limits<double>::infinity();
 
@@ -33,7 +33,7 @@ struct Bracket {
     }
   }
 
-  /// Where the nodes' power law leads; where that is out of the bracket, its middle is taken.
+  /// Returns the spacing of the nodes' power law, or the middle of the bracket if that is outside it.
   double next(double spacing_m, double factor) const {
     const double guess = spacing_m * factor;
     const bool bounded = fine_m > 0 && std::isfinite(coarse_m);
@@ -41,10 +41,10 @@ struct Bracket {
   }
 };
 
-/// Looks for the spacing that gives a number of nodes.
-/// @param root   of the number of nodes: what spacings go with
-/// @param make   (spacing_m) -> what is made
-/// @param count  nodes of what was made
+/// Finds the spacing that gives a number of nodes.
+/// @param root   root of the number of nodes that is inversely proportional to the spacing
+/// @param make   (spacing_m) -> result at this spacing
+/// @param count  number of nodes of a result
 template <class Make, class Count>
 auto toNodes(int target, double start_m, double largest_m, double (*root)(double), Make make, Count count) {
   double spacing_m = std::min(start_m, largest_m), best_m = 0;
@@ -65,8 +65,8 @@ auto toNodes(int target, double start_m, double largest_m, double (*root)(double
   }
   if (relativeError(best_nodes, target) <= kTooFar) return best;
   TextOut out;
-  out << "target_nodes " << target << " is out of reach: the nearest is " << best_nodes << " nodes, with spacing_m "
-      << best_m;
+  out << "target_nodes " << target << " cannot be reached: the nearest possible number is " << best_nodes
+      << " nodes, at spacing_m " << best_m;
   throw LatticeError(out.str());
 }
 
@@ -90,7 +90,7 @@ size_t countNodes(const Solid& solid) {
 Filling fillToNodes(const Tissue& tissue, int target_nodes, const Progress& progress) {
   const Vector3d size_m = tissue.bounds().sizes();
   const double start_m = size_m.minCoeff() > 0 ? std::cbrt(kUsualFill * size_m.prod() / target_nodes)
-                                               : size_m.maxCoeff() / std::cbrt(target_nodes);  // flat: filling says so
+                                               : size_m.maxCoeff() / std::cbrt(target_nodes);  // flat: fill() throws
   return toNodes(
       target_nodes, start_m, size_m.maxCoeff(), std::cbrt,
       [&](double spacing_m) { return tissue.fill(spacing_m, progress); },

@@ -9,15 +9,15 @@ namespace viscera {
 
 namespace {
 
-/// @param d  from the near to the far end at rest [m]
+/// Returns a link. @param d  from the near to the far end at rest [m]
 layout::Link linkTo(uint32_t far, const Vector3d& d, const NetworkSpring& spring, uint32_t lattice_spring) {
   layout::Link link{};
   const double l0 = spring.rest_length_m;
   link.offset_length = {static_cast<float>(d.x()), static_cast<float>(d.y()), static_cast<float>(d.z()),
                         static_cast<float>(l0)};
   link.stiffness = static_cast<float>(spring.stiffness_n_per_m);
-  // Of the numbers as they are: rounded ones would leave springs at rest with a force. What double precision leaves of
-  // a length that was computed from the ends is none.
+  // Computed in double precision: rounded numbers would leave a force in springs at rest. A difference within double
+  // rounding of a length that was computed from the ends counts as zero.
   constexpr double kRounding = 1e-12;
   const double prestrain_m2 = d.squaredNorm() - l0 * l0;
   link.prestrain_m2 = std::abs(prestrain_m2) <= kRounding * l0 * l0 ? 0.0f : static_cast<float>(prestrain_m2);

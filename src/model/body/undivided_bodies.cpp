@@ -26,7 +26,7 @@ Body bareBody(const BodyConfig& config, const Tissue& tissue, double spacing_m) 
   return body;
 }
 
-/// Runs `act`, and names the body in what it throws.
+/// Runs `act`, and adds the body's name to what it throws.
 template <class Act>
 auto naming(const BodyConfig& config, Act act) {
   try {

@@ -10,15 +10,16 @@
 namespace viscera {
 namespace {
 
-// Walls along the lattice bend right by the cell's own second derivatives alone, and rows would add their errors in
-// shear: bending across two axes at one cell is -6 % so, and -13 % by rows.
+// Angles between a wall and the lattice. Walls along the lattice bend correctly with the cell's own second derivatives
+// alone, and rows would add errors in shear: bending across two axes at one cell is off by -6 % so, and by -13 % with
+// rows.
 constexpr double kAlongLattice_deg = 3, kAskew_deg = 10;
-/// Thickness in cells from which rows fade, and where they end: a cell's own second derivatives bend walls of three
-/// cells to 2 %.
+/// Thickness in cells from which rows fade, and where they end. In walls of three cells, bending with the cell's own
+/// second derivatives is within 2 %.
 constexpr double kThin = 2, kThick = 3;
-/// Step along the normal in which a wall's thickness is measured, in cells.
+/// Step along the normal for the measurement of a wall's thickness, in cells.
 constexpr double kStep = 0.25;
-/// Share of tissue below which a place is outside of the wall.
+/// Share of tissue below which a point is outside of the wall.
 constexpr double kOutside = 0.02;
 
 double fading(double value, double from, double to) {
@@ -36,7 +37,7 @@ class CellGrid {
     }
   }
 
-  /// Returns the slot of the lowest corner of a cell; kNone: there is none.
+  /// Returns the slot of the lowest corner of a cell; kNone if there is no cell.
   uint32_t at(const Vector3i& cell) const {
     const bool inside = (cell.array() >= 0).all() && (cell.array() < size_.array()).all();
     return inside ? slots_[index(cell)] : kNone;
@@ -45,7 +46,7 @@ class CellGrid {
     const uint32_t slot = at(cell);
     return slot == kNone ? 0 : std::min(fillOf(lattice_, slot).share, 1.0);
   }
-  /// Returns the share of tissue around a place in cells, by linear interpolation between the cells' middles.
+  /// Returns the share of tissue around a position in cells, by linear interpolation between the centres of cells.
   double shareAt(const Vector3d& place) const {
     const Vector3d from_middle = place.array() - 0.5;
     const Vector3i low = from_middle.array().floor().cast<int>();
@@ -74,8 +75,8 @@ class CellGrid {
   std::vector<uint32_t> slots_;
 };
 
-/// Returns the covariance of the tissue around a cell in cells squared: of its 27 neighbours, each of which weighs half
-/// as much per axis along which it is beside the cell.
+/// Returns the covariance of the tissue around a cell in cells squared. The weight of each of its 27 neighbours is
+/// halved for each axis along which it differs from the cell.
 Matrix3d tissueAround(const Lattice& lattice, const CellGrid& grid, const Vector3i& cell) {
   double sum = 0;
   Vector3d first = Vector3d::Zero();
@@ -96,7 +97,7 @@ Matrix3d tissueAround(const Lattice& lattice, const CellGrid& grid, const Vector
   return second / sum - first * first.transpose();
 }
 
-/// Returns how much tissue lies along a line through a place within the wall, in cells, kThick at most.
+/// Returns the length of tissue on a line through a position within the wall, in cells, at most kThick.
 double thicknessAt(const CellGrid& grid, const Vector3d& place, const Vector3d& normal) {
   double sum = kStep * grid.shareAt(place);
   for (const double way : {1.0, -1.0}) {

@@ -14,18 +14,19 @@ namespace viscera {
 namespace {
 
 constexpr size_t kRays = 4000;
-/// Cosine of the angle between a ray and the normal of the surface where it leaves the tissue, below which what it went
-/// through is an edge or a rim and no wall.
+/// Least cosine of the angle between a ray and the surface normal where the ray leaves the tissue. Below it, the ray
+/// has crossed an edge or a rim and no wall.
 constexpr float kFacesBack = 0.5F;
-/// Share of the rays that must end on the other side of a wall: an open surface has none.
+/// Least share of rays that must end on the other side of a wall. In an open surface none does.
 constexpr double kLeastShare = 0.1;
 
 struct WallError {
   double cells, bowl, tube;
 };
 using WallErrors = std::array<WallError, 6>;
-/// Measured beside CalculiX, nu 0.3 (`viscera bench walls`; docs/material.md). From one cell on the tube's error is
-/// taken to fall as the square of the spacing, and that of three cells by rows to be half of that of two.
+/// Errors measured against CalculiX at nu 0.3 (`viscera bench walls`; docs/verification.md). From one cell on, the
+/// tube's error is assumed to fall as the square of the spacing. With rows, the error at three cells is assumed to be
+/// half of that at two.
 constexpr WallErrors kCellErrors = {{{0.53, 0.315, 0.095},
                                      {0.75, 0.254, 0.056},
                                      {1, 0.174, 0.036},
@@ -42,7 +43,7 @@ constexpr WallErrors kRowErrors = {{{0.53, 0.127, 0.048},
 struct Ray {
   Vector3f from_m, inward;
 };
-/// Rays from the middles of triangles, evenly over their area.
+/// Returns rays from the centres of triangles, evenly over their area.
 std::vector<Ray> raysOf(const TriangleMesh& mesh) {
   std::vector<double> until(mesh.triangles.size());
   double area = 0;
@@ -62,7 +63,7 @@ std::vector<Ray> raysOf(const TriangleMesh& mesh) {
   return out;
 }
 
-/// Returns the value that a share of sorted values do not reach.
+/// Returns the value that a given share of sorted values is below.
 double quantile(const std::vector<double>& sorted, double share) {
   return sorted[std::min(static_cast<size_t>(share * static_cast<double>(sorted.size())), sorted.size() - 1)];
 }
@@ -118,19 +119,19 @@ std::string wallThicknessText(const WallThickness& thickness, double spacing_m, 
   const auto add = [&](const char* which, double thickness_m) {
     out << which << thickness_m * 1e3 << " mm (" << thickness_m / spacing_m << " cells)";
   };
-  add("walls: least ", thickness.least_m);
+  add("walls: thinnest ", thickness.least_m);
   add(", 10 % below ", thickness.tenth_m);
   add(", median ", thickness.median_m);
   const double cells = thickness.tenth_m / spacing_m;
   const WallErrorRange error = expectedWallError(cells, walls);
   out.precision(2);
-  out << "; bending of walls of " << cells << " cells is " << 100 * error.least << " % (a tube) to " << 100 * error.most
-      << " % (an open bowl) too stiff";
+  out << "; walls of " << cells << " cells are " << 100 * error.least << " % (a tube) to " << 100 * error.most
+      << " % (an open bowl) too stiff in bending";
   if (error.most <= kNotedWallError) return out.str();
   if (walls == Walls::kCells)
-    out << ", with material.walls: rows " << 100 * expectedWallError(cells, Walls::kRows).most;
+    out << ", at most " << 100 * expectedWallError(cells, Walls::kRows).most << " % with material.walls: rows";
   out.precision(3);
-  out << "; with spacing_m " << thickness.tenth_m / cellsForWallError(kNotedWallError, walls) << " at most "
+  out << "; at spacing_m " << thickness.tenth_m / cellsForWallError(kNotedWallError, walls) << " at most "
       << 100 * kNotedWallError << " %";
   return out.str();
 }

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// material.prestress of lattices (docs/cutting.md 6). Freed of all that holds it, a cell would take the shape U = 1 -
-// strain: the stress S = -U^-1 P(U) at F = 1, P that of the law, holds it open. S is then balanced in the given shape.
+// material.prestress of lattices (docs/physics.md 11). A cell without constraints would take the shape U = 1 - strain.
+// The stress S = -U^-1 P(U) at F = 1, with P that of the law, holds it open. S is then balanced in the given shape.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 using Eigen::Matrix3d;
 using Field = std::vector<Vector3d>;
 
-/// Returns S over mu that makes U the shape at rest (physics.md 1, Prestress). @param strain  1 - U, symmetric
+/// Returns S over mu that makes U the rest shape (physics.md 1, Prestress). @param strain  1 - U, symmetric
 /// @param bulk  K/mu   @param stiffening  b of the law
 Matrix3d stressOf(const Matrix3d& strain, double bulk, double stiffening) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(strain);
@@ -31,11 +31,11 @@ Matrix3d stressOf(const Matrix3d& strain, double bulk, double stiffening) {
   return axes.eigenvectors() * stress.asDiagonal() * axes.eigenvectors().transpose();
 }
 
-/// A cell: its stress, and what maps displacements of its corners to the gradient at the centroid of its tissue.
+/// Cell with its stress, and the map from displacements of its corners to the gradient at the centroid of its tissue.
 struct Cell {
   uint32_t slot;
   std::array<uint32_t, 8> corners;  // slots, x first
-  double rigidity_j, lambda;        // mu h^3 times the share; over mu
+  double rigidity_j, lambda;        // mu h^3 times the share [J]; lambda over mu
   Vector3d centroid;
   Matrix3d stress = Matrix3d::Zero();  // over mu
 };
@@ -43,12 +43,12 @@ struct Cell {
 double side(size_t corner, int axis) {
   return corner >> axis & 1 ? 1 : -1;
 }
-/// Product of the signs of the two other axes.
+/// Returns the product of the signs along the two other axes.
 double sides(size_t corner, int axis) {
   return side(corner, (axis + 1) % 3) * side(corner, (axis + 2) % 3);
 }
 
-/// Returns the gradient of displacements at a cell's centroid, for small ones (law_energy.h: D + G).
+/// Returns the gradient of small displacements at a cell's centroid (law_energy.h: D + G).
 Matrix3d gradientOf(const Cell& cell, const Field& u_m, double h) {
   Matrix3d g = Matrix3d::Zero(), s = Matrix3d::Zero();
   for (size_t c = 0; c < 8; ++c) {
@@ -69,7 +69,7 @@ Matrix3d gradientOf(const Cell& cell, const Field& u_m, double h) {
   return g;
 }
 
-/// Adds the forces of a stress over mu on a cell's corners [N]: those that gradientOf() is the adjoint of.
+/// Adds the forces [N] of a stress over mu on a cell's corners; gradientOf() is the adjoint.
 void addPull(const Cell& cell, const Matrix3d& stress, double h, Field& forces_n) {
   Matrix3d r = Matrix3d::Zero();
   const double poisson = cell.lambda / (cell.lambda + 2);
@@ -90,7 +90,7 @@ void addPull(const Cell& cell, const Matrix3d& stress, double h, Field& forces_n
   }
 }
 
-/// lambda tr(e) 1 + 2 e
+/// Returns lambda tr(e) 1 + 2 e.
 Matrix3d elastic(const Cell& cell, const Matrix3d& gradient) {
   const Matrix3d strain = 0.5 * (gradient + gradient.transpose());
   return cell.lambda * strain.trace() * Matrix3d::Identity() + 2 * strain;
@@ -122,7 +122,7 @@ class CellBalance : public PrestressBalance {
     }
   }
 
-  /// A cell that shares materials has their mean stress, weighed by what each has of it.
+  /// Sets the requested stresses. A cell that shares materials has their mean stress, weighted by their shares.
   void ask() {
     const Lattice& lattice = body_.lattice;
     const std::vector<Elasticity> elasticities = elasticityByLabel(body_);

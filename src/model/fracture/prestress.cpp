@@ -12,7 +12,7 @@ namespace viscera {
 
 namespace {
 
-/// Tensions of the springs of a sheet.
+/// Balance of the tensions of a sheet's springs.
 class SpringBalance : public PrestressBalance {
  public:
   explicit SpringBalance(const Body& body) : PrestressBalance(body), network_(*body.network) {

@@ -6,14 +6,14 @@
 
 namespace viscera {
 
-// material.prestress (docs/cutting.md 6) of a body whose nodes are fixed already: as much of it as balances in the
-// shape that the body has; a note says how much. Without a prestress nothing is done.
+// material.prestress (docs/physics.md 11) of a body with its nodes fixed already. As much of it is kept as balances in
+// the body's shape; a note says how much. Does nothing without a prestress.
 
-/// Gives the cells of a lattice that obeys a law their stress at rest (Body::prestress).
+/// Sets the stress at rest of the cells of a lattice that obeys a law (Body::prestress).
 /// @throws SceneError  requirePrestrains(), PrestressBalance::find()
 void addCellPrestress(Body& body);
 
-/// Gives the springs of a sheet their rest lengths.   @throws SceneError  as addCellPrestress()
+/// Sets the rest lengths of a sheet's springs.   @throws SceneError  as addCellPrestress()
 void addSheetPrestress(Body& body);
 
 }  // namespace viscera

@@ -15,10 +15,11 @@ namespace {
 
 using Eigen::Matrix3d;
 
-// Tissue at rest over what it is in the given shape. Beyond, the linear balance says little of what it does.
+// Limits of the rest shape over the given shape. Beyond them the linear balance is a poor approximation.
 constexpr double kShortest = 0.3, kLongest = 1.5;
-constexpr double kBalanced = 3e-8;   // forces that are left, of the largest tension: as much as float32 leaves
-constexpr double kRemaining = 1e-6;  // the same: more is no balance
+// Residual forces over the largest tension at convergence: the resolution of float32.
+constexpr double kBalanced = 3e-8;
+constexpr double kRemaining = 1e-6;  // largest accepted residual forces over the largest tension
 constexpr int kMostSteps = 20000;
 
 Matrix3d strainOf(const PrestressConfig& c) {
@@ -67,8 +68,8 @@ void requirePrestrains(const Body& body) {
     const double share = lengths.minCoeff() < kShortest ? lengths.minCoeff() : lengths.maxCoeff();
     if (share >= kShortest && share <= kLongest) continue;
     TextOut text;
-    text << keyOf(body) << "would leave tissue " << share << " of its length at rest, where " << kShortest << " to "
-         << kLongest << " is accepted: make it smaller";
+    text << keyOf(body) << "makes the stress-free length " << share << " of the length at rest; " << kShortest << " to "
+         << kLongest << " is accepted. Use a smaller prestress";
     throw SceneError(text.str());
   }
 }
@@ -113,12 +114,12 @@ std::string PrestressBalance::find() {
   const double remaining = worst(pullsNow()) / largest_n_;
   TextOut text;
   if (!(remaining <= kRemaining)) {
-    text << keyOf(body_) << "finds no balance in the given shape: " << remaining
-         << " of the largest tension is left after " << steps << " steps";
+    text << keyOf(body_) << "cannot be balanced in the given shape: " << remaining
+         << " of the largest tension remains after " << steps << " steps";
     throw SceneError(text.str());
   }
   text << "prestress: " << std::lround(100 * (asked > 0 ? std::sqrt(energy() / asked) : 0))
-       << " % of the strain asked for balances in the given shape; forces left: " << remaining
+       << " % of the requested strain is in balance in the given shape; remaining forces: " << remaining
        << " of the largest tension, after " << steps << " steps";
   return text.str();
 }

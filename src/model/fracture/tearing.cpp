@@ -14,13 +14,13 @@ namespace viscera {
 
 namespace {
 
-// Measured, docs/cutting.md 8.
-constexpr double kOnset = 0.6;     // strain of an axial spring, times sqrt(G / (E h))
-constexpr double kCounted = 0.88;  // of G, for springs beside the tear soften too
-// A plane across an axis meets one axial spring and four diagonal ones in every h^2. When it opens by d, an axial one
-// is longer by d and a diagonal one by d / sqrt 2: with half the strain at onset they all end together.
+// Measured, see docs/verification_cutting.md 6.
+constexpr double kOnset = 0.6;     // strain of an axial spring, over sqrt(G / (E h))
+constexpr double kCounted = 0.88;  // share of G, as springs next to the tear soften too
+// A plane across an axis crosses one axial spring and four diagonal ones per h^2. When it opens by d, an axial one is
+// longer by d and a diagonal one by d / sqrt 2. With half the strain at onset they all fail together.
 constexpr double kDiagonalOnset = 0.5;
-constexpr double kAxialShare = 1.0 / 3, kDiagonalShare = 1.0 / 6;  // of h^2
+constexpr double kAxialShare = 1.0 / 3, kDiagonalShare = 1.0 / 6;  // shares of h^2
 
 double toughnessOf(const MaterialConfig& material) {
   return material.tear.toughness_j_per_m2;
@@ -58,9 +58,9 @@ bool tears(const Scene& scene) {
                      [](const BodyConfig& body) { return toughnessOf(body.material) > 0; });
 }
 
-bool threadsTear(const Scene& scene) {
-  return !scene.styluses.empty() && std::any_of(scene.threads.begin(), scene.threads.end(),
-                                                [](const ThreadConfig& thread) { return thread.feelsTissue(); });
+bool suturesTear(const Scene& scene) {
+  return !scene.styluses.empty() && std::any_of(scene.sutures.begin(), scene.sutures.end(),
+                                                [](const SutureConfig& suture) { return suture.feelsTissue(); });
 }
 
 }  // namespace viscera

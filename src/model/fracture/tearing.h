@@ -10,26 +10,27 @@ namespace viscera {
 
 struct Scene;
 
-/// How springs of a lattice part by what material.tear.toughness_j_per_m2 says, G (docs/cutting.md 8): elastic up to
-/// an onset, from there on they soften, and at the end they have taken the work of the area that they stand for.
+/// Softening of lattice springs until they tear, by the toughness G = material.tear.toughness_j_per_m2 (docs/physics.md
+/// 12). A spring is elastic up to an onset, and softens from there on. At its end it has absorbed the work of the area
+/// that it represents.
 struct TearLaw {
-  /// Extensions of a spring [m].
+  /// Extensions of a spring [m] at onset and failure.
   struct Spring {
     double onset_m = 0, end_m = 0;
   };
   std::array<Spring, 2> springs;  ///< axial, diagonal
-  double onset_strain = 0;        ///< the lesser of the two, over the length of the spring
+  double onset_strain = 0;        ///< strain at onset, the smaller of the two
 
-  /// Share of its stiffness that a spring has left that was longer than at rest by this.
+  /// Returns the remaining share of its stiffness for the largest extension that a spring has had.
   double left(bool axial, double extension_m) const;
 };
-/// @param body  that tears
+/// Returns the tear law of a body. @param body  a body that tears
 TearLaw tearLawOf(const Body& body);
 
-/// Does the tissue of a body, or some of a scene's, tear by energy?
+/// Returns whether the tissue of a body, or of some body of a scene, tears.
 bool tears(const Body& body);
 bool tears(const Scene& scene);
-/// May a thread that is pulled part it? Only where there are hands.
-bool threadsTear(const Scene& scene);
+/// Returns whether a pulled suture may cut through tissue. Only where there are styluses.
+bool suturesTear(const Scene& scene);
 
 }  // namespace viscera

@@ -14,15 +14,15 @@ namespace viscera {
 
 namespace {
 
-// Measured, docs/cutting.md.
-constexpr double kCarried = 2.5;                        // of E h
-constexpr double kCarriedAtSurface = 0.23;              // of E times the kernel: presses the tissue ahead by a third
-constexpr double kOfPoint = 0.4;                        // of E times the square of its kernel; 0.6 folds tissue
-constexpr double kMostOfPoint = 9;                      // of h: that kernel, as large as an edge's may be
-constexpr double kLeastKernel = 3;                      // of h
-constexpr double kKernelAtZero = 1, kKernelPerJ = 3.2;  // of h; its growth with J / (E h)
+// Measured, see docs/cutting.md.
+constexpr double kCarried = 2.5;            // share of E h
+constexpr double kCarriedAtSurface = 0.23;  // share of E times the kernel: indents the tissue ahead by a third
+constexpr double kOfPoint = 0.4;            // share of E times the square of its kernel; 0.6 folds tissue
+constexpr double kMostOfPoint = 9;          // in h: largest kernel of a point, as large as an edge's may be
+constexpr double kLeastKernel = 3;          // in h
+constexpr double kKernelAtZero = 1, kKernelPerJ = 3.2;  // in h; its growth with J / (E h)
 
-/// @tparam B  Body or BodyConfig
+/// Returns whether a body resists blades. @tparam B  Body or BodyConfig
 template <class B>
 bool resists(const B& body) {
   const auto part = [](const PartConfig& p) { return p.cut.toughness_j_per_m2 > 0; };
@@ -59,9 +59,8 @@ std::string Toughness::note(const std::string& key) const {
   const double carried = carried_j_per_m2();
   if (carried >= asked_j_per_m2) return "";
   return key + " = " + numberText(asked_j_per_m2) + ": tissue of " + numberText(young_modulus_pa) +
-         " Pa at a spacing of " + numberText(spacing_m) + " m carries " + numberText(carried) +
-         " of it, and a blade in it gives " + numberText(100 * carried / asked_j_per_m2) +
-         " % of the force (docs/cutting.md)";
+         " Pa at a spacing of " + numberText(spacing_m) + " m can represent only " + numberText(carried) +
+         ", so a blade meets " + numberText(100 * carried / asked_j_per_m2) + " % of the true force (docs/cutting.md)";
 }
 
 Toughness toughnessOf(const Body& body) {
@@ -73,7 +72,7 @@ std::vector<std::vector<Toughness>> toughnesses(const Body& body) {
   std::vector<std::vector<Toughness>> out(1 + names.size(), {toughnessOf(body)});
   for (const PartConfig& part : body.parts) {
     const auto name = std::find(names.begin(), names.end(), part.part);
-    if (name == names.end()) continue;  // strengths() refuses it
+    if (name == names.end()) continue;  // strengths() reports it
     out[static_cast<size_t>(name - names.begin()) + 1] = {
         {part.cut.toughness_j_per_m2, part.young_modulus_pa, body.lattice.spacing_m}};
   }

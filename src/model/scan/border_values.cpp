@@ -8,7 +8,7 @@
 namespace viscera {
 namespace {
 
-/// Whether a neighbour along an axis has another label; what is beyond the map has none that counts.
+/// Returns whether a neighbour along an axis has another label; neighbours beyond the map do not count.
 bool besideBorder(const LabelVolume& map, const Vector3i& voxel, size_t index) {
   size_t stride = 1;
   for (int axis = 0; axis < 3; ++axis) {
@@ -28,7 +28,7 @@ BorderValues::BorderValues(SliceSource& source, const LabelVolume& map, const Ve
   std::vector<float> slice;
   size_t row = 0;
   for (int k = std::min(0, first.z()); k < scan.z(); ++k) {
-    if (k >= 0) source.next(slice);  // all of it: the end of a file has its checksum
+    if (k >= 0) source.next(slice);  // reads to the end, as the end of a file has its checksum
     if (k < first.z() || k >= first.z() + size.z()) continue;
     for (int j = first.y(); j < first.y() + size.y(); ++j, ++row) {
       if (k >= 0 && j >= 0 && j < scan.y())

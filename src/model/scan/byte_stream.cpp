@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr uint64_t kMostInflation = 1032;    ///< deflate makes no byte into more
-constexpr uint64_t kMostTrailing = 1 << 20;  ///< bytes that packed data may hold beyond what the header says
+constexpr uint64_t kMostInflation = 1032;    ///< largest expansion of a byte by deflate
+constexpr uint64_t kMostTrailing = 1 << 20;  ///< bytes that compressed data may have beyond the size in the header
 
 }  // namespace
 
@@ -27,7 +27,7 @@ struct ByteStream::Inflater {
   bool ended = false;
 
   Inflater() {
-    if (inflateInit2(&state, 15 + 32) != Z_OK) throw SceneError("zlib: no memory");  // 32: gzip or zlib
+    if (inflateInit2(&state, 15 + 32) != Z_OK) throw SceneError("zlib: out of memory");  // 32: gzip or zlib
   }
   ~Inflater() { inflateEnd(&state); }
 };
@@ -49,18 +49,18 @@ bool beginsAsGzip(const std::string& path) {
 }
 
 std::string dataFileBeside(const std::string& header, const std::string& told, const std::string& key) {
-  const std::string name = told.rfind("./", 0) == 0 ? told.substr(2) : told;  // as teem writes them
+  const std::string name = told.rfind("./", 0) == 0 ? told.substr(2) : told;  // as teem writes it
   const auto refuse = [&](const std::string& why) -> SceneError {
     return SceneError(header + ": " + key + " names '" + name + "', which " + why +
-                      "; accepted: the plain name of a file in the header's own folder");
+                      "; accepted: the plain name of a file in the folder of the header");
   };
   if (name.empty() || name == "." || name == ".." || name.find_first_of(std::string("/\\\0", 3)) != std::string::npos)
-    throw refuse("is no plain name");
+    throw refuse("is not a plain file name");
   std::error_code error;
   const fs::path folder = fs::canonical(fs::absolute(header).parent_path(), error);
   const fs::path file = fs::canonical(folder / name, error);
-  if (error || !fs::is_regular_file(file, error)) throw refuse("is not there");
-  if (file.parent_path() != folder) throw refuse("is a link out of its folder");
+  if (error || !fs::is_regular_file(file, error)) throw refuse("does not exist");
+  if (file.parent_path() != folder) throw refuse("is a link to another folder");
   return (fs::path(header).parent_path() / name).string();
 }
 
@@ -68,7 +68,7 @@ ByteStream::ByteStream(std::string path, uint64_t offset, bool packed)
     : path_(std::move(path)), file_(nullptr, &std::fclose) {
   const uint64_t bytes = fileBytes(path_);
   if (offset > bytes)
-    throw SceneError(path_ + ": ends early: has " + std::to_string(bytes) + " bytes, and its data begin at " +
+    throw SceneError(path_ + ": ends early: it has " + std::to_string(bytes) + " bytes, but its data begin at byte " +
                      std::to_string(offset));
   held_ = bytes - offset;
   file_.reset(std::fopen(path_.c_str(), "rb"));
@@ -82,12 +82,12 @@ ByteStream::~ByteStream() = default;
 void ByteStream::requireHolds(uint64_t bytes) const {
   const uint64_t most = inflater_ ? (held_ > UINT64_MAX / kMostInflation ? UINT64_MAX : held_ * kMostInflation) : held_;
   if (bytes <= most) return;
-  throw SceneError(path_ + ": ends early: its header asks for " + std::to_string(bytes) + " bytes, and its " +
-                   std::to_string(held_) + (inflater_ ? " packed bytes hold at most " : " bytes hold ") +
+  throw SceneError(path_ + ": ends early: its header asks for " + std::to_string(bytes) + " bytes, but its " +
+                   std::to_string(held_) + (inflater_ ? " compressed bytes hold at most " : " bytes hold ") +
                    std::to_string(most));
 }
 
-bool ByteStream::nextMember() {  // gzip files may be several, one after the other
+bool ByteStream::nextMember() {  // gzip files may have several members
   z_stream& z = inflater_->state;
   if (z.avail_in == 0) {
     z.next_in = inflater_->in.data();
@@ -105,13 +105,13 @@ size_t ByteStream::inflated(uint8_t* to, size_t bytes) {
     if (z.avail_in == 0) {
       z.next_in = inflater_->in.data();
       z.avail_in = static_cast<uInt>(std::fread(inflater_->in.data(), 1, inflater_->in.size(), file_.get()));
-      if (z.avail_in == 0) throw SceneError(path_ + ": ends early: its packed data are cut off");
+      if (z.avail_in == 0) throw SceneError(path_ + ": ends early: its compressed data are cut off");
     }
     const int result = inflate(&z, Z_NO_FLUSH);
     if (result == Z_STREAM_END) {
       inflater_->ended = !nextMember();
     } else if (result != Z_OK && result != Z_BUF_ERROR) {
-      throw SceneError(path_ + ": corrupt: its packed data cannot be inflated (" + (z.msg ? z.msg : "zlib") + ")");
+      throw SceneError(path_ + ": corrupt: its compressed data cannot be inflated (" + (z.msg ? z.msg : "zlib") + ")");
     }
   }
   return wanted - z.avail_out;
@@ -144,7 +144,7 @@ void ByteStream::finish() {
   while (const size_t some = more(buffer.data(), buffer.size())) {
     trailing += some;
     if (trailing > kMostTrailing)
-      throw SceneError(path_ + ": its packed data hold more than its header says, by over " +
+      throw SceneError(path_ + ": its compressed data exceed the size in its header by more than " +
                        std::to_string(kMostTrailing) + " bytes");
   }
 }

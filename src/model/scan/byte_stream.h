@@ -10,23 +10,25 @@
 
 namespace viscera {
 
-/// Bytes of a file in order, inflated where they are packed (gzip or zlib, told by their first bytes). Holds two
+/// Bytes of a file in order, inflated if they are compressed (gzip or zlib, recognised by their first bytes). Holds two
 /// buffers of 64 KiB, whatever the file says.
 class ByteStream {
  public:
-  /// @param offset  of the first byte; of packed ones, in the file   @throws SceneError  no such file, or too short
+  /// @param offset  of the first byte, for compressed data within the file   @throws SceneError  no such file, or too
+  /// short
   ByteStream(std::string path, uint64_t offset, bool packed);
   ~ByteStream();
   ByteStream(const ByteStream&) = delete;
   ByteStream& operator=(const ByteStream&) = delete;
 
   const std::string& path() const { return path_; }
-  /// To be asked before anything is allocated for them. @throws SceneError  it cannot hold so many bytes in all
+  /// Checks the size before anything is allocated for it. @throws SceneError  the file cannot hold this many bytes in
+  /// all
   void requireHolds(uint64_t bytes) const;
-  /// @throws SceneError  it ends early, or is corrupt
+  /// Reads bytes. @throws SceneError  the file ends early, or is corrupt
   void read(void* to, size_t bytes);
   void skip(uint64_t bytes);
-  /// Packed bytes: to their end, where their checksum stands. @throws SceneError  that does not agree
+  /// Reads compressed bytes to their end, where their checksum is. @throws SceneError  the checksum does not match
   void finish();
 
  private:
@@ -37,18 +39,18 @@ class ByteStream {
 
   std::string path_;
   uint64_t held_ = 0;  ///< bytes of the file from the offset on
-  uint64_t done_ = 0;  ///< bytes handed out
+  uint64_t done_ = 0;  ///< bytes delivered
   std::unique_ptr<FILE, int (*)(FILE*)> file_;
   std::unique_ptr<Inflater> inflater_;
 };
 
-/// Whether a file begins as gzip does. @throws SceneError  it cannot be read
+/// Returns whether a file begins like gzip. @throws SceneError  it cannot be read
 bool beginsAsGzip(const std::string& path);
-/// [bytes] @throws SceneError  it is no plain file
+/// Returns the size of a file [bytes]. @throws SceneError  it is no regular file
 uint64_t fileBytes(const std::string& path);
-/// The file that a header names for its data: a plain name, or one after ./, in the header's own folder, wherever links
-/// lead.
-/// @param key  of the header, for errors   @throws SceneError
+/// Returns the data file that a header names: a plain name, or one after ./, in the header's own folder, also through
+/// links.
+/// @param key  of the header, for errors   @throws SceneError  no such file there
 std::string dataFileBeside(const std::string& header, const std::string& told, const std::string& key);
 
 }  // namespace viscera

@@ -21,20 +21,20 @@ namespace {
 
 constexpr size_t kBuffer = 1 << 16, kMostLine = 4096;
 constexpr rlim_t kMostCpuSeconds = 900, kMostErrorBytes = 1 << 20;
-constexpr int kNoProgram = 127;  ///< the status of a shell that finds none
+constexpr int kNoProgram = 127;  ///< exit status of a shell that finds no program
 
 void limit(int what, rlim_t most) {
   const rlimit both{most, most};
   setrlimit(static_cast<__rlimit_resource>(what), &both);
 }
 
-/// In the child: from here on nothing may allocate.
+/// Turns the child into the program. Nothing may allocate from here on.
 [[noreturn]] void become(char* const* arguments, int out, int errors, rlim_t bytes) {
   const int nothing = open("/dev/null", O_RDONLY);
   dup2(nothing, STDIN_FILENO);
   dup2(out, STDOUT_FILENO);
   dup2(errors, STDERR_FILENO);
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // which have terabytes of address space
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // sanitizers reserve terabytes of address space
   limit(RLIMIT_AS, bytes);
 #else
   (void)bytes;
@@ -59,7 +59,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments, uint64_t b
     const std::string why = std::strerror(errno);
     for (const int fd : {errors_, ends[0], ends[1]})
       if (fd >= 0) close(fd);
-    throw SceneError(what_ + ": no process can be started: " + why);
+    throw SceneError(what_ + ": cannot start a process: " + why);
   }
   if (pid_ == 0) become(pointers.data(), ends[1], errors_, bytes);
   close(ends[1]);
@@ -86,14 +86,14 @@ int ChildProcess::ended() {
 void ChildProcess::fail() {
   const int status = ended();
   if (WIFSIGNALED(status))
-    throw SceneError(what_ + ": the library that reads DICOM was ended by it (" + strsignal(WTERMSIG(status)) +
-                     "); accepted: sound files that take at most " + std::to_string(bytes_ >> 20) + " MiB");
+    throw SceneError(what_ + ": the library that reads DICOM crashed on it (" + strsignal(WTERMSIG(status)) +
+                     "); accepted: undamaged files that need at most " + std::to_string(bytes_ >> 20) + " MiB");
   if (WIFEXITED(status) && WEXITSTATUS(status) == kNoProgram)
-    throw SceneError(what_ +
-                     ": the program viscera-dicom, which reads DICOM, is not there or does not start; scripts/build "
-                     "--only viscera-dicom "
-                     "builds it where GDCM is installed, and it is looked for beside this program, in PATH, and where "
-                     "VISCERA_DICOM says");
+    throw SceneError(
+        what_ +
+        ": the program viscera-dicom, which reads DICOM, was not found or did not start. It is searched next to "
+        "this program, in PATH, and at VISCERA_DICOM; with GDCM installed, `scripts/build --only "
+        "viscera-dicom` builds it");
   std::string text(kMostLine, '\0');
   const ssize_t got = pread(errors_, text.data(), text.size(), 0);
   text.resize(static_cast<size_t>(std::max<ssize_t>(got, 0)));
@@ -107,7 +107,7 @@ size_t ChildProcess::more() {
   while ((ready = poll(&wait, 1, silence_ms_)) < 0 && errno == EINTR) {
   }
   if (ready <= 0)
-    throw SceneError(what_ + ": nothing came of it for " + std::to_string(silence_ms_ / 1000) +
+    throw SceneError(what_ + ": viscera-dicom did not respond for " + std::to_string(silence_ms_ / 1000) +
                      " s, which is the limit");
   ssize_t got = 0;
   while ((got = ::read(out_, buffer_.data(), buffer_.size())) < 0 && errno == EINTR) {
@@ -133,7 +133,7 @@ std::string ChildProcess::line() {
   for (char c = 0;; text += c) {
     read(&c, 1);
     if (c == '\n') return text;
-    if (text.size() >= kMostLine) throw SceneError(what_ + ": viscera-dicom says too much");
+    if (text.size() >= kMostLine) throw SceneError(what_ + ": viscera-dicom sent a line that is too long");
   }
 }
 

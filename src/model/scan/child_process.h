@@ -10,26 +10,27 @@
 
 namespace viscera {
 
-/// A program of ours that reads what may end it, and writes to us. It ends with this object.
+/// Child process that parses data which may crash it, and writes its results to us. It ends with this object.
 class ChildProcess {
  public:
-  /// @param arguments  the program's path or name first   @param bytes  of address space that it may have
-  /// @param silence_s  after which it is ended   @param what  it reads, for errors   @throws SceneError
+  /// @param arguments  the program's path or name first   @param bytes  limit of its address space
+  /// @param silence_s  time without output after which it is killed   @param what  input that it reads, for errors
+  /// @throws SceneError
   ChildProcess(const std::vector<std::string>& arguments, uint64_t bytes, int silence_s, std::string what);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// @throws SceneError  with what it said, where it ended before
+  /// Reads bytes of its output. @throws SceneError  with its message, if it ended early
   void read(void* to, size_t bytes);
   std::string line();
-  /// To be called when all was read. @throws SceneError  it did not end well
+  /// Waits for its end; call it when all was read. @throws SceneError  it failed
   void finish();
 
  private:
-  size_t more();  ///< into the buffer; 0: it has closed its output
+  size_t more();  ///< reads into the buffer; 0: it has closed its output
   [[noreturn]] void fail();
-  int ended();  ///< waits for it; its status
+  int ended();  ///< waits for it; returns its status
 
   std::string what_;
   int silence_ms_;

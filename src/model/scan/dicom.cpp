@@ -27,7 +27,7 @@ std::string program() {
   return !error && std::filesystem::exists(beside, error) ? beside.string() : kProgram;
 }
 
-/// What is odd in the slices, as src/cli/dicom writes it ahead of them; empty: nothing.
+/// Returns a note on the slices, which src/cli/dicom writes ahead of them; empty: none.
 std::string noteIn(const std::string& line) {
   return line.rfind("note ", 0) == 0 ? line.substr(5) : "";
 }
@@ -42,10 +42,10 @@ std::unique_ptr<ChildProcess> start(std::vector<std::string> arguments, const Di
 }
 
 [[noreturn]] void misunderstood(const std::string& path) {
-  throw SceneError(path + ": viscera-dicom of another version than this program");
+  throw SceneError(path + ": the version of viscera-dicom differs from that of this program; build both together");
 }
 
-/// What src/cli/dicom writes: sizes, where voxels are, segments; then float32 slices.
+/// Scan read from the output of src/cli/dicom: sizes, positions of voxels, segments; then float32 slices.
 class DicomSlices : public ScanSource {
  public:
   DicomSlices(std::unique_ptr<ChildProcess> child, const std::string& path, int layer, std::vector<std::string>* notes)
@@ -131,7 +131,7 @@ std::vector<DicomSeries> listDicom(const std::string& path, const DicomLimits& l
 }
 
 std::unique_ptr<ScanSource> openDicom(const std::string& path, const ScanOptions& options, const DicomLimits& limits) {
-  if (!options.axes.empty()) throw SceneError(path + ": the axes of DICOM are LPS; accepted: no key axes");
+  if (!options.axes.empty()) throw SceneError(path + ": the axes of DICOM are always LPS; remove the key axes");
   const int layer = std::max(options.volume, 0);
   const std::string gaps = options.fill_slices ? "fill" : "refuse";
   return std::make_unique<DicomSlices>(start({"read", path, options.series, std::to_string(layer), gaps}, limits, path),

@@ -10,8 +10,8 @@
 
 namespace viscera {
 
-/// DICOM is read by the program viscera-dicom (src/cli/dicom), a child process: what its libraries do with spoilt
-/// files ends with it. It may have so much memory, and be silent for so long.
+/// Limits of the child process viscera-dicom (src/cli/dicom), which reads DICOM: if its libraries crash on corrupt
+/// files, only the child ends. Its memory [bytes], and the time without output.
 struct DicomLimits {
   uint64_t bytes = uint64_t{2} << 30;
   int silence_s = 60;
@@ -22,10 +22,10 @@ struct DicomSeries {
   int files = 0;
 };
 
-/// Whether a file is one of DICOM, whatever its name.
+/// Returns whether a file is DICOM, whatever its name.
 bool isDicomFile(const std::string& path);
 
-/// The series of a folder, or of one file, in order of their UIDs.
+/// Returns the series of a folder, or of one file, in order of their UIDs.
 /// @throws SceneError  no DICOM file is there, or viscera-dicom is missing
 std::vector<DicomSeries> listDicom(const std::string& path, const DicomLimits& limits = {});
 std::unique_ptr<ScanSource> openDicom(const std::string& path, const ScanOptions& options,

@@ -19,7 +19,7 @@ bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-/// A line of ITK-SNAP: number, red, green, blue, opacity, two flags, "name".
+/// Parses a line of ITK-SNAP: number, red, green, blue, opacity, two flags, "name".
 LabelName tableRow(const std::string& path, int number, const std::string& line) {
   const size_t open = line.find('"'), close = line.rfind('"');
   LabelName label;
@@ -29,8 +29,9 @@ LabelName tableRow(const std::string& path, int number, const std::string& line)
   bool good = fields.size() == 7 && parseInteger(fields[0], label.value);
   for (size_t n = 1; good && n < fields.size(); ++n) good = parseNumber(fields[n], ignored);
   if (!good)
-    throw SceneError(path + ":" + std::to_string(number) +
-                     ": accepted: a row of an ITK-SNAP table, 'number red green blue opacity shown meshed \"name\"'");
+    throw SceneError(
+        path + ":" + std::to_string(number) +
+        ": not a row of an ITK-SNAP table; accepted: 'number red green blue opacity shown meshed \"name\"'");
   label.name = line.substr(open + 1, close - open - 1);
   return label;
 }
@@ -52,8 +53,9 @@ std::vector<LabelName> readTable(const std::string& path) {
 
 std::vector<LabelName> readMap(const std::string& path) {
   const auto refuse = [&](const YAML::Mark& mark) {
-    return SceneError(path + ":" + std::to_string(mark.line + 1) +
-                      ": accepted: a map of numbers to names, such as 5: liver, or of names to numbers");
+    return SceneError(
+        path + ":" + std::to_string(mark.line + 1) +
+        ": not a map of label names; accepted: a map of numbers to names, such as 5: liver, or of names to numbers");
   };
   try {
     const YAML::Node map = YAML::LoadFile(path);
@@ -81,11 +83,13 @@ std::vector<LabelName> readMap(const std::string& path) {
 
 std::vector<LabelName> readLabelNames(const std::string& path) {
   if (fileBytes(path) > kMostTableBytes)
-    throw SceneError(path + ": too long for names of labels; accepted: at most 1 MiB");
+    throw SceneError(path + ": too large for a table of names of labels; accepted: at most 1 MiB");
   const std::string name = lower(path);
   if (endsWith(name, ".yaml") || endsWith(name, ".yml")) return readMap(path);
   if (endsWith(name, ".txt") || endsWith(name, ".label")) return readTable(path);
-  throw SceneError(path + ": names of labels; accepted: an ITK-SNAP table (.txt, .label) or a YAML map (.yaml, .yml)");
+  throw SceneError(
+      path +
+      ": unknown format for names of labels; accepted: an ITK-SNAP table (.txt, .label) or a YAML map (.yaml, .yml)");
 }
 
 }  // namespace viscera

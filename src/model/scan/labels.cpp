@@ -16,13 +16,13 @@ namespace viscera {
 namespace {
 
 constexpr size_t kMostLabels = 255;
-constexpr float kLargestValue = 1 << 24;  ///< above, float32 does not tell whole numbers apart
-constexpr size_t kMostListed = 20;        ///< labels in an error
+constexpr float kLargestValue = 1 << 24;  ///< above it, float32 does not resolve integers
+constexpr size_t kMostListed = 20;        ///< labels listed in an error
 constexpr char kGreyScan[] = "; a grey scan needs viscera import --window LOW,HIGH";
 
 using Key = std::pair<int, int64_t>;  ///< layer, value
 
-/// The file of names that lies beside a scan: its name with another ending; empty: there is none.
+/// Returns the file of names next to a scan, its name with another ending; empty: there is none.
 std::string namesBeside(const std::string& path) {
   std::string stem = path;
   for (const char* end : {".gz", ".nii", ".nrrd", ".nhdr", ".seg", ".mhd", ".mha"}) {
@@ -36,7 +36,7 @@ std::string namesBeside(const std::string& path) {
   return "";
 }
 
-/// The file's own segments, with names that a table gives to values.
+/// Returns the file's own segments, with the names that a table gives to values.
 std::vector<Segment> namedSegments(const std::string& path, const LabelOptions& options, const ScanSource& source) {
   std::vector<Segment> segments = source.segments();
   const bool given = !options.names_file.empty();
@@ -48,7 +48,7 @@ std::vector<Segment> namedSegments(const std::string& path, const LabelOptions& 
   } catch (const SceneError& error) {
     if (given) throw SceneError(std::string("names of labels: ") + error.what());
     if (options.notes)
-      options.notes->push_back(std::string("beside the scan, but no names of labels: ") + error.what());
+      options.notes->push_back(std::string("the file next to the scan has no names of labels: ") + error.what());
   }
   for (const LabelName& name : names) {
     bool known = false;
@@ -72,15 +72,15 @@ std::string listed(const std::vector<Segment>& segments) {
   return text.empty() ? "none" : text;
 }
 
-constexpr size_t kMostNumbers = 65536;  ///< of values that are remembered for errors
+constexpr size_t kMostNumbers = 65536;  ///< distinct values that are kept for errors
 
-/// The nearest whole number; none: it is too large, or no number.
+/// Returns the nearest integer; none: it is too large, or no number.
 std::optional<int64_t> wholeOf(float value) {
   if (!(std::abs(value) <= kLargestValue)) return {};
   return std::llround(value);
 }
 
-/// The values that a scan has, for an error that was found before it was read.
+/// Returns the values in a scan, for an error that was found before it was read.
 std::map<Key, int64_t> valuesOf(const std::string& path, const LabelOptions& options) {
   std::map<Key, int64_t> met;
   try {
@@ -96,13 +96,13 @@ std::map<Key, int64_t> valuesOf(const std::string& path, const LabelOptions& opt
         if (whole && *whole != 0 && met.size() < kMostNumbers) ++met[{0, *whole}];
       }
     }
-  } catch (const SceneError&) {  // which is not what the user asked
+  } catch (const SceneError&) {  // the original error matters more
     met.clear();
   }
   return met;
 }
 
-/// Numbers of labels while they are met: asked ones are known before, of all the others come as they are met.
+/// Numbers of labels. Those of requested labels are known in advance; all others get numbers in order of appearance.
 class Numbering {
  public:
   Numbering(const std::string& path, const LabelOptions& options, std::vector<Segment> segments)
@@ -120,11 +120,12 @@ class Numbering {
   size_t count() const { return labels_.size(); }
   const Segment& label(size_t number) const { return labels_[number - 1]; }
   const std::map<Key, int64_t>& met() const { return met_; }
-  /// @throws SceneError  a value that is no label, or no voxel of one that was asked for
+  /// Checks that all requested labels occur.
+  /// @throws SceneError  a value that is no label, or no voxel of a requested label
   void requireMet() const {
     if (farthest_ > kNearlyWhole) {
       TextOut out;
-      out << path_ << ": is no label map: a voxel is " << farthest_value_;
+      out << path_ << ": is not a label map: a voxel has the value " << farthest_value_;
       if (std::isfinite(farthest_)) out << ", " << farthest_ << " from a whole number";
       out << "; accepted: whole numbers, at most 2^24, within " << kNearlyWhole << kGreyScan;
       throw SceneError(out.str());
@@ -134,14 +135,14 @@ class Numbering {
         refuse("no voxel has label " + std::to_string(label.label.value));
     if (labels_.empty()) refuse("no voxel has a label");
   }
-  /// What was done to values; empty: nothing.
+  /// Returns a note on changes to values; empty: none.
   std::string note() const {
     if (farthest_ == 0) return "";
     TextOut out;
     out << path_ << ": values were rounded to labels, by up to " << farthest_;
     return out.str();
   }
-  /// Of all labels: numbers by value and layer. @returns [old number] new one
+  /// Sorts the numbers of all labels by value and layer. @returns [old number] new number
   std::vector<uint8_t> sorted() {
     std::vector<size_t> order(labels_.size());
     for (size_t n = 0; n < order.size(); ++n) order[n] = n;
@@ -177,17 +178,17 @@ class Numbering {
         if (segment.label.value == value) take(segment);
       if (labels_.size() == before) take({0, {value, ""}});
     }
-    if (labels_.size() == before) refuse("has no label '" + asked + "'");
+    if (labels_.size() == before) refuse("there is no label '" + asked + "'");
     if (labels_.size() > before + 1) refuse("'" + asked + "' is the name or number of several labels");
   }
 
   void take(const Segment& segment) {
-    if (segment.label.value == 0) refuse("label 0 is what is outside");
+    if (segment.label.value == 0) refuse("label 0 is the background");
     if (!numbers_.emplace(Key(segment.layer, segment.label.value), labels_.size() + 1).second)
-      refuse("label " + std::to_string(segment.label.value) + " is asked for twice");
+      refuse("label " + std::to_string(segment.label.value) + " is requested twice");
     labels_.push_back(segment);
     if (labels_.size() > kMostLabels)
-      throw SceneError(path_ + ": has more labels than accepted: at most 255; ask for some of them" + kGreyScan);
+      throw SceneError(path_ + ": has more than 255 labels; choose at most 255 of them" + kGreyScan);
   }
 
   uint8_t find(int layer, float value) {
@@ -221,10 +222,10 @@ class Numbering {
   float last_value_ = 0;
   int last_layer_ = 0;
   uint8_t last_ = 0;
-  float farthest_ = 0, farthest_value_ = 0;  ///< from a whole number
+  float farthest_ = 0, farthest_value_ = 0;  ///< largest distance from an integer, and its value
 };
 
-/// Fills voxels of one layer. @returns of how many others had labels already
+/// Labels the voxels of one layer. @returns number of voxels that already had a label
 size_t readLayer(ScanSource& source, int layer, Numbering& numbering, std::vector<uint8_t>& labels) {
   std::vector<float> values;
   size_t overlaps = 0, voxel = 0;
@@ -250,7 +251,7 @@ LabelVolume readLabels(const std::string& path, const LabelOptions& options) {
   volume.frame = source->frame();
   const int layers = source->layers();
   if (layers > 1 && options.volume >= 0)
-    throw SceneError(path + ": labels are taken of all its layers; accepted: no key volume");
+    throw SceneError(path + ": labels are read from all its layers; remove the key volume");
   size_t overlaps = 0;
   volume.labels.assign(volume.frame.voxels(), 0);
   for (int layer = 0; layer < layers; ++layer) {
@@ -271,7 +272,7 @@ LabelVolume readLabels(const std::string& path, const LabelOptions& options) {
   for (size_t n = 1; n <= numbering.count(); ++n) volume.names.push_back(numbering.label(n).label);
   if (overlaps > 0 && options.notes)
     options.notes->push_back(path + ": " + std::to_string(overlaps) +
-                             " voxels have several labels: the first of those asked for has them");
+                             " voxels have several labels; they get the first requested one");
   return volume;
 }
 

@@ -10,20 +10,21 @@
 namespace viscera {
 
 struct LabelOptions : ScanOptions {
-  std::vector<std::string> labels;  ///< numbers or names, in the order that they get numbers in; none: all, by value
-  std::string names_file;  ///< an ITK-SNAP table (.txt, .label) or a YAML map; empty: one beside the scan, if any
+  std::vector<std::string> labels;  ///< numbers or names, numbered in this order; none: all, by value
+  std::string names_file;  ///< an ITK-SNAP table (.txt, .label) or a YAML map; empty: the file next to the scan, if
+                           ///< there is one
 };
 
-/// How far a voxel of a label map may be from a whole number: what slopes and resampling leave.
+/// Largest distance of a label map's value from an integer: the error of slopes and resampling.
 constexpr float kNearlyWhole = 1e-3F;
 
-/// A label map of a byte a voxel: labels renumbered 1, 2, ... in the order asked for. Where labels of several layers
-/// overlap, the first of that order has the voxel, which is noted.
-/// @throws SceneError  naming the file, and the labels that it has
+/// Reads a label map with a byte per voxel: labels renumbered 1, 2, ... in the requested order. Where labels of several
+/// layers overlap, the first of that order gets the voxel, with a note.
+/// @throws SceneError  names the file, and the labels that it has
 LabelVolume readLabels(const std::string& path, const LabelOptions& options = {});
 
-/// What a file of names says: an ITK-SNAP table or a YAML map of numbers to names or names to numbers.
-/// @throws SceneError  naming file and line
+/// Reads a file of names: an ITK-SNAP table or a YAML map of numbers to names or names to numbers.
+/// @throws SceneError  names file and line
 std::vector<LabelName> readLabelNames(const std::string& path);
 
 }  // namespace viscera

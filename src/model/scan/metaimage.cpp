@@ -6,12 +6,12 @@
 #include "model/scan/voxels.h"
 #include "viscera/math/error.h"
 
-// MetaImage: a header of text (.mhd) and a file of data beside it, or both in one (.mha). The world is LPS.
+// MetaImage: a text header (.mhd) with a data file next to it, or both in one file (.mha). Its world frame is LPS.
 namespace viscera {
 namespace {
 
 struct MetaHeader : TextHeader {
-  uint64_t end = 0;  ///< where data begin that are in the same file
+  uint64_t end = 0;  ///< offset of data in the same file
 };
 
 MetaHeader readMetaHeader(const std::string& path) {
@@ -23,14 +23,14 @@ MetaHeader readMetaHeader(const std::string& path) {
     std::string line;
     try {
       line = headerLine(stream, left);
-    } catch (const SceneError&) {  // the data were taken for lines
+    } catch (const SceneError&) {  // the data were read as lines
       if (!header.has("ndims")) throw;
       throw SceneError(path +
-                       ": its header has no ElementDataFile, which says where its data are; accepted: LOCAL, or the "
+                       ": its header has no ElementDataFile, which locates its data; accepted: LOCAL, or the "
                        "name of one file");
     }
     const size_t equals = line.find('=');
-    if (equals == std::string::npos) throw SceneError(path + ": no MetaImage file: a line of its header has no '='");
+    if (equals == std::string::npos) throw SceneError(path + ": not a MetaImage file: a line of its header has no '='");
     header.fields[lower(trimmed(line.substr(0, equals)))] = trimmed(line.substr(equals + 1));
   }
   header.end = kMostHeaderBytes - left;
@@ -56,7 +56,7 @@ bool isTrue(const TextHeader& header, const std::string& name, bool otherwise) {
   return value == "true";
 }
 
-/// The first of some names that the header has; the first name if it has none.
+/// Returns the first of some names that the header has; the first name if it has none.
 std::string alias(const TextHeader& header, std::initializer_list<const char*> names) {
   for (const char* name : names)
     if (header.has(name)) return name;
@@ -71,7 +71,7 @@ VolumeFrame frameOf(const TextHeader& header, const std::array<int64_t, 3>& size
   const std::vector<double> spacing = header.numbers(spacing_key, dims);
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   if (header.has(axes_key)) {
-    const std::vector<double> rows = header.numbers(axes_key, dims * dims);  // each is the direction of an axis
+    const std::vector<double> rows = header.numbers(axes_key, dims * dims);  // each row is the direction of an axis
     for (size_t axis = 0; axis < 3; ++axis)
       for (size_t c = 0; c < 3; ++c) axes(static_cast<int>(c), static_cast<int>(axis)) = rows[axis * dims + c];
   }
@@ -98,7 +98,7 @@ std::unique_ptr<ByteStream> dataOf(const MetaHeader& header, bool packed, uint64
     const int64_t skipped = header.integers("headersize", 1)[0];
     const uint64_t held = fileBytes(file);
     if (skipped < -1 || (local && skipped > 0) || (packed && skipped < 0))
-      header.refuse("headersize", "0 or more bytes of a file of data, or -1: raw data are at its end");
+      header.refuse("headersize", "0 or more bytes of a separate data file, or -1: raw data at the end of the file");
     if (skipped < 0 && held < bytes)
       throw SceneError(file + ": ends early: its header asks for " + std::to_string(bytes) + " bytes");
     if (skipped != 0) offset = skipped < 0 ? held - bytes : static_cast<uint64_t>(skipped);
@@ -110,12 +110,13 @@ std::unique_ptr<ByteStream> dataOf(const MetaHeader& header, bool packed, uint64
 
 std::unique_ptr<ScanSource> openMetaImage(const std::string& path, const ScanOptions& options) {
   const MetaHeader header = readMetaHeader(path);
-  if (!options.axes.empty()) throw SceneError(path + ": the axes of MetaImage files are LPS; accepted: no key axes");
+  if (!options.axes.empty())
+    throw SceneError(path + ": the axes of MetaImage files are always LPS; remove the key axes");
   if (lower(header.textOr("objecttype", "image")) != "image") header.refuse("objecttype", "Image");
   const int64_t dims = header.integers("ndims", 1)[0];
   if (dims != 3 && dims != 4) header.refuse("ndims", "3, or 4: several volumes");
   if (header.has("elementnumberofchannels") && header.integers("elementnumberofchannels", 1)[0] != 1)
-    header.refuse("elementnumberofchannels", "1: one number a voxel");
+    header.refuse("elementnumberofchannels", "1: one number per voxel");
   if (!isTrue(header, "binarydata", true)) header.refuse("binarydata", "True");
   const std::vector<int64_t> sizes = header.integers("dimsize", static_cast<size_t>(dims));
   VoxelLayout layout;

@@ -8,10 +8,11 @@
 namespace viscera {
 namespace {
 
-// Corner c of a dual cell is the voxel at (c & 1, c >> 1 & 1, c >> 2). Pairs of neighbours are numbered 4 axis + which.
+// Corner c of a dual cell is the voxel at (c & 1, c >> 1 & 1, c >> 2). Pairs of neighbours have the numbers 4 axis +
+// which.
 constexpr int kPair[12][2] = {{0, 1}, {2, 3}, {4, 5}, {6, 7}, {0, 2}, {1, 3},
                               {4, 6}, {5, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
-/// Corners around each face of a dual cell, and the pairs between each and the next.
+/// Corners around each face of a dual cell, and the pair between each and the next.
 constexpr int kFaceCorner[6][4] = {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 5, 7, 6}};
 constexpr int kFacePair[6][4] = {{4, 10, 6, 8},  {5, 11, 7, 9}, {0, 9, 2, 8},
                                  {1, 11, 3, 10}, {0, 5, 1, 4},  {2, 7, 3, 6}};
@@ -26,8 +27,9 @@ void join(Sheets& sheets, int pair_a, int pair_b) {
   std::replace(sheets.begin(), sheets.end(), high, low);
 }
 
-/// Which pairs of a dual cell are cut by one sheet of the surface: [pairs] the lowest pair of its sheet, or kNoSheet
-/// where both voxels are alike. One vertex for all sheets of a cell would pinch walls of one voxel and half.
+/// Returns which pairs of a dual cell one sheet of the surface cuts: [pairs] the lowest pair of its sheet, or kNoSheet
+/// where both voxels have the same label. A single vertex for all sheets of a cell would pinch walls of one and a half
+/// voxels.
 Sheets sheetsOf(const Labels& labels) {
   Sheets sheets;
   for (int p = 0; p < 12; ++p) sheets[p] = labels[kPair[p][0]] != labels[kPair[p][1]] ? p : kNoSheet;
@@ -35,7 +37,7 @@ Sheets sheetsOf(const Labels& labels) {
     const int* pair = kFacePair[f];
     const auto label = [&](int c) { return labels[kFaceCorner[f][c]]; };
     const bool crossed = label(0) == label(2) && label(1) == label(3) && label(0) != label(1);
-    if (crossed) {  // the larger label, which is tissue rather than outside, holds together over the diagonal
+    if (crossed) {  // the larger label, tissue rather than outside, stays connected across the diagonal
       const int apart = label(0) < label(1) ? 0 : 1;
       join(sheets, pair[(apart + 3) % 4], pair[apart]);
       join(sheets, pair[apart + 1], pair[(apart + 2) % 4]);
@@ -51,7 +53,7 @@ Sheets sheetsOf(const Labels& labels) {
   return sheets;
 }
 
-/// Goes through the volume slice by slice. Its voxels are counted from 1: around them lies a layer of label 0.
+/// Traversal of the volume slice by slice. Its voxels are counted from 1: a layer of label 0 surrounds them.
 class CellWalk {
  public:
   CellWalk(const LabelVolume& volume, const Crossing& crossing)
@@ -94,7 +96,7 @@ class CellWalk {
             high_[cell], high_[cell + 1], high_[cell + row_], high_[cell + row_ + 1]};
   }
 
-  /// Of the dual cells between slices k and k + 1.
+  /// Makes the vertices of the dual cells between slices k and k + 1.
   void makeVertices(int k) {
     std::fill(here_.begin(), here_.end(), kNone);
     vertices_here_.clear();
@@ -119,7 +121,7 @@ class CellWalk {
       }
       vertices[p] = static_cast<uint32_t>(net_.places_m.size());
       const Vector3d place = crossing_ ? meanCrossing(cell, sheets, p) : Vector3d::Constant(0.5);
-      // Counted from the voxel, not from the layer around: hence - 1.
+      // Counted from the voxel, not from the layer around it: hence - 1.
       net_.places_m.push_back((cell.cast<double>() + place - Vector3d::Ones()).cwiseProduct(spacing_m_));
     }
     return vertices;
@@ -140,7 +142,7 @@ class CellWalk {
     return sum / count;
   }
 
-  /// Between neighbours within the lower slice, and from it to the upper one.
+  /// Makes the quads between neighbours within the lower slice, and from it to the upper one.
   void makeQuads() {
     const size_t step[3] = {1, static_cast<size_t>(row_), 0};
     for (int j = 0; j <= size_.y(); ++j) {
@@ -154,7 +156,7 @@ class CellWalk {
     }
   }
 
-  /// @param c  the lower voxel of the pair, which is also the dual cell whose lowest corner it is
+  /// @param c  the lower voxel of the pair, which is also the dual cell with this voxel as its lowest corner
   void addQuad(size_t c, int axis, const std::array<uint8_t, 2>& sides) {
     const size_t step[3] = {1, static_cast<size_t>(row_), 0};
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;

@@ -8,12 +8,12 @@
 namespace viscera {
 namespace {
 
-constexpr double kBending = 0.4;  ///< step against the bilaplacian, which is stable up to 1/2
-constexpr int kReturnEvery = 4;   ///< rounds
-constexpr double kRings = 10;     ///< over which movement is averaged, times the largest spacing over the smallest
+constexpr double kBending = 0.4;  ///< step against the bilaplacian; stable up to 1/2
+constexpr int kReturnEvery = 4;   ///< in rounds
+constexpr double kRings = 10;  ///< rings over which movement is averaged, times the largest spacing over the smallest
 constexpr int kLabels = 256;
 
-/// A vertex at the other end of a quad's edge, and the labels of that quad.
+/// Vertex at the other end of a quad's edge, and the labels of that quad.
 struct Spoke {
   uint32_t to;
   std::array<uint8_t, 2> sides;
@@ -23,14 +23,14 @@ struct Spoke {
 struct EdgeSpokes {
   const Spoke *first, *end;
 
-  bool isJunction() const {  // of three labels or more
+  bool isJunction() const {  // three labels or more meet
     const auto [a, b] = first->sides;
     return std::any_of(first + 1, end, [a = a, b = b](const Spoke& s) {
       return (s.sides[0] != a && s.sides[0] != b) || (s.sides[1] != a && s.sides[1] != b);
     });
   }
 
-  /// Whether some label has four faces here.
+  /// Returns whether some label has four faces here.
   bool touches() const {
     if (end - first < 4) return false;
     const auto facesOf = [&](uint8_t label) {
@@ -42,7 +42,7 @@ struct EdgeSpokes {
   }
 };
 
-/// Which vertices a vertex is drawn to: those along its edges, or, where three labels meet, along that line only.
+/// Vertices that pull on a vertex: those along its edges, or, where three labels meet, only those along that line.
 class Neighbors {
  public:
   explicit Neighbors(const NetCells& net) {
@@ -66,7 +66,7 @@ class Neighbors {
     for (size_t v = 0; v < vertices; ++v) addVertex(v, spokes.data() + first[v], spokes.data() + first[v + 1]);
   }
 
-  /// Mean of the neighbours' values, less the vertex's own.
+  /// Returns the mean of the neighbours' values, less the vertex's own.
   Vector3d laplacian(const std::vector<Vector3d>& of, size_t v) const {
     Vector3d sum = Vector3d::Zero();
     for (size_t n = start_[v]; n < start_[v + 1]; ++n) sum += of[to_[n]];
@@ -96,7 +96,7 @@ class Neighbors {
   }
 
   std::vector<uint32_t> start_, to_;
-  std::vector<uint32_t> along_;  ///< of the vertex that is being added
+  std::vector<uint32_t> along_;  ///< vertices along the line of the vertex that is being added
   size_t touching_ = 0;
 };
 
@@ -104,7 +104,7 @@ Vector3d areaOf(const std::vector<Vector3d>& x, const std::array<uint32_t, 4>& q
   return 0.5 * (x[q[2]] - x[q[0]]).cross(x[q[3]] - x[q[1]]);
 }
 
-/// Between the origin and a quad, half way between its two ways of being cut into triangles.
+/// Returns the volume between the origin and a quad, the mean of its two divisions into triangles.
 double volumeBelow(const std::vector<Vector3d>& x, const std::array<uint32_t, 4>& q, const Vector3d& area) {
   return (x[q[0]] + x[q[1]] + x[q[2]] + x[q[3]]).dot(area) / 12;
 }
@@ -126,7 +126,7 @@ class Smoother {
     move();
   }
 
-  /// What moved on average over some rings of neighbours goes back: rims would be drawn in, and thicken their wall.
+  /// Reverts the average movement over some rings of neighbours: it would draw rims in and thicken their wall.
   void giveBack(int rings) {
     scratch_.resize(x_.size());
     for (size_t v = 0; v < x_.size(); ++v) step_[v] = x_[v] - start_[v];
@@ -138,7 +138,8 @@ class Smoother {
     move();
   }
 
-  /// Borders move along their normals by what each label lacks per area; between two labels by the mean of both.
+  /// Moves borders along their normals by the missing volume of each label per area; between two labels by the mean of
+  /// both.
   void keepVolumes(const std::vector<double>& wanted_m3) {
     std::vector<double> lacks = wanted_m3, area(kLabels, 0);
     for (size_t q = 0; q < net_.quads.size(); ++q) {

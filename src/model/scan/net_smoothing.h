@@ -11,13 +11,13 @@ namespace viscera {
 
 struct SmoothingRule {
   int rounds;
-  double box;  ///< how far a vertex may go from where it began, along each axis [spacings]
+  double box;  ///< largest distance of a vertex from its start, along each axis [spacings]
 };
 
-/// Makes a net bend as little as its box allows. Each label keeps the volume that is asked for, and walls stay where
-/// they were.
-/// @param volumes_m3  [256] wanted of each label; that of label 0 is not looked at
-/// @return            edges along which four faces of one label meet
+/// Smooths a net so that it bends as little as its box allows. Each label keeps its requested volume, and walls keep
+/// their positions.
+/// @param volumes_m3  [256] requested volume of each label; that of label 0 is ignored
+/// @return            number of edges along which four faces of one label meet
 size_t smooth(NetCells& net, const Vector3d& spacing_m, const SmoothingRule& rule,
               const std::vector<double>& volumes_m3);
 

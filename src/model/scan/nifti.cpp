@@ -8,7 +8,7 @@
 #include "model/scan/voxels.h"
 #include "viscera/math/error.h"
 
-// NIfTI-1 and NIfTI-2, one file, plain or as gzip. The world of a file is RAS.
+// NIfTI-1 and NIfTI-2, one file, plain or gzipped. The world frame of a file is RAS.
 namespace viscera {
 namespace {
 
@@ -16,7 +16,7 @@ using Affine = Eigen::Matrix<double, 3, 4>;
 
 constexpr size_t kHeader1 = 348, kHeader2 = 540;
 
-/// Numbers at their places in a header.
+/// Numbers in a header, by their offsets.
 class Fields {
  public:
   Fields(std::vector<uint8_t> bytes, bool big_endian)
@@ -33,7 +33,7 @@ class Fields {
     std::memcpy(&value, bytes, sizeof(T));
     return value;
   }
-  /// Real number n of a field: float of the first, double of the second version.
+  /// Returns real number n of a field: float in version 1, double in version 2.
   double real(size_t place1, size_t place2, size_t n = 0) const {
     return second_ ? get<double>(place2 + 8 * n) : static_cast<double>(get<float>(place1 + 4 * n));
   }
@@ -41,7 +41,7 @@ class Fields {
   int64_t code(size_t place1, size_t place2) const { return second_ ? get<int32_t>(place2) : get<int16_t>(place1); }
   double pixdim(size_t n) const { return n == 0 ? real(76, 104, n) : unit_mm * real(76, 104, n); }
 
-  double unit_mm = 1;  ///< of lengths
+  double unit_mm = 1;  ///< unit of lengths [mm]
 
  private:
   std::vector<uint8_t> bytes_;
@@ -57,14 +57,14 @@ Fields readHeader(ByteStream& stream) {
   const uint32_t big = bytes[3] | bytes[2] << 8 | bytes[1] << 16 | static_cast<uint32_t>(bytes[0]) << 24;
   const bool second = little == kHeader2 || big == kHeader2;
   if (!second && little != kHeader1 && big != kHeader1)
-    throw SceneError(path + ": no NIfTI file: its header is not of 348 or 540 bytes");
+    throw SceneError(path + ": not a NIfTI file: its header does not have 348 or 540 bytes");
   bytes.resize(second ? kHeader2 : kHeader1);
   stream.read(bytes.data() + 4, bytes.size() - 4);
   const Fields fields(std::move(bytes), little != kHeader1 && little != kHeader2);
   const char* magic = reinterpret_cast<const char*>(fields.at(second ? 4 : 344));
   if (std::memcmp(magic, second ? "n+2" : "n+1", 4) != 0)
-    throw SceneError(
-        path + ": no NIfTI file that holds its data itself; accepted: one file, .nii or .nii.gz, of NIfTI-1 or 2");
+    throw SceneError(path +
+                     ": not a NIfTI file with its data inside; accepted: one file, .nii or .nii.gz, of NIfTI-1 or 2");
   return fields;
 }
 
@@ -92,7 +92,7 @@ VoxelType voxelType(const std::string& path, int code) {
       return VoxelType::kUint64;
     default:
       throw SceneError(path + ": datatype " + std::to_string(code) + (code == 128 || code == 2304 ? " (colours)" : "") +
-                       "; accepted: one number a voxel (2, 4, 8, 16, 64, 256, 512, 768, 1024, 1280)");
+                       "; accepted: one number per voxel (2, 4, 8, 16, 64, 256, 512, 768, 1024, 1280)");
   }
 }
 
@@ -103,7 +103,7 @@ std::array<int64_t, 3> sizeOf(const std::string& path, const Fields& fields, uin
     if (fields.dim(static_cast<size_t>(n)) != 1)
       throw SceneError(path + ": dim[" + std::to_string(n) + "] is " +
                        std::to_string(fields.dim(static_cast<size_t>(n))) +
-                       "; accepted: 1 (volumes of one number a voxel, in dim[4])");
+                       "; accepted: 1 (one number per voxel; volumes are in dim[4])");
   const int64_t count = dims > 3 ? fields.dim(4) : 1;
   if (count < 1 || count > 65535)
     throw SceneError(path + ": dim[4] is " + std::to_string(count) + "; accepted: 1 .. 65535");
@@ -134,36 +134,37 @@ void requireFinite(const std::string& path, const Affine& affine, const char* wh
   if (!affine.allFinite()) throw SceneError(path + ": " + which + " is not finite; accepted: 12 finite numbers");
 }
 
-/// For errors.
+/// Returns the name of the steps, for errors.
 const char* stepsOf(const Fields& fields, bool sform) {
   if (fields.unit_mm == 1) return sform ? "steps of its sform" : "pixdim";
   return sform ? "steps of its sform in the unit of xyzt_units" : "pixdim in the unit of xyzt_units";
 }
 
-/// Whether pixdim can be the steps of a volume.
+/// Returns whether pixdim can be the steps of a volume.
 bool hasSteps(const Fields& fields) {
   bool all = true;
   for (size_t axis = 1; axis <= 3; ++axis) all = all && isSpacing(fields.pixdim(axis));  // false for NaN
   return all;
 }
 
-/// sform goes before pixdim, which others take for the size of voxels. @returns a line; empty: they agree
+/// Returns a note if sform and pixdim differ; other programs take pixdim for the size of voxels. sform takes
+/// precedence. @returns a line; empty: they agree
 std::string stepsNote(const std::string& path, const Fields& fields, const Affine& affine) {
   constexpr double kAlike = 0.01;
   bool alike = true;
   std::ostringstream out;
-  out << path << ": pixdim says voxels of";
+  out << path << ": pixdim has voxels of";
   for (int axis = 0; axis < 3; ++axis) {
     const double said = fields.pixdim(static_cast<size_t>(axis) + 1), step = affine.col(axis).norm();
     alike = alike && std::abs(said - step) <= kAlike * step;
     out << (axis > 0 ? " x " : " ") << said;
   }
-  out << " mm, sform of " << affine.col(0).norm() << " x " << affine.col(1).norm() << " x " << affine.col(2).norm()
-      << " mm: sform is taken";
+  out << " mm, but sform has " << affine.col(0).norm() << " x " << affine.col(1).norm() << " x " << affine.col(2).norm()
+      << " mm; sform is used";
   return alike ? "" : out.str();
 }
 
-/// Whether both put the corners of the volume within half a voxel of each other.
+/// Returns whether both put the corners of the volume within half a voxel of each other.
 bool agree(const Affine& a, const Affine& b, const std::array<int64_t, 3>& size) {
   const double half = a.leftCols<3>().colwise().norm().minCoeff() / 2;
   for (int corner = 0; corner < 8; ++corner) {
@@ -175,13 +176,13 @@ bool agree(const Affine& a, const Affine& b, const std::array<int64_t, 3>& size)
   return true;
 }
 
-/// Voxels to RAS [mm].
+/// Returns the transform from voxels to RAS [mm].
 Affine affineOf(const std::string& path, const Fields& fields, const std::array<int64_t, 3>& size,
                 const ScanOptions& options) {
   const std::string& told = options.transform;
   const bool has_s = fields.code(254, 348) > 0, said_q = fields.code(252, 344) > 0;
   const bool has_q = said_q && (hasSteps(fields) || !has_s || told == "qform");
-  if (!has_s || told == "qform")  // what is made of pixdim
+  if (!has_s || told == "qform")  // the transform from pixdim
     for (size_t axis = 1; axis <= 3; ++axis) requireSpacing(path, stepsOf(fields, false), fields.pixdim(axis));
   if (!told.empty() && told != "sform" && told != "qform")
     throw SceneError(path + ": transform '" + told + "'; accepted: sform or qform");
@@ -194,21 +195,22 @@ Affine affineOf(const std::string& path, const Fields& fields, const std::array<
   if (has_q) requireFinite(path, qform(fields), "qform (quatern_b, c, d and qoffset)");
   if (!has_s && !has_q) {
     const bool guessed =
-        options.axes.empty() && isGuessed(path, options, "does not say where left and right are: axes RAS are a guess");
+        options.axes.empty() && isGuessed(path, options, "does not state its orientation; axes RAS are a guess");
     if (options.axes.empty() && !guessed)
-      throw SceneError(path +
-                       ": does not say where left and right are (sform_code and qform_code are 0); accepted: axes, "
-                       "where i, j, k lead to, such as axes: RAS");
+      throw SceneError(
+          path +
+          ": does not state its orientation (sform_code and qform_code are 0); set axes, the directions of i, j "
+          "and k, such as axes: RAS");
     Affine affine = Affine::Zero();
     affine.leftCols<3>() = Vector3d(-1, -1, 1).asDiagonal() * lpsFromAxes(path, guessed ? "RAS" : options.axes);
     for (int axis = 0; axis < 3; ++axis) affine.col(axis) *= fields.pixdim(static_cast<size_t>(axis) + 1);
     return affine;
   }
-  if (!options.axes.empty()) throw SceneError(path + ": says itself where its axes lead to; accepted: no key axes");
+  if (!options.axes.empty()) throw SceneError(path + ": the file states its orientation; remove the key axes");
   if (has_s && has_q && told.empty() && !agree(sform(fields), qform(fields), size) &&
-      !isGuessed(path, options, "its sform and its qform are more than half a voxel apart: this is the sform"))
+      !isGuessed(path, options, "its sform and its qform are more than half a voxel apart; sform is used"))
     throw SceneError(path +
-                     ": its sform and its qform are more than half a voxel apart; accepted: transform, sform or qform");
+                     ": its sform and its qform are more than half a voxel apart; set transform to sform or qform");
   if (told == "qform" || !has_s) return qform(fields);
   for (int axis = 0; axis < 3; ++axis) requireSpacing(path, stepsOf(fields, true), sform(fields).col(axis).norm());
   const std::string note = stepsNote(path, fields, sform(fields));
@@ -216,19 +218,19 @@ Affine affineOf(const std::string& path, const Fields& fields, const std::array<
   return sform(fields);
 }
 
-/// What a unit of the header's lengths is [mm].
+/// Returns the unit of the header's lengths [mm].
 double unitMm(const std::string& path, const Fields& fields) {
   const int64_t code = (fields.second() ? fields.get<int32_t>(500) : *fields.at(123)) & 7;
   if (code == 0 || code == 2) return 1;
   if (code == 1) return 1000;
   if (code == 3) return 1e-3;
   throw SceneError(path + ": xyzt_units is " + std::to_string(code) +
-                   "; accepted: 1 (m), 2 (mm), 3 (um), or 0, which is taken for mm");
+                   "; accepted: 1 (m), 2 (mm), 3 (um), or 0, which is read as mm");
 }
 
 void scaling(const std::string& path, const Fields& fields, VoxelLayout& layout) {
   const double slope = fields.real(112, 176), intercept = fields.real(116, 184);
-  if (slope == 0 || !std::isfinite(slope)) return;  // as the standard says: values are as they are
+  if (slope == 0 || !std::isfinite(slope)) return;  // by the standard, values are then unscaled
   if (!std::isfinite(intercept)) throw SceneError(path + ": scl_inter is not finite; accepted: a finite number");
   layout.slope = slope;
   layout.intercept = intercept;

@@ -8,13 +8,13 @@
 #include "model/scan/voxels.h"
 #include "viscera/math/error.h"
 
-// NRRD, and what 3D Slicer writes of segments into its keys (.seg.nrrd).
+// NRRD, and the keys in which 3D Slicer stores segments (.seg.nrrd).
 namespace viscera {
 namespace {
 
 struct NrrdHeader : TextHeader {
-  std::map<std::string, std::string> keys;  ///< key := value, as written
-  uint64_t end = 0;                         ///< where data begin that are in the same file
+  std::map<std::string, std::string> keys;  ///< key := value, as in the file
+  uint64_t end = 0;                         ///< offset of data in the same file
 };
 
 NrrdHeader readNrrdHeader(const std::string& path) {
@@ -24,10 +24,10 @@ NrrdHeader readNrrdHeader(const std::string& path) {
   uint64_t left = kMostHeaderBytes;
   const std::string magic = headerLine(stream, left);
   if (magic.size() != 8 || magic.compare(0, 7, "NRRD000") != 0 || magic[7] < '1' || magic[7] > '5')
-    throw SceneError(path + ": no NRRD file; accepted: one that begins with NRRD0001 .. NRRD0005");
+    throw SceneError(path + ": not a NRRD file; accepted: a file that begins with NRRD0001 .. NRRD0005");
   uint64_t done = magic.size() + 1;
   const uint64_t held = fileBytes(path);
-  while (done < held) {  // the header of data in another file may end with the file
+  while (done < held) {  // the header of a detached data file may end with the file
     const uint64_t before = left;
     const std::string line = headerLine(stream, left);
     done += before - left;
@@ -39,7 +39,7 @@ NrrdHeader readNrrdHeader(const std::string& path) {
     else if (line.find(':') != std::string::npos)
       header.fields[lower(line.substr(0, line.find(':')))] = trimmed(line.substr(line.find(':') + 1));
     else if (header.textOr("data file", header.textOr("datafile", "")).rfind("LIST", 0) == 0)
-      break;  // names follow, to the end
+      break;  // file names follow, to the end
     else
       throw SceneError(path + ": a line of its header is neither 'field: value' nor 'key:=value'");
   }
@@ -94,7 +94,7 @@ VoxelType nrrdVoxelType(const TextHeader& header) {
 
 constexpr int kNone = -1;
 
-/// Which axis holds volumes or layers, of a header with four: the first or the last; kNone of three.
+/// Returns the axis of volumes or layers for a header with four axes: the first or the last; kNone for three.
 int listAxis(const TextHeader& header, size_t dims, const std::vector<std::string>& directions,
              const std::vector<std::string>& kinds) {
   int list = kNone;
@@ -102,18 +102,18 @@ int listAxis(const TextHeader& header, size_t dims, const std::vector<std::strin
     const std::string kind = kinds.empty() ? "domain" : lower(kinds[axis]);
     const bool in_space = kind == "domain" || kind == "space" || kind == "none" || kind == "???";
     if (!in_space && kind != "list" && kind != "time")
-      header.refuse("kinds", "domain, space, list, time: one number a voxel");
+      header.refuse("kinds", "domain, space, list, time: one number per voxel");
     const bool none = !directions.empty() && directions[axis] == "none";
     if (none || !in_space) list = list == kNone ? static_cast<int>(axis) : 99;
   }
   if (dims == 4 && list == kNone && directions.empty()) list = 3;
   if ((dims == 4 && list != 0 && list != 3) || (dims == 3 && list != kNone))
-    header.refuse("dimension", "3 axes in space, and one beside them, the first or the last");
+    header.refuse("dimension", "3 axes in space, and one more axis, the first or the last");
   return list;
 }
 
 std::vector<std::string> vectorsOf(const TextHeader& header, const std::string& name, size_t count) {
-  std::vector<std::string> all;  // "(1,0,0) none (0, 1, 0)": blanks within brackets do not count
+  std::vector<std::string> all;  // "(1,0,0) none (0, 1, 0)": blanks within brackets do not separate
   std::string one;
   int depth = 0;
   for (const char c : header.text(name) + " ") {
@@ -122,7 +122,7 @@ std::vector<std::string> vectorsOf(const TextHeader& header, const std::string& 
     if (!blank) one += c;
     if (depth == 0 && (blank || c == ')') && !one.empty()) all.push_back(std::exchange(one, ""));
   }
-  if (all.size() != count || !one.empty()) header.refuse(name, std::to_string(count) + " of (x,y,z) or none");
+  if (all.size() != count || !one.empty()) header.refuse(name, std::to_string(count) + " items, each (x,y,z) or none");
   return all;
 }
 
@@ -139,7 +139,7 @@ Vector3d vectorOf(const TextHeader& header, const std::string& name, const std::
   return vector;
 }
 
-/// Signs that turn a named space into LPS; false: it is not named so that left and right are known.
+/// Returns signs that turn a named space into LPS; false: the name does not determine left and right.
 bool lpsOfSpace(const std::string& name, Vector3d& signs) {
   static const std::map<std::string, Vector3d> kSpaces = {
       {"right-anterior-superior", {-1, -1, 1}}, {"ras", {-1, -1, 1}},
@@ -152,16 +152,16 @@ bool lpsOfSpace(const std::string& name, Vector3d& signs) {
 
 void requireMillimetres(const TextHeader& header, const std::string& name, size_t count) {
   if (!header.has(name)) return;
-  std::string text = header.text(name);  // "mm" "mm" "mm"; axes beside space have ""
+  std::string text = header.text(name);  // "mm" "mm" "mm"; axes that are not spatial have ""
   size_t units = 0;
   for (size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at + 1)) {
     const size_t end = text.find('"', at + 1);
     const std::string unit = end == std::string::npos ? "?" : text.substr(at + 1, end - at - 1);
-    if (unit != "mm" && unit != "" && unit != "???") header.refuse(name, "\"mm\" of each axis");
+    if (unit != "mm" && unit != "" && unit != "???") header.refuse(name, "\"mm\" for each axis");
     ++units;
     at = end;
   }
-  if (units > count) header.refuse(name, "\"mm\" of each axis");
+  if (units > count) header.refuse(name, "\"mm\" for each axis");
 }
 
 VolumeFrame frameOf(const NrrdHeader& header, const std::array<int64_t, 3>& size, int list, size_t dims,
@@ -171,14 +171,14 @@ VolumeFrame frameOf(const NrrdHeader& header, const std::array<int64_t, 3>& size
   if (directions.empty()) requireMillimetres(header, "units", dims);
   Vector3d signs(1, 1, 1);
   const bool said = !directions.empty() && header.has("space") && lpsOfSpace(header.text("space"), signs);
-  const bool guessed = !said && told.empty() &&
-                       isGuessed(header.path, options, "does not say where left and right are: axes LPS are a guess");
+  const bool guessed =
+      !said && told.empty() && isGuessed(header.path, options, "does not state its orientation; axes LPS are a guess");
   if (!said && told.empty() && !guessed)
-    throw SceneError(header.path + ": does not say where left and right are (space '" + header.textOr("space", "") +
-                     "'" + (directions.empty() ? ", no space directions" : "") +
-                     "); accepted: a space of RAS, LAS or LPS with space directions, or axes, such as axes: RAS");
-  if (said && !told.empty())
-    throw SceneError(header.path + ": says itself where its axes lead to; accepted: no key axes");
+    throw SceneError(
+        header.path + ": does not state its orientation (space '" + header.textOr("space", "") + "'" +
+        (directions.empty() ? ", no space directions" : "") +
+        "); accepted: a space of RAS, LAS or LPS with space directions. Otherwise set axes, such as axes: RAS");
+  if (said && !told.empty()) throw SceneError(header.path + ": the file states its orientation; remove the key axes");
   const Eigen::Matrix3d to_lps =
       said ? Eigen::Matrix3d(signs.asDiagonal()) : lpsFromAxes(header.path, guessed ? "LPS" : told);
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
@@ -199,8 +199,8 @@ VolumeFrame frameOf(const NrrdHeader& header, const std::array<int64_t, 3>& size
   return frameFromLps(header.path, size, to_lps * axes, to_lps * origin);
 }
 
-/// Segment0_LabelValue:=1 and the like. Without values: 0, 1, ... have a layer each in files before Slicer 4.11; in one
-/// layer they are 1, 2, ...
+/// Returns the segments, from keys such as Segment0_LabelValue:=1. Without values: 0, 1, ... have a layer each in files
+/// before Slicer 4.11; in one layer they are 1, 2, ...
 std::vector<Segment> segmentsOf(const NrrdHeader& header, int64_t layers) {
   std::vector<Segment> segments;
   for (int n = 0;; ++n) {
@@ -210,12 +210,12 @@ std::vector<Segment> segmentsOf(const NrrdHeader& header, int64_t layers) {
       return found == header.keys.end() ? std::string() : trimmed(found->second);
     };
     if (key("ID").empty() && key("Name").empty() && key("LabelValue").empty()) return segments;
-    Segment segment{n, {layers > 1 ? 1 : n + 1, key("Name")}};  // as each has a layer, or all have one
+    Segment segment{n, {layers > 1 ? 1 : n + 1, key("Name")}};  // each has a layer, or all share one
     int64_t layer = n;
     const bool value = key("LabelValue").empty() || parseInteger(key("LabelValue"), segment.label.value);
     if (!value || (!key("Layer").empty() && !parseInteger(key("Layer"), layer)) || layer < 0 || layer > 65535)
       throw SceneError(header.path + ": " + prefix + "LabelValue, " + prefix +
-                       "Layer: accepted: whole numbers, the layer 0 .. 65535");
+                       "Layer: not a whole number; accepted: whole numbers, and for the layer 0 .. 65535");
     segment.layer = static_cast<int>(layer);
     segments.push_back(segment);
   }
@@ -223,7 +223,7 @@ std::vector<Segment> segmentsOf(const NrrdHeader& header, int64_t layers) {
 
 constexpr int64_t kMostLines = 1000000;
 
-/// Where a file goes on after so many lines, of text that stands before the data. @throws SceneError  it ends before
+/// Returns the offset after a number of text lines that precede the data. @throws SceneError  the file ends before
 uint64_t afterLines(const std::string& file, uint64_t offset, int64_t lines) {
   ByteStream stream(file, offset, false);
   for (char c = 0; lines > 0; lines -= c == '\n') {
@@ -245,7 +245,8 @@ std::unique_ptr<ByteStream> dataOf(const NrrdHeader& header, uint64_t bytes) {
   const int64_t lines = header.has("line skip") ? header.integers("line skip", 1)[0] : 0;
   if (lines < 0 || lines > kMostLines) header.refuse("line skip", "0 .. 1000000");
   const int64_t skip = header.has("byte skip") ? header.integers("byte skip", 1)[0] : 0;
-  if (skip < -1 || (packed && skip < 0)) header.refuse("byte skip", "0 or more, or -1: raw data are at the file's end");
+  if (skip < -1 || (packed && skip < 0))
+    header.refuse("byte skip", "0 or more, or -1: raw data at the end of the file");
   uint64_t offset = afterLines(file, file == header.path ? header.end : 0, lines);
   const uint64_t held = fileBytes(file);
   if (skip < 0) {
@@ -274,7 +275,7 @@ std::unique_ptr<ScanSource> openNrrd(const std::string& path, const ScanOptions&
   std::vector<std::string> directions, kinds;
   if (header.has("space directions")) directions = vectorsOf(header, "space directions", axes);
   if (header.has("kinds")) kinds = words(header.text("kinds"));
-  if (!kinds.empty() && kinds.size() != axes) header.refuse("kinds", "one of each axis");
+  if (!kinds.empty() && kinds.size() != axes) header.refuse("kinds", "one per axis");
   const int list = listAxis(header, axes, directions, kinds);
   std::array<int64_t, 3> size{};
   for (int axis = 0, n = 0; axis < static_cast<int>(dims); ++axis)
@@ -291,7 +292,7 @@ std::unique_ptr<ScanSource> openNrrd(const std::string& path, const ScanOptions&
   layout.segments = segmentsOf(header, volumes);
   if (volumes < 1 || volumes > 65535) header.refuse("sizes", "1 .. 65535 volumes");
   const int asked =
-      options.volume < 0 && !layout.segments.empty() ? 0 : options.volume;  // layers: readLabels() takes all
+      options.volume < 0 && !layout.segments.empty() ? 0 : options.volume;  // readLabels() reads all layers
   const uint64_t chosen = chosenVolume(path, asked, static_cast<uint64_t>(volumes), options);
   (list == 0 ? layout.components : layout.volumes) = static_cast<uint64_t>(volumes);
   (list == 0 ? layout.component : layout.volume) = chosen;

@@ -11,17 +11,17 @@ namespace viscera {
 namespace {
 
 struct Run {
-  int begin, end;  ///< along i, the end not included
+  int begin, end;  ///< along i, exclusive end
   uint32_t piece;
 };
 
-/// The runs of a slice, row by row.
+/// Runs of a slice, row by row.
 struct SliceRuns {
   std::vector<Run> runs;
   std::vector<size_t> first;  ///< [rows + 1]
 };
 
-/// Goes through all runs in order. `piece_of(runs before it that touch it)` names the piece of a run.
+/// Visits all runs in order. `piece_of(earlier runs that touch it)` gives the piece of a run.
 template <typename PieceOf, typename Visit>
 void walk(const Mask& mask, uint8_t value, PieceOf&& piece_of, Visit&& visit) {
   SliceRuns now, before;
@@ -59,12 +59,12 @@ void walk(const Mask& mask, uint8_t value, PieceOf&& piece_of, Visit&& visit) {
   }
 }
 
-/// Squared distance to the nearest of marked samples along a line, given those across it (Felzenszwalb and
-/// Huttenlocher).
+/// Transform that computes the squared distance to the nearest marked sample along a line, from the squared distances
+/// across it (Felzenszwalb and Huttenlocher).
 class LineDistance {
  public:
   explicit LineDistance(size_t most) : value_(most), place_(most), from_(most + 1) {}
-  /// @param line  squared distances, `step` apart; replaced
+  /// @param line  squared distances, `step` apart; replaced by the result
   void run(float* line, size_t count, size_t step, double spacing) {
     const double square = spacing * spacing;
     size_t top = 0;
@@ -138,7 +138,7 @@ size_t Pieces::count() const {
 }
 
 void Pieces::assign(Mask& mask, const std::function<bool(uint32_t piece)>& which, uint8_t value) const {
-  uint32_t next = 0;  // numbers are given as in the constructor
+  uint32_t next = 0;  // numbered as in the constructor
   const auto piece_of = [&](const std::vector<uint32_t>& touched) {
     return touched.empty() ? root_[next++] : touched[0];
   };
@@ -154,7 +154,7 @@ void Pieces::assign(Mask& mask, const std::function<bool(uint32_t piece)>& which
 void grow(Mask& mask, uint8_t value, const Vector3d& spacing, double distance) {
   const auto nx = static_cast<size_t>(mask.size.x()), ny = static_cast<size_t>(mask.size.y());
   const int reach = static_cast<int>(std::min<double>(distance / spacing.z(), mask.size.z()));
-  const size_t ring = 2 * static_cast<size_t>(reach) + 1;  // slices whose distances are in memory
+  const size_t ring = 2 * static_cast<size_t>(reach) + 1;  // number of slices with distances in memory
   std::vector<std::vector<float>> near(ring);
   LineDistance line(std::max(nx, ny));
   const auto measure = [&](int k) {
@@ -165,7 +165,7 @@ void grow(Mask& mask, uint8_t value, const Vector3d& spacing, double distance) {
     for (size_t j = 0; j < ny; ++j) line.run(d.data() + j * nx, nx, 1, spacing.x());
     for (size_t i = 0; i < nx; ++i) line.run(d.data() + i, ny, nx, spacing.y());
   };
-  const double most = distance * distance * (1 + 1e-6);  // float32: voxels at the very distance are within it
+  const double most = distance * distance * (1 + 1e-6);  // float32: includes voxels at exactly this distance
   for (int k = 0; k < std::min(reach, mask.size.z()); ++k) measure(k);
   for (int k = 0; k < mask.size.z(); ++k) {
     if (k + reach < mask.size.z()) measure(k + reach);

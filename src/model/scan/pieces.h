@@ -10,7 +10,7 @@
 
 namespace viscera {
 
-/// A mask: a byte a voxel, i fastest.
+/// Mask with a byte per voxel, i fastest.
 struct Mask {
   Vector3i size = Vector3i::Zero();
   std::vector<uint8_t> voxels;
@@ -22,27 +22,27 @@ struct Mask {
   }
 };
 
-/// The pieces of a mask's voxels of one value, joined by faces. In memory: runs of two slices, and 12 bytes for each
-/// place where one begins that touches none before it.
+/// Pieces of a mask's voxels of one value, joined by faces. In memory: runs of two slices, and 12 bytes for each run
+/// that touches no earlier one.
 class Pieces {
  public:
   Pieces(const Mask& mask, uint8_t value);
-  /// [piece] voxels of it; 0 of what became part of another
+  /// Returns the number of voxels [piece]; 0 for a piece that was merged into another.
   const std::vector<uint64_t>& voxels() const { return voxels_; }
   size_t count() const;
-  /// Whether a piece has a voxel at the mask's border.
+  /// Returns whether a piece has a voxel at the mask's border.
   bool atBorder(uint32_t piece) const { return at_border_[piece] != 0; }
-  /// Gives the voxels of pieces another value. The mask must be the one that was given.
+  /// Sets the voxels of some pieces to another value. The mask must be that of the constructor.
   void assign(Mask& mask, const std::function<bool(uint32_t piece)>& which, uint8_t value) const;
 
  private:
   uint8_t value_;
-  std::vector<uint32_t> root_;  ///< [piece] the one that it became part of, or itself
+  std::vector<uint32_t> root_;  ///< [piece] piece that it was merged into, or itself
   std::vector<uint64_t> voxels_;
   std::vector<uint8_t> at_border_;
 };
 
-/// All within a distance of voxels of `value` gets it. Distances are along axes taken for perpendicular.
+/// Sets all voxels within a distance of voxels of `value` to it. Distances assume perpendicular axes.
 void grow(Mask& mask, uint8_t value, const Vector3d& spacing, double distance);
 
 }  // namespace viscera

@@ -9,10 +9,10 @@ namespace viscera {
 namespace {
 
 constexpr int kMostTimes = 4;
-constexpr int64_t kLeastBorders = 200;  ///< of places where labels differ along an axis: fewer may be alike by chance
-constexpr size_t kLeastPlanes = 3;      ///< in which these are: a box has two
+constexpr int64_t kLeastBorders = 200;  ///< places where labels differ along an axis: fewer may coincide by chance
+constexpr size_t kLeastPlanes = 3;      ///< number of planes that contain them: a box has two
 
-/// Calls visit(index along the axis) for every place where the label differs from that before.
+/// Calls visit(index along the axis) for every place where the label differs from the previous one.
 template <class Visit>
 void forEachBorder(const LabelVolume& map, int axis, Visit visit) {
   const Vector3i& size = map.frame.size;
@@ -51,7 +51,7 @@ LabelVolume withoutRepeats(const LabelVolume& map, const std::array<Repeats, 3>&
   LabelVolume out;
   out.names = map.names;
   out.frame = map.frame;
-  Vector3i begin;  // of the first voxel, which may be cut off by the map's border
+  Vector3i begin;  // start of the first voxel, which may be cut by the map's border
   for (int axis = 0; axis < 3; ++axis) {
     const Repeats& r = repeats[static_cast<size_t>(axis)];
     begin[axis] = r.first == 0 ? 0 : r.first - r.times;

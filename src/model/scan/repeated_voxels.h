@@ -8,16 +8,16 @@
 
 namespace viscera {
 
-/// How a label map was made finer along one axis without more detail: every voxel repeated.
+/// Refinement of a label map along one axis without more detail: every voxel repeated.
 struct Repeats {
-  int times = 1;  ///< 1: it was not
-  int first = 0;  ///< the least index at which another voxel begins, below `times`
+  int times = 1;  ///< number of repeats; 1: not refined
+  int first = 0;  ///< smallest index at which a new voxel begins, below `times`
 };
 
-/// Returns the repeats along i, j and k; 1 along an axis with few borders, which say nothing.
+/// Returns the repeats along i, j and k; 1 along an axis with too few borders to decide.
 std::array<Repeats, 3> repeatsOf(const LabelVolume& map);
 
-/// Returns the map with each voxel once, where it was before it was made finer.
+/// Returns the map with each voxel once, at its position before the refinement.
 LabelVolume withoutRepeats(const LabelVolume& map, const std::array<Repeats, 3>& repeats);
 
 }  // namespace viscera

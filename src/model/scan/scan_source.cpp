@@ -12,7 +12,7 @@
 namespace viscera {
 namespace {
 
-/// Tells how far another source has been read.
+/// Wrapper that reports how far another source has been read.
 class ToldSource : public ScanSource {
  public:
   ToldSource(std::unique_ptr<ScanSource> source, std::function<void(double)> progress)
@@ -46,7 +46,8 @@ std::unique_ptr<ScanSource> openByName(const std::string& path, const ScanOption
   if (ends(".dcm") || std::filesystem::is_directory(path, error) || isDicomFile(path)) return openDicom(path, options);
   if (ends(".hdr") || ends(".img"))
     throw SceneError(path + ": pairs of .hdr and .img are not read; accepted: one file, .nii or .nii.gz");
-  throw SceneError(path + ": accepted: .nii, .nii.gz, .nrrd, .nhdr, .mhd, .mha, .dcm, or a folder of DICOM files");
+  throw SceneError(
+      path + ": unknown format; accepted: .nii, .nii.gz, .nrrd, .nhdr, .mhd, .mha, .dcm, or a folder of DICOM files");
 }
 
 }  // namespace

@@ -11,19 +11,20 @@
 
 namespace viscera {
 
-/// What the file cannot say, or what of it is wanted (docs/scans.md).
+/// What the file does not say, and which of its content to read (docs/scans.md).
 struct ScanOptions {
-  int volume = -1;        ///< of a file with several: 0 .. ; -1: it must have one
-  std::string axes;       ///< where i, j, k lead to, such as LPS or RAS, where the file does not say
+  int volume = -1;        ///< index of the volume in a file with several, 0 .. ; -1: it must have one
+  std::string axes;       ///< directions of i, j, k, such as LPS or RAS, where the file does not give them
   std::string transform;  ///< sform or qform, where a NIfTI file has two that differ
-  std::string series;     ///< of a folder of DICOM files: its number, 0 .. , or its UID; all: one volume of all of them
-  bool fill_slices = false;                    ///< of DICOM: missing slices are like the nearest, which is noted
-  bool guesses = false;                        ///< for a listing: what the file leaves open is guessed, which is noted
-  std::vector<std::string>* notes = nullptr;   ///< gets what is odd and no mistake
-  std::function<void(double share)> progress;  ///< told how much of a volume has been read, slice by slice
+  /// Series in a folder of DICOM files: its number, 0 .. , or its UID; all: one volume of all of them.
+  std::string series;
+  bool fill_slices = false;                    ///< DICOM: missing slices are copies of the nearest, with a note
+  bool guesses = false;                        ///< for a listing: missing information is guessed, with a note
+  std::vector<std::string>* notes = nullptr;   ///< gets oddities that are no errors
+  std::function<void(double share)> progress;  ///< receives the share of the volume that has been read, slice by slice
 };
 
-/// A label with its layer: labels of several layers may overlap.
+/// Label with its layer: labels of several layers may overlap.
 struct Segment {
   int layer = 0;
   LabelName label;
@@ -31,13 +32,13 @@ struct Segment {
 
 class ScanSource : public SliceSource {
  public:
-  virtual int layers() const { return 1; }  ///< of labels that overlap; ScanOptions::volume chooses one
+  virtual int layers() const { return 1; }  ///< layers of overlapping labels; ScanOptions::volume chooses one
   virtual const std::vector<Segment>& segments() const = 0;  ///< of all layers
 };
 
-/// Reads NIfTI, NRRD, MHD and MHA by the name's ending, a folder or a .dcm file as DICOM. Nothing but the header is
-/// read before the first slice.
-/// @throws SceneError  naming the file, what is wrong and what is accepted
+/// Opens a scan: NIfTI, NRRD, MHD and MHA by the name's ending, a folder or a .dcm file as DICOM. Reads only the header
+/// before the first slice.
+/// @throws SceneError  names the file, what is wrong and what is accepted
 std::unique_ptr<ScanSource> openScan(const std::string& path, const ScanOptions& options = {});
 
 std::unique_ptr<ScanSource> openNifti(const std::string& path, const ScanOptions& options);

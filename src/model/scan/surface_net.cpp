@@ -12,10 +12,10 @@
 namespace viscera {
 namespace {
 
-/// Of borders half way between voxels: they are off by up to half a voxel. 20 rounds leave normals up to 30 % worse, 80
-/// gain 10 %; a box of 0.3 leaves stairs.
+/// For borders half way between voxels, which are off by up to half a voxel. 20 rounds leave normals up to 30 % worse,
+/// 80 gain 10 %; a box of 0.3 leaves stairs.
 constexpr SmoothingRule kFromLabels = {40, 0.5};
-/// Of borders that values place: what is left is noise of the scan.
+/// For borders at interpolated values: what remains is noise of the scan.
 constexpr SmoothingRule kFromValues = {10, 0.25};
 
 void requireVolume(const LabelVolume& volume) {
@@ -23,12 +23,12 @@ void requireVolume(const LabelVolume& volume) {
   if ((frame.size.array() < 1).any() || volume.labels.size() != frame.voxels()) {
     throw SceneError("label map: " + std::to_string(volume.labels.size()) + " labels for " +
                      std::to_string(frame.size.x()) + " x " + std::to_string(frame.size.y()) + " x " +
-                     std::to_string(frame.size.z()) + " voxels; accepted: one label a voxel, sizes of 1 or more");
+                     std::to_string(frame.size.z()) + " voxels; accepted: one label per voxel, sizes of 1 or more");
   }
   const double box_m3 = frame.spacing_m().prod();
-  constexpr double kFlat = 1e-6;  // axes that differ by less than 1e-6 rad are one axis
+  constexpr double kFlat = 1e-6;  // axes that differ by less than 1e-6 rad count as one axis
   if (!(std::abs(frame.axes.determinant()) > kFlat * box_m3) || !frame.origin.allFinite() || !std::isfinite(box_m3)) {
-    throw SceneError("label map: its axes span no volume; accepted: three finite steps, not in one plane");
+    throw SceneError("label map: its axes span no volume; accepted: three finite axes that are not in one plane");
   }
 }
 
@@ -41,8 +41,8 @@ std::vector<double> voxelVolumes(const LabelVolume& volume) {
   return volumes;
 }
 
-/// Where a window is left or entered between neighbours; half way where labels differ for other reasons (a piece that
-/// was dropped, a hole that was filled, a neighbouring organ, the end of the volume).
+/// Returns where the values between neighbours enter or leave a window. Half way where labels differ for other reasons:
+/// a piece that was dropped, a hole that was filled, a neighbouring organ, the end of the volume.
 Crossing crossingOf(const ValueWindow& window, const Vector3i& size) {
   return [&window, size](const Vector3i& voxel, int axis) {
     const Vector3i next = voxel + Vector3i::Unit(axis);
@@ -58,10 +58,11 @@ Crossing crossingOf(const ValueWindow& window, const Vector3i& size) {
   };
 }
 
-/// Whether a quad is cut from its corner 1 to 3 rather than from 0 to 2: along the shorter diagonal, or, where both are
-/// as long, the one that gives the larger label more. So the cut is the same whichever way the axes are numbered.
+/// Returns whether a quad is split from its corner 1 to 3 rather than from 0 to 2: along the shorter diagonal. If both
+/// have the same length, the one that gives the larger label more volume. The choice does not depend on the numbering
+/// of the axes.
 bool cutFromOne(const std::vector<Vector3d>& x, const std::array<uint32_t, 4>& q, const std::array<uint8_t, 2>& sides) {
-  constexpr double kAlike = 1e-9;  // rounding leaves 1e-15; shapes whose diagonals are that near are alike by symmetry
+  constexpr double kAlike = 1e-9;  // rounding leaves 1e-15; diagonals this close are equal by symmetry
   const Vector3d a = x[q[2]] - x[q[0]], b = x[q[3]] - x[q[1]];
   const double difference = a.squaredNorm() - b.squaredNorm();
   if (std::abs(difference) > kAlike * a.squaredNorm()) return difference > 0;
@@ -102,7 +103,7 @@ double SurfaceNet::volumeM3(uint8_t label) const {
 
 namespace {
 
-/// Cuts the quads and takes them into the frame of the volume.
+/// Splits the quads and transforms them into the frame of the volume.
 SurfaceNet finished(NetCells cells, const VolumeFrame& frame) {
   SurfaceNet net;
   cutQuads(cells, frame.axes.determinant() < 0, net);

@@ -13,34 +13,34 @@
 namespace viscera {
 
 /// Smooth surfaces of all labels of a map at once: where two labels touch, both have the same triangles
-/// (docs/surface_net.md).
+/// (docs/volumes.md).
 struct SurfaceNet {
-  std::vector<Vector3d> positions_m;               ///< [vertices] in the frame of the volume
+  std::vector<Vector3d> positions_m;               ///< [vertices] positions in the frame of the volume [m]
   std::vector<std::array<uint32_t, 3>> triangles;  ///< counter-clockwise seen from sides[1]
-  std::vector<std::array<uint8_t, 2>> sides;       ///< [triangles] label behind and before it; 0: outside
-  size_t touching_edges = 0;  ///< where voxels of one label touch along an edge only: four of its triangles meet there
+  std::vector<std::array<uint8_t, 2>> sides;  ///< [triangles] labels behind and in front of the triangle; 0: outside
+  size_t touching_edges = 0;  ///< number of edges where four triangles of one label meet, as its voxels only touch
 
-  /// Of a label [m3], by the divergence theorem.
+  /// Returns the volume of a label [m3], by the divergence theorem.
   double volumeM3(uint8_t label) const;
 };
 
-/// Values of the scan that labels come from, where tissue is what lies within a window.
+/// Values of the scan that labels come from, where tissue is the set of values within a window.
 struct ValueWindow {
   float low = 0, high = 0;
-  std::function<float(size_t voxel)> value;  ///< asked of voxels beside a border only; NaN: unknown
+  std::function<float(size_t voxel)> value;  ///< returns the value of a voxel next to a border; NaN: unknown
 };
 
-/// Voxels at the border of the volume are closed there.
-/// @param window  where given, the surface is where the values cross it rather than half way between voxels
+/// Returns the surfaces of all labels. Voxels at the border of the volume are closed there.
+/// @param window  if given, the surface is where the values cross it, not half way between voxels
 /// @throws SceneError  labels do not fit the frame, or its axes span no volume
 SurfaceNet surfaceNet(const LabelVolume& volume, const ValueWindow* window = nullptr);
 
-/// [largest label + 1] what parts that are labels are called: by their names, those without one by their value in the
-/// file ("label 5"), those whose name others have too by both.
+/// Returns names for parts made of labels, [largest label + 1]. A part has the label's name; without a name, its value
+/// in the file ("label 5"); if several labels have the same name, both.
 std::vector<std::string> partNames(const std::vector<LabelName>& names);
 
-/// The closed surfaces of some labels as parts of one mesh, in this order, each facing outward. Labels that touch share
-/// vertices. Parts are named as partNames() has it.
+/// Returns the closed surfaces of some labels as parts of one mesh, in this order, each facing outward. Labels that
+/// touch share vertices. partNames() names the parts.
 TriangleMesh labelSurfaces(const SurfaceNet& net, const std::vector<LabelName>& names,
                            const std::vector<uint8_t>& labels);
 

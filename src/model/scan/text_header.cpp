@@ -14,7 +14,7 @@ namespace viscera {
 std::string headerLine(ByteStream& stream, uint64_t& left) {
   std::string line;
   for (char c = 0;; line += c) {
-    if (left-- == 0) throw SceneError(stream.path() + ": its header is longer than accepted: at most 4 MiB");
+    if (left-- == 0) throw SceneError(stream.path() + ": its header is too long; accepted: at most 4 MiB");
     stream.read(&c, 1);
     if (c == '\n') break;
   }

@@ -13,11 +13,11 @@ namespace viscera {
 namespace {
 
 constexpr int64_t kMostAlongAxis = 65535;
-constexpr uint64_t kMostVoxels = uint64_t{1} << 31;      ///< a byte each as labels: 2 GiB
-constexpr uint64_t kMostSliceBytes = uint64_t{1} << 29;  ///< what is in memory at a time
+constexpr uint64_t kMostVoxels = uint64_t{1} << 31;      ///< one byte per label: 2 GiB
+constexpr uint64_t kMostSliceBytes = uint64_t{1} << 29;  ///< in memory at a time
 constexpr uint64_t kMostVolumes = 65535;
 constexpr double kLeastSpacingMm = 1e-3, kMostSpacingMm = 100, kMostOriginMm = 1e6;
-constexpr double kLeastDeterminant = 1e-3;  ///< of the axes' directions: below, they are as good as in one plane
+constexpr double kLeastDeterminant = 1e-3;  ///< of the axes' directions: below it, they are nearly coplanar
 
 template <typename T>
 void convert(const std::vector<uint8_t>& raw, const VoxelLayout& layout, std::vector<float>& values) {
@@ -108,7 +108,7 @@ size_t bytesOf(VoxelType type) {
 }
 
 std::unique_ptr<ScanSource> slicesOf(std::unique_ptr<ByteStream> stream, VoxelLayout layout, uint64_t before) {
-  // No product overflows: 2^31 voxels, 2^16 volumes or components, 2^3 bytes.
+  // The products cannot overflow: 2^31 voxels, 2^16 volumes or components, 2^3 bytes.
   if (layout.volumes > kMostVolumes || layout.components > kMostVolumes ||
       (layout.volumes > 1 && layout.components > 1))
     throw SceneError(stream->path() + ": too many volumes; accepted: at most " + std::to_string(kMostVolumes));
@@ -116,7 +116,7 @@ std::unique_ptr<ScanSource> slicesOf(std::unique_ptr<ByteStream> stream, VoxelLa
   const uint64_t slice = uint64_t{static_cast<uint32_t>(size.x())} * static_cast<uint32_t>(size.y()) *
                          layout.components * bytesOf(layout.type);
   if (slice > kMostSliceBytes)
-    throw SceneError(stream->path() + ": a slice is of " + std::to_string(slice) + " bytes; accepted: at most " +
+    throw SceneError(stream->path() + ": a slice has " + std::to_string(slice) + " bytes; accepted: at most " +
                      std::to_string(kMostSliceBytes));
   stream->requireHolds(before + layout.frame.voxels() * layout.volumes * layout.components * bytesOf(layout.type));
   return std::make_unique<StreamedSlices>(std::move(stream), std::move(layout));
@@ -136,12 +136,13 @@ void requireSize(const std::string& path, const std::array<int64_t, 3>& size) {
 }
 
 bool isSpacing(double spacing_mm) {
-  return spacing_mm >= kLeastSpacingMm && spacing_mm <= kMostSpacingMm;  // NaN is neither
+  return spacing_mm >= kLeastSpacingMm && spacing_mm <= kMostSpacingMm;  // false for NaN
 }
 
 void requireSpacing(const std::string& path, const char* key, double spacing_mm) {
   if (isSpacing(spacing_mm)) return;
-  throw SceneError(path + ": " + key + ": voxels " + numberText(spacing_mm) + " mm apart; accepted: 0.001 .. 100 mm");
+  throw SceneError(path + ": " + key + ": voxels are " + numberText(spacing_mm) +
+                   " mm apart; accepted: 0.001 .. 100 mm");
 }
 
 bool isGuessed(const std::string& path, const ScanOptions& options, const std::string& what) {
@@ -151,22 +152,21 @@ bool isGuessed(const std::string& path, const ScanOptions& options, const std::s
 
 uint64_t chosenVolume(const std::string& path, int asked, uint64_t volumes, const ScanOptions& options) {
   if (asked < 0 && volumes == 1) return 0;
-  if (asked < 0 && isGuessed(path, options, "holds " + std::to_string(volumes) + " volumes: this is volume 0"))
-    return 0;
+  if (asked < 0 && isGuessed(path, options, "has " + std::to_string(volumes) + " volumes; volume 0 is used")) return 0;
   if (asked >= 0 && static_cast<uint64_t>(asked) < volumes) return static_cast<uint64_t>(asked);
-  throw SceneError(path + ": holds " + std::to_string(volumes) + " volumes" +
-                   (asked < 0 ? ": say which" : ", not number " + std::to_string(asked)) + "; accepted: volume 0 .. " +
-                   std::to_string(volumes - 1));
+  throw SceneError(path + ": has " + std::to_string(volumes) + " volumes" +
+                   (asked < 0 ? ": choose one" : " and no volume " + std::to_string(asked)) +
+                   "; accepted: volume 0 .. " + std::to_string(volumes - 1));
 }
 
 VolumeFrame frameFromLps(const std::string& path, const std::array<int64_t, 3>& size, const Eigen::Matrix3d& axes_mm,
                          const Vector3d& origin_mm) {
   requireSize(path, size);
   if (!axes_mm.allFinite() || !origin_mm.allFinite())
-    throw SceneError(path + ": where its voxels are is not finite; accepted: 12 finite numbers");
+    throw SceneError(path + ": the transform of its voxels is not finite; accepted: 12 finite numbers");
   for (int axis = 0; axis < 3; ++axis) requireSpacing(path, "steps along the axes", axes_mm.col(axis).norm());
   if (std::abs(axes_mm.colwise().normalized().determinant()) < kLeastDeterminant)
-    throw SceneError(path + ": its axes lie in one plane; accepted: three that do not");
+    throw SceneError(path + ": its axes are in one plane; accepted: three axes that are not");
   if (origin_mm.cwiseAbs().maxCoeff() > kMostOriginMm)
     throw SceneError(path + ": its first voxel is more than 1000 m away; accepted: at most 1e6 mm");
   Eigen::Matrix3d body;
@@ -179,7 +179,7 @@ VolumeFrame frameFromLps(const std::string& path, const std::array<int64_t, 3>& 
 }
 
 Eigen::Matrix3d lpsFromAxes(const std::string& path, const std::string& axes) {
-  static const std::string kTo = "LPSRAI";  // first those along LPS, then those against
+  static const std::string kTo = "LPSRAI";  // first the directions along LPS, then the opposite ones
   Eigen::Matrix3d turned = Eigen::Matrix3d::Zero();
   if (axes.size() == 3)
     for (int axis = 0; axis < 3; ++axis) {

@@ -13,22 +13,23 @@
 namespace viscera {
 namespace {
 
-constexpr int kAround = 2;                                 ///< voxels of nothing around tissue: the net closes there
-constexpr double kMostClosingMm = 20;                      ///< beyond, organs are no longer told apart
-constexpr uint64_t kMostVoxelsAround = uint64_t{1} << 32;  ///< with what is around
+constexpr int kAround = 2;                                 ///< empty voxels around tissue: the surface net closes there
+constexpr double kMostClosingMm = 20;                      ///< above it, organs merge
+constexpr uint64_t kMostVoxelsAround = uint64_t{1} << 32;  ///< with the voxels around
 constexpr size_t kListed = 6;
 
 void requireOptions(const std::string& file, const WindowOptions& options) {
   if (!(options.low <= options.high))
     throw SceneError(file + ": window " + numberText(options.low) + " .. " + numberText(options.high) +
-                     "; accepted: low at most high");
+                     "; accepted: low <= high");
   if (!(options.closing_mm >= 0 && options.closing_mm <= kMostClosingMm))
-    throw SceneError(file + ": closing of " + numberText(options.closing_mm) + " mm; accepted: 0 .. 20");
+    throw SceneError(file + ": a closing of " + numberText(options.closing_mm) + " mm; accepted: 0 .. 20");
   if (options.pieces < 0 || !(options.least_cm3 >= 0))
-    throw SceneError(file + ": accepted: 0 or more pieces, of 0 cm3 or more");
+    throw SceneError(file +
+                     ": the number or the size of pieces is negative; accepted: 0 or more pieces of 0 cm3 or more");
 }
 
-/// Voxels of nothing on each side of an axis, which closing must not reach over.
+/// Returns the number of empty voxels on each side of an axis, so that closing does not reach past them.
 Vector3i around(const Vector3d& spacing_m, double closing_mm) {
   Vector3i pad;
   for (int axis = 0; axis < 3; ++axis)
@@ -36,14 +37,15 @@ Vector3i around(const Vector3d& spacing_m, double closing_mm) {
   return pad;
 }
 
-/// The mask with nothing around, slice by slice.
+/// Reads the mask slice by slice, with empty voxels around it.
 Mask readWindow(SliceSource& source, const WindowOptions& options, const Vector3i& pad, WindowReport& report) {
   const Vector3i size = source.frame().size;
   Mask mask;
   mask.size = size + 2 * pad;
   const double voxels = mask.size.cast<double>().prod();
   if (voxels > static_cast<double>(kMostVoxelsAround))
-    throw SceneError(source.file() + ": " + numberText(voxels) + " voxels with those around; accepted: at most 2^32");
+    throw SceneError(source.file() + ": " + numberText(voxels) +
+                     " voxels including the margin; accepted: at most 2^32");
   mask.voxels.assign(static_cast<size_t>(voxels), 0);
   report.least = std::numeric_limits<double>::infinity();
   report.largest = -report.least;
@@ -97,8 +99,9 @@ void keepPieces(const std::string& file, Mask& mask, const WindowOptions& option
     report.kept_cm3 += cm3(order[n]);
   }
   if (report.kept == 0)
-    throw SceneError(file + ": no piece within the window is of " + numberText(options.least_cm3) +
-                     " cm3; accepted: at most " + numberText(report.largest_cm3.at(0)) + " cm3, which the largest has");
+    throw SceneError(file + ": no piece within the window has " + numberText(options.least_cm3) +
+                     " cm3; accepted: at most " + numberText(report.largest_cm3.at(0)) +
+                     " cm3, the size of the largest piece");
   pieces.assign(
       mask, [&](uint32_t piece) { return !kept[piece]; }, 0);
 }
@@ -111,7 +114,7 @@ void fillHoles(Mask& mask, double voxel_cm3, WindowReport& report) {
       mask, [&](uint32_t piece) { return !outside.atBorder(piece); }, 1);
 }
 
-/// Cuts off what is further than kAround from tissue, within the memory that there is. @returns its first voxel
+/// Crops what is farther than kAround from tissue, in place. @returns its first voxel
 Vector3i crop(Mask& mask) {
   Vector3i low = mask.size, high = Vector3i::Zero();
   for (int k = 0; k < mask.size.z(); ++k)
@@ -132,7 +135,7 @@ Vector3i crop(Mask& mask) {
   for (int k = low.z(); k < high.z(); ++k)
     for (int j = low.y(); j < high.y(); ++j) {
       const auto row = mask.voxels.begin() + static_cast<std::ptrdiff_t>(mask.at(low.x(), j, k));
-      to = std::copy(row, row + size.x(), to);  // never behind what is still to be read
+      to = std::copy(row, row + size.x(), to);  // never overtakes the read position
     }
   mask.size = size;
   mask.voxels.erase(to, mask.voxels.end());
@@ -152,7 +155,7 @@ LabelVolume windowed(SliceSource& source, const WindowOptions& options, WindowRe
   Mask mask = readWindow(source, options, pad, found);
   if (found.in_window == 0)
     throw SceneError(source.file() + ": no voxel is within the window " + numberText(options.low) + " .. " +
-                     numberText(options.high) + "; accepted: a part of its values, " + numberText(found.least) +
+                     numberText(options.high) + "; accepted: a range within its values, " + numberText(found.least) +
                      " .. " + numberText(found.largest));
   close(mask, spacing, options.closing_mm);
   keepPieces(source.file(), mask, options, voxel_cm3, found);

@@ -16,7 +16,7 @@ namespace viscera {
 
 namespace {
 
-/// A set of values of an enum: a bit each.
+/// Set of values of an enum, one bit each.
 using Set = unsigned;
 template <class Enum>
 constexpr Set in(Enum value) {
@@ -35,7 +35,7 @@ const Names<Structure> kStructures = {
     {Structure::kLattice, "lattice"}, {Structure::kExplicit, "explicit"}, {Structure::kSurface, "surface"}};
 const Names<Backend> kBackends = {{Backend::kAuto, "auto"}, {Backend::kCpu, "cpu"}, {Backend::kGpu, "gpu"}};
 
-/// Of those that scenes can ask for.
+/// Returns the names of the integrators that a scene can choose.
 const Names<Integrator>& sceneIntegrators() {
   static const Names<Integrator> kNames = [] {
     Names<Integrator> out;
@@ -47,20 +47,20 @@ const Names<Integrator>& sceneIntegrators() {
 }
 
 struct Rule {
-  const char* key;                      ///< as a scene has it
-  bool (*body_has)(const BodyConfig&);  ///< null: it is a key of the scene
-  bool (*scene_has)(const Scene&);      ///< null: it is a key of bodies
+  const char* key;                      ///< key as in a scene
+  bool (*body_has)(const BodyConfig&);  ///< null: the key belongs to the scene
+  bool (*scene_has)(const Scene&);      ///< null: the key belongs to bodies
   Set structures = kAll, integrators = kAll, backends = kAll;
   bool reference = true;
-  const char* reason = "";  ///< what else a person should know
+  const char* reason = "";  ///< reason for a person, appended to the error
 };
 
 constexpr Set kCells = in(Structure::kLattice, Structure::kExplicit);
 
-/// A key is in one row; a new feature adds its own.
+/// Each key has one row; a new feature adds its own.
 constexpr Rule kRules[] = {
     {"source: sheet", [](const BodyConfig& b) { return b.source == TissueSource::kSheet; }, nullptr,
-     in(Structure::kSurface), kAll, kAll, true, "it has no volume"},
+     in(Structure::kSurface), kAll, kAll, true, "a sheet has no volume"},
     {"fill: enclosed", [](const BodyConfig& b) { return b.fill == Fill::kEnclosed; }, nullptr, kCells},
     {"parts", [](const BodyConfig& b) { return !b.parts.empty(); }, nullptr, kCells},
     {"layers[].toughness_j_per_m2 above 0",
@@ -77,16 +77,17 @@ constexpr Rule kRules[] = {
     {"detail_mesh", [](const BodyConfig& b) { return !b.detail_mesh.empty(); }, nullptr, kCells, kAll, kAll, true,
      "the skin of a sheet is its surface"},
     {"mapping other than auto", [](const BodyConfig& b) { return b.mapping != Mapping::kAuto; }, nullptr, kCells, kAll,
-     kAll, true, "each vertex of a sheet's skin is one of its nodes already"},
+     kAll, true, "each vertex of a sheet's skin is already one of its nodes"},
     {"bending_ratio above 0", [](const BodyConfig& b) { return b.bending_ratio > 0; }, nullptr,
      in(Structure::kExplicit, Structure::kSurface)},
     {"poisson_ratio other than 0.25, of the material or a part,", [](const BodyConfig& b) { return hasOwnPoisson(b); },
      nullptr, in(Structure::kLattice), in(Integrator::kLeapfrog), kAll, true,
-     "it goes with material.law: neo_hookean; springs have 1/4, those of a sheet 1/3"},
+     "only material.law: neo_hookean has a free ratio; springs have 1/4, those of a sheet 1/3"},
     {"material.weights: paper", [](const BodyConfig& b) { return b.material.weights != Weights::kCell; }, nullptr,
      kCells},
     {"material.prestress", [](const BodyConfig& b) { return isPrestressed(b); }, nullptr,
-     in(Structure::kLattice, Structure::kSurface), kAll, kAll, true, "cells of material.law: neo_hookean have it"},
+     in(Structure::kLattice, Structure::kSurface), kAll, kAll, true,
+     "only material.law: neo_hookean and surfaces have a prestress"},
     {"cut.toughness_j_per_m2 above 0, of the material or a part,",
      [](const BodyConfig& b) {
        const auto resists = [](const PartConfig& part) { return part.cut.toughness_j_per_m2 > 0; };
@@ -115,7 +116,7 @@ std::string namesIn(Set set, const Names<Enum>& all, const char* between) {
   return out;
 }
 
-/// "KEY needs WHAT a or b, not c: reason"; empty where the value is in the set.
+/// Returns "KEY needs WHAT a or b, not c: reason"; empty where the value is in the set.
 template <class Enum>
 std::string faultOf(const Rule& rule, const char* what, Set set, Enum value, const Names<Enum>& all) {
   if (set & in(value)) return "";
@@ -129,7 +130,7 @@ std::string solverFault(const Rule& rule, const SolverConfig& solver) {
   return fault.empty() ? faultOf(rule, "solver.backend", rule.backends, solver.backend, kBackends) : fault;
 }
 
-/// Calls with every rule that a scene uses, and the words that lead to its key.
+/// Calls visit with every rule that a scene uses, and the prefix of the path to its key.
 template <class Visit>
 void forEachUsed(const Scene& scene, const Visit& visit) {
   for (const Rule& rule : kRules) {
@@ -164,7 +165,7 @@ void requireFeatures(const Scene& scene) {
 
 void requireReferenceFeatures(const Scene& scene) {
   forEachUsed(scene, [](const Rule& rule, const std::string& where) {
-    if (!rule.reference) throw SceneError(where + "the float64 reference has no " + rule.key);
+    if (!rule.reference) throw SceneError(where + "the float64 reference does not support " + rule.key);
   });
 }
 

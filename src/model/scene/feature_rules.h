@@ -10,16 +10,18 @@ namespace viscera {
 
 struct Scene;
 
-// What a scene may ask for together: one table (feature_rules.cpp), which every refusal and the table of the docs read.
+// Which keys a scene can combine: one table (feature_rules.cpp) for every error and for the table in the docs.
 
-/// Says why a body's keys do not go with its structure. @returns empty: they do
+/// Returns why a body's keys cannot be combined with its structure; empty: they can.
 std::string featureFault(const BodyConfig& body);
 
+/// Checks the keys of a scene.
 /// @throws SceneError  a key of the scene, or of one of its bodies, does not go with its structure, integrator or
 /// backend
 void requireFeatures(const Scene& scene);
 
-/// @throws SceneError  a key of the scene asks for something that the float64 reference does not have
+/// Checks that the float64 reference supports the scene.
+/// @throws SceneError  a key of the scene needs something that the float64 reference does not have
 void requireReferenceFeatures(const Scene& scene);
 
 /// Returns the table as Markdown: `viscera keys features`.

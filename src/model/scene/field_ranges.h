@@ -6,7 +6,7 @@
 
 namespace viscera {
 
-// What visitors of lists of keys offer, for each kind of key, one of
+// A visitor of keys has one function for each kind of key:
 // * number(key, double&, Range, unit, text)
 // * numberOrAuto(key, double&, bool& is_auto, Range, unit, text)
 // * integer(key, int&, Range, text)
@@ -14,11 +14,11 @@ namespace viscera {
 // * boolean(key, bool&, text)
 // * vector(key, Vector3d&, Range, unit, text)
 // * choice(key, Enum&, {{name, value}...}, text)
-// * tissue(key, Struct&, text): sets young_modulus_pa, poisson_ratio and density_kg_per_m3, which follow
+// * tissue(key, Struct&, text): sets young_modulus_pa, poisson_ratio and density_kg_per_m3, which come after it
 // * group(key, Struct&, text)
 // * list(key, std::vector<Struct>&, max_count, text, defaults of an item = {})
 
-/// Accepted values, both ends included.
+/// Accepted values, inclusive at both ends.
 struct Range {
   double min, max;
 };

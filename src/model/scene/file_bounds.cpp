@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Bounds {
-  std::vector<fs::path> folders;  ///< without links; empty: any file
+  std::vector<fs::path> folders;  ///< canonical paths, without links; empty: any file
   std::string by;
 };
 
@@ -34,7 +34,7 @@ void bindFilesTo(const std::vector<std::string>& folders, const std::string& by)
     std::error_code error;
     const fs::path found = fs::canonical(folder, error);
     if (error || !fs::is_directory(found, error) || !fs::path(folder).is_absolute())
-      throw FileBoundError(by + ": '" + folder + "' is not the absolute path of a folder");
+      throw FileBoundError(by + ": '" + folder + "' must be the absolute path of an existing folder");
     next.folders.push_back(found);
   }
   bounds() = std::move(next);
@@ -47,7 +47,7 @@ void requireWithinBounds(const std::string& path) {
   const fs::path file = fs::weakly_canonical(fs::absolute(path), error);
   const auto holds = [&](const fs::path& folder) { return isWithin(folder, file); };
   if (!error && std::any_of(now.folders.begin(), now.folders.end(), holds)) return noteRead(path);
-  std::string text = path + ": lies, where links lead, in no folder of " + now.by + ":";
+  std::string text = path + ": is, with links resolved, outside the folders of " + now.by + ":";
   for (const fs::path& folder : now.folders) text += " " + folder.string();
   throw FileBoundError(text);
 }

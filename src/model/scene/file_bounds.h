@@ -9,21 +9,21 @@
 
 namespace viscera {
 
-// Which files a process reads as scenes and meshes, and as what these name (pictures, materials, buffers): any, unless
-// others choose them, as over a network.
+// Which files a process may read as scenes and meshes, and as what they refer to (images, materials, buffers). Any
+// file, unless others choose the files, for example over a network.
 
-/// A file lies where none may be read. Says nothing of what is in it, nor whether it is there.
+/// Error for a file outside the allowed folders. It reveals neither the file's content nor whether it exists.
 struct FileBoundError : Error {
   using Error::Error;
 };
 
-/// From now on only files within these folders are read, wherever links lead. Not while others read some.
-/// @param folders  absolute; none: any file   @param by  who says so, for errors
+/// Restricts later reads to files within these folders, also through links. Must not be called during a read.
+/// @param folders  absolute; none: any file   @param by  who set the restriction, for errors
 /// @throws FileBoundError  not the absolute path of a folder
 void bindFilesTo(const std::vector<std::string>& folders, const std::string& by);
 
-/// Checks a file that is about to be read, which no writer replaces from then on (math/out_file.h).
-/// @throws FileBoundError  before anything of the file is looked at
+/// Checks a file that is about to be read; no writer replaces it from then on (math/out_file.h).
+/// @throws FileBoundError  before the file is opened or examined
 void requireWithinBounds(const std::string& path);
 
 }  // namespace viscera

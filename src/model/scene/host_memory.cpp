@@ -17,14 +17,14 @@ namespace {
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-/// The number in a file; unlimited where there is none, as in "max".
+/// Returns the number in a file; unlimited where there is none, as in "max".
 double numberIn(const std::string& path) {
   std::ifstream file(path);
   std::string text;
   return file >> text ? readNumber(text).value_or(kUnlimited) : kUnlimited;
 }
 
-/// The number behind a word at the start of a line; `otherwise` where there is none.
+/// Returns the number after a word at the start of a line; `otherwise` where there is none.
 double numberBehind(const std::string& path, const std::string& word, double otherwise) {
   std::ifstream file(path);
   std::string line, key;
@@ -36,14 +36,15 @@ double numberBehind(const std::string& path, const std::string& word, double oth
   return otherwise;
 }
 
-/// What a group leaves. Pages of files not in use are given back when memory is short.
+/// Returns what a group may still allocate [bytes]. Inactive file pages are reclaimed when memory is short.
 double leftOf(const std::string& folder, const char* limit, const char* usage, const char* idle) {
   const double most = numberIn(folder + "/" + limit), used = numberIn(folder + "/" + usage);
   if (most == kUnlimited || used == kUnlimited) return kUnlimited;
   return std::max(0.0, most - std::max(0.0, used - numberBehind(folder + "/memory.stat", idle, 0)));
 }
 
-/// The least that a group and those around it leave. @param path  as in /proc/self/cgroup, such as /user/session
+/// Returns the smallest amount that a group and its ancestors leave. @param path  as in /proc/self/cgroup, such as
+/// /user/session
 template <class Left>
 double leastUpwards(std::string path, Left left) {
   double least = left("");
@@ -93,8 +94,8 @@ void requireTissueMemory(size_t filled_cells, double spacing_m, double bytes_per
   const double needed = bytes_per_cell * static_cast<double>(filled_cells);
   if (needed <= available_bytes) return;
   TextOut out;
-  out << "spacing_m " << spacing_m << " fills " << filled_cells << " cells, which take about " << needed / kGiB
-      << " GiB of memory with what steps and shows them, but this process can have " << available_bytes / kGiB
+  out << "spacing_m " << spacing_m << " fills " << filled_cells << " cells, which need about " << needed / kGiB
+      << " GiB of memory to be simulated and drawn, but this process can have " << available_bytes / kGiB
       << " GiB; spacing_m >= " << spacing_m * kMargin * std::cbrt(needed / available_bytes) << " would fit";
   throw LatticeError(out.str());
 }

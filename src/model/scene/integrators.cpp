@@ -7,15 +7,15 @@
 
 namespace viscera {
 
-double stableFraction(Integrator integrator, double dashpot_ratio) {
+double stableFraction(Integrator integrator, double stiffness_damping_ratio) {
   const IntegratorTraits& traits = traitsOf(integrator);
   if (!traits.is_explicit) return std::numeric_limits<double>::infinity();
-  const double xi = traits.dashpot_limits ? dashpot_ratio : 0;
+  const double xi = traits.dashpot_limits ? stiffness_damping_ratio : 0;
   return std::sqrt(1 + xi * xi) - xi;
 }
 
 SceneError notStepped(Integrator integrator, const std::string& by) {
-  return SceneError("solver.integrator: " + by + " knows no '" + traitsOf(integrator).name + "'");
+  return SceneError("solver.integrator: " + by + " does not support '" + traitsOf(integrator).name + "'");
 }
 
 }  // namespace viscera

@@ -13,26 +13,26 @@ namespace viscera {
 enum class ReferenceIntegrator {
   kLeapfrog,      ///< (u, v) half a substep apart, symmetric drag
   kVerletPaper,   ///< position Verlet with backward-difference drag, without dashpot (VR05, GW)
-  kImplicitEuler  ///< solved to convergence: the truth for pd
+  kImplicitEuler  ///< solved to convergence: the reference for pd
 };
 
-/// What an integrator is: all that anybody but its own steppers may ask of it (physics.md 2).
+/// Properties of an integrator, as seen by all code except its own steppers (physics.md 2).
 struct IntegratorTraits {
   Integrator integrator;
-  const char* name;   ///< in scene files and tables
-  const char* about;  ///< in the key's sentence; null: scenes cannot ask for it, only benchmarks of the papers can
-  ReferenceIntegrator truth;  ///< what it is held to
-  bool is_explicit;           ///< stable below a substep only, see stableFraction()
-  bool dashpot_limits;        ///< ... which the dashpot lowers: it acts on velocities of half a substep ago
-  bool staggered;             ///< velocities belong to half a substep before the displacements
-  bool shortens;              ///< has shorter substeps while the tissue is strained (dt_fraction_strained)
-  bool own_positions;         ///< keeps positions beside the state: writing the state makes it start again
-  bool iterates;              ///< solver.iterations says how often a substep goes over the nodes
+  const char* name;   ///< name in scene files and tables
+  const char* about;  ///< text for the key's description; null: only benchmarks of the papers can use it, scenes cannot
+  ReferenceIntegrator truth;  ///< reference that it is compared with
+  bool is_explicit;           ///< stable only below a substep, see stableFraction()
+  bool dashpot_limits;        ///< the dashpot lowers that substep, as it acts on velocities of half a substep earlier
+  bool staggered;             ///< velocities are half a substep earlier than displacements
+  bool shortens;              ///< takes shorter substeps while the tissue is strained (dt_fraction_strained)
+  bool own_positions;         ///< keeps positions in addition to the state, so that writing the state restarts it
+  bool iterates;              ///< solver.iterations sets the number of passes over the nodes in a substep
   bool lets_bricks_sleep;     ///< steps only bricks that move
-  bool compensates;           ///< can sum u and v with Kahan's compensation
+  bool compensates;           ///< can sum u and v with Kahan compensation
 };
 
-/// By the value of the enum.
+/// Indexed by the value of the enum.
 // clang-format off
 constexpr std::array<IntegratorTraits, 3> kIntegrators = {{
     //   explicit dashpot stagger shorten own_pos iterate sleep  compens
@@ -57,12 +57,12 @@ constexpr bool isInOrder() {
 }
 static_assert(isInOrder(), "kIntegrators is looked up by the value of the enum");
 
-/// Largest substep over dt_safe with which an integrator is surely stable: f^2 + 2 xi f = 1 (physics.md 2); infinite
-/// for implicit ones. The rule for all who plan, refuse or choose by it.
-/// @param dashpot_ratio  xi, the largest of all bodies
-double stableFraction(Integrator integrator, double dashpot_ratio);
+/// Returns the largest substep over dt_safe at which an integrator is proven to be stable: f^2 + 2 xi f = 1 (physics.md
+/// 2). Infinite for implicit ones. All code that plans, refuses or chooses a substep uses it.
+/// @param stiffness_damping_ratio  xi, the largest of all bodies
+double stableFraction(Integrator integrator, double stiffness_damping_ratio);
 
-/// What is thrown where steppers are made, of an integrator that is none of those made there.
+/// Returns the error to throw where steppers are made, for an integrator that is not implemented there.
 /// @param by  the function
 SceneError notStepped(Integrator integrator, const std::string& by);
 

@@ -24,7 +24,7 @@ std::string placeOf(const std::string& file, const std::string& path) {
     }
     if (node.IsDefined() && !node.Mark().is_null())
       return file + ":" + std::to_string(node.Mark().line + 1) + ": " + path;
-  } catch (const std::exception&) {  // the key was set from outside, or the file is another by now
+  } catch (const std::exception&) {  // the key was an override, or the file has changed since
   }
   return file + ": " + path;
 }

@@ -9,24 +9,25 @@
 
 namespace viscera {
 
-/// A key of a body does not suit its tissue. Who knows the scene's file puts file and line before it (withPlace).
+/// Error: a key of a body does not suit its tissue. Code that knows the scene's file prefixes file and line
+/// (withPlace).
 struct BodyKeyError : SceneError {
-  /// @param its_key  within the body, as in fixed[0]   @param its_reason  what follows the key
+  /// @param its_key  path within the body, as in fixed[0]   @param its_reason  text after the key
   BodyKeyError(const std::string& body, const std::string& its_key, const std::string& its_reason)
       : SceneError("body '" + body + "': " + its_key + its_reason), key(its_key), reason(its_reason) {}
   std::string key, reason;
 };
 
-/// An error that names file, line and key.
+/// Error that names file, line and key.
 struct PlacedError : SceneError {
   using SceneError::SceneError;
 };
 
-/// Returns "FILE:LINE: PATH" of a key of a scene's file, "FILE: PATH" where it was set from outside.
+/// Returns "FILE:LINE: PATH" of a key in a scene's file, "FILE: PATH" where it was an override.
 /// @param path  as in bodies[0].fixed[1]
 std::string placeOf(const std::string& file, const std::string& path);
 
-/// Does something with a body of the scene. @throws PlacedError, MeshError  with the body's place in the file
+/// Runs `act` for a body of the scene. @throws PlacedError, MeshError  with the body's place in the file
 template <class Act>
 auto withPlace(const Scene& scene, size_t body, const Act& act) {
   const std::string path = "bodies[" + std::to_string(body) + "]";

@@ -90,7 +90,7 @@ class KeyTable {
   std::string path_;
 };
 
-/// The table of all keys of a file that a `Struct` holds, with their defaults: Markdown.
+/// Returns a Markdown table of all keys of a file that a `Struct` represents, with their defaults.
 template <class Struct>
 std::string keyTable() {
   TextOut out;

@@ -12,7 +12,7 @@ KnotKind knotNamed(const std::string& name) {
     if (name == kKnotNames[k]) return static_cast<KnotKind>(k);
     all += (k > 1 ? ", " : "") + std::string(kKnotNames[k]);
   }
-  throw SceneError("there is no knot '" + name + "'; there are " + all);
+  throw SceneError("unknown knot '" + name + "'; accepted: " + all);
 }
 
 }  // namespace viscera

@@ -7,9 +7,10 @@
 namespace viscera {
 namespace {
 
-constexpr double kLeastStretch = 1.0 / 50, kMostStretch = 20;  ///< at the most: of an organ of 0.1 m 2 mm to 2 m
-constexpr double kThinnest = 1e-3;                             ///< at the least: a plate
-/// An organ that fills its box needs more of a picture than one with corners that are empty, as a heart's.
+/// Range of the largest stretch: an organ of 0.1 m becomes one of 2 mm to 2 m.
+constexpr double kLeastStretch = 1.0 / 50, kMostStretch = 20;
+constexpr double kThinnest = 1e-3;  ///< limit of the smallest stretch: a plate
+/// Margin of the image: an organ that fills its box needs more of it than one with empty corners, such as a heart.
 constexpr double kRoom = 1.15;
 
 std::string sizeText(const Eigen::AlignedBox3d& box_m) {
@@ -50,9 +51,9 @@ bool OrganFit::isSound() const {
 std::string OrganFit::text() const {
   TextOut out;
   out.precision(3);
-  out << "fitted to the organ's box, " << sizeText(to_m) << ", from the scene's, " << sizeText(from_m)
-      << ": cameras by " << view_scale << ", tools and strokes by " << hand_scale
-      << ", fixed regions, obstacles and anchors from box to box; keys that were set go before";
+  out << "scene fitted to the organ's box, " << sizeText(to_m) << ", from its own, " << sizeText(from_m)
+      << ": cameras scaled by " << view_scale << ", tools and strokes by " << hand_scale
+      << ", fixed regions, obstacles and anchors moved from box to box; keys that an override sets keep their values";
   return out.str();
 }
 

@@ -23,7 +23,7 @@ Overlays overlaysOf(const std::vector<std::string>& names) {
     if (found == kOverlayNames.end()) {
       std::vector<std::string> known;
       for (const OverlayName& overlay : kOverlayNames) known.emplace_back(overlay.name);
-      throw SceneError("there is no overlay '" + name + "'; there are " + nearestFirstText(name, known));
+      throw SceneError("unknown overlay '" + name + "'; accepted: " + nearestFirstText(name, known));
     }
     out.add(found->value);
   }

@@ -8,11 +8,11 @@ namespace viscera {
 
 namespace {
 
-constexpr int kMostPlumbSteps = 50;   // of Newton's method, which takes about five
-constexpr double kExact = 1e-13;      // of tangents of order 1: some hundred roundings
-constexpr double kFarthestBob = 1e3;  // tangent, of a line of sight along the image's plane
+constexpr int kMostPlumbSteps = 50;   // steps of Newton's method, which needs about five
+constexpr double kExact = 1e-13;      // for tangents of order 1: about a hundred rounding errors
+constexpr double kFarthestBob = 1e3;  // tangent of a line of sight almost parallel to the image plane
 
-/// d distorted / d place.
+/// Returns d distorted / d place.
 Eigen::Matrix2d slopeOf(const PlumbBob& lens, const Eigen::Vector2d& place) {
   const double x = place.x(), y = place.y(), r2 = place.squaredNorm();
   const double radial = 1 + r2 * (lens.k1 + r2 * (lens.k2 + r2 * lens.k3));

@@ -22,8 +22,8 @@ namespace viscera {
 namespace {
 
 constexpr double kThinnest_m = 1e-5, kLightest_kg_per_m3 = 100;
-constexpr double kThickestNeedle = 0.2;  // of its arc's radius
-constexpr double kMostLinks = 4000;      // of a thread: 0.6 ms a substep
+constexpr double kThickestNeedle = 0.2;  // share of the arc's radius
+constexpr double kMostLinks = 4000;      // of a suture: 0.6 ms per substep
 
 bool isRosName(const std::string& name) {
   if (name.empty() || !std::isalpha(static_cast<unsigned char>(name[0]))) return false;
@@ -39,10 +39,10 @@ void requireNames(const std::string& file, const char* list, const List& items) 
   for (const auto& item : items) {
     if (!isRosName(item.name)) {
       throw SceneError(file + ": name '" + item.name + "' in '" + list +
-                       "' must start with a letter and hold letters, digits and _ only");
+                       "' must start with a letter and contain only letters, digits and _");
     }
     if (!seen.insert(item.name).second)
-      throw SceneError(file + ": name '" + item.name + "' stands twice in '" + list + "'");
+      throw SceneError(file + ": name '" + item.name + "' is used twice in '" + list + "'");
   }
 }
 
@@ -55,10 +55,10 @@ void requireFixed(const std::string& where, const FixedConfig& fixed) {
   if (fixed.shape == FixedShape::kPart && fixed.part.empty()) throw SceneError(where + ": 'part' must name a part");
 }
 
-/// Every pixel of a lens has one line of sight, not much farther out than a pinhole's.
+/// Checks that every pixel of a lens has one line of sight, not much farther out than a pinhole's.
 void requireLens(const std::string& file, const CameraConfig& camera) {
   if (!camera.distortion.any()) return;
-  constexpr int kAcross = 32;  // places looked at, along an axis
+  constexpr int kAcross = 32;  // number of sampled positions along an axis
   const double half_height = std::tan(camera.vertical_fov_deg * M_PI / 360);
   const double half_width = half_height * camera.width_px / camera.height_px;
   for (int i = 0; i <= kAcross; ++i) {
@@ -70,40 +70,41 @@ void requireLens(const std::string& file, const CameraConfig& camera) {
         continue;
       throw SceneError(file + ": camera '" + camera.name +
                        "': 'distortion' must leave every pixel one line of sight, at most " +
-                       numberText(kFarthestSight) + " times as far from the middle as half the image; at column " +
+                       numberText(kFarthestSight) +
+                       " times as far from the image centre as half the image; there is none at column " +
                        numberText(std::round(1.0 * camera.width_px * i / kAcross)) + ", row " +
-                       numberText(std::round(1.0 * camera.height_px * j / kAcross)) + " it does not");
+                       numberText(std::round(1.0 * camera.height_px * j / kAcross)));
     }
   }
 }
 
 void requireStableSubstep(const std::string& file, const SolverConfig& solver, const BodyConfig& body) {
-  if (solver.substeps > 0) return;  // checked against the lattice when it is known
-  const double xi = body.material.dashpot_ratio, largest = stableFraction(solver.integrator, xi);
+  if (solver.substeps > 0) return;  // checked against the lattice once it is known
+  const double xi = body.material.stiffness_damping_ratio, largest = stableFraction(solver.integrator, xi);
   if (solver.dt_fraction < largest) return;
   const std::string asked = file + ": solver.dt_fraction = " + numberText(solver.dt_fraction) + " is not stable with ";
-  const std::string less = ": use less than " + numberText(largest);
+  const std::string less = "; it must be less than " + numberText(largest);
   const IntegratorTraits& traits = traitsOf(solver.integrator);
   if (!traits.dashpot_limits) throw SceneError(asked + "integrator " + traits.name + less);
-  throw SceneError(asked + "the dashpot_ratio of body '" + body.name + "', " + numberText(xi) + less +
-                   ", or a smaller dashpot_ratio");
+  throw SceneError(asked + "the stiffness_damping_ratio of body '" + body.name + "', " + numberText(xi) + less +
+                   ", or stiffness_damping_ratio must be smaller");
 }
 
-/// Springs of networks have a nu of their own: that of a preset is left out.
+/// Removes a preset's nu from a network: its springs determine nu.
 void leaveOutNuOfPreset(BodyConfig& body) {
   const TissuePreset* preset = tissueNamed(body.material.tissue);
   if (preset && isNetwork(body.structure) && body.material.poisson_ratio == preset->poisson_ratio)
     body.material.poisson_ratio = MaterialConfig{}.poisson_ratio;
 }
 
-/// `toughness_j_per_m2: auto`. @param tissue  of a part that names none: its body's
+/// Resolves `toughness_j_per_m2: auto`. @param tissue  its own, or the body's for a part that names none
 void takeToughness(const std::string& where, const std::string& tissue, FractureConfig& cut) {
   if (!cut.of_tissue) return;
   const TissuePreset* preset = tissueNamed(tissue);
   if (!preset || !(preset->toughness_j_per_m2 > 0)) {
-    throw SceneError(where + ".cut.toughness_j_per_m2: auto needs a tissue whose toughness is known (" +
+    throw SceneError(where + ".cut.toughness_j_per_m2: auto needs a tissue with a known toughness (" +
                      tissuesWith(&TissuePreset::toughness_j_per_m2) + "), not " + (preset ? tissue : "none") +
-                     "; or give a number");
+                     "; or set a number");
   }
   cut.toughness_j_per_m2 = preset->toughness_j_per_m2;
 }
@@ -118,46 +119,45 @@ void takeToughnesses(const std::string& file, BodyConfig& body) {
   }
 }
 
-/// `stiffening: auto`.
+/// Resolves `stiffening: auto`.
 void takeStiffening(const std::string& file, const BodyConfig& body, MaterialConfig& material) {
   if (!material.stiffens_as_tissue) return;
   const TissuePreset* preset = tissueNamed(material.tissue);
   if (!preset || !(preset->stiffening > 0)) {
-    throw SceneError(file + ": body '" + body.name +
-                     "': material.stiffening: auto needs a tissue whose stiffening is " + "known (" +
-                     tissuesWith(&TissuePreset::stiffening) + "), not " + (preset ? material.tissue : "none") +
-                     "; or give a number");
+    throw SceneError(
+        file + ": body '" + body.name + "': material.stiffening: auto needs a tissue with a known stiffening (" +
+        tissuesWith(&TissuePreset::stiffening) + "), not " + (preset ? material.tissue : "none") + "; or set a number");
   }
   material.stiffening = preset->stiffening;
 }
 
-void requireThread(const std::string& file, const ThreadConfig& thread) {
-  const std::string where = file + ": thread '" + thread.name + "': ";
-  if (thread.radius_m > 0 && thread.radius_m < kThinnest_m)
+void requireSuture(const std::string& file, const SutureConfig& suture) {
+  const std::string where = file + ": suture '" + suture.name + "': ";
+  if (suture.radius_m > 0 && suture.radius_m < kThinnest_m)
     throw SceneError(where + "'radius_m' must be 0 or at least " + numberText(kThinnest_m));
-  if (thread.density_kg_per_m3 > 0 && thread.density_kg_per_m3 < kLightest_kg_per_m3)
+  if (suture.density_kg_per_m3 > 0 && suture.density_kg_per_m3 < kLightest_kg_per_m3)
     throw SceneError(where + "'density_kg_per_m3' must be 0 or at least " + numberText(kLightest_kg_per_m3));
   double length_m = 0;
-  Vector3d last = thread.position_m;
-  for (const ThreadPlace& place : thread.path) {
+  Vector3d last = suture.position_m;
+  for (const SuturePathPoint& place : suture.path) {
     length_m += (place.position_m - last).norm();
     last = place.position_m;
   }
-  if (length_m == 0) throw SceneError(where + "'path' must hold a place that is not 'position_m'");
-  if (thread.length_m > 0) length_m = thread.length_m;
-  const double links = length_m / thread.spacing_m;
+  if (length_m == 0) throw SceneError(where + "'path' must contain a position that differs from 'position_m'");
+  if (suture.length_m > 0) length_m = suture.length_m;
+  const double links = length_m / suture.spacing_m;
   if (links >= 2 && links <= kMostLinks) return;
   throw SceneError(where + "a length of " + numberText(length_m) + " m and 'spacing_m' " +
-                   numberText(thread.spacing_m) + " make " + numberText(std::floor(links)) + " links, 2 .. " +
+                   numberText(suture.spacing_m) + " make " + numberText(std::floor(links)) + " links; 2 .. " +
                    numberText(kMostLinks) + " are accepted");
 }
 
-void requireNeedle(const std::string& file, const ThreadConfig& thread) {
-  const std::string where = file + ": thread '" + thread.name + "': ";
-  const NeedleConfig& needle = thread.needle;
+void requireNeedle(const std::string& file, const SutureConfig& suture) {
+  const std::string where = file + ": suture '" + suture.name + "': ";
+  const NeedleConfig& needle = suture.needle;
   if (needle.arc == NeedleArc::kNone) return;
-  if (thread.start != ThreadEnd::kFree)
-    throw SceneError(where + "'start' must be free, as 'needle.arc' says that a needle is there");
+  if (suture.start != SutureEnd::kFree)
+    throw SceneError(where + "'start' must be free, because 'needle.arc' puts a needle there");
   if (needle.wire_radius_m > kThickestNeedle * needle.radius_m)
     throw SceneError(where + "'needle.wire_radius_m' must be at most " + numberText(kThickestNeedle) +
                      " times 'needle.radius_m'");
@@ -165,34 +165,34 @@ void requireNeedle(const std::string& file, const ThreadConfig& thread) {
     throw SceneError(where + "'needle.cutting_n' must be at most 'needle.puncture_n'");
 }
 
-/// A stylus in mode needle has one to take.
+/// Checks that a stylus in mode needle has a needle to take.
 void requireNeedles(const std::string& file, const Scene& scene) {
-  for (const ThreadConfig& thread : scene.threads) {
-    if (thread.needle.arc != NeedleArc::kNone) return;
+  for (const SutureConfig& suture : scene.sutures) {
+    if (suture.needle.arc != NeedleArc::kNone) return;
   }
   for (const StylusConfig& stylus : scene.styluses) {
     for (const ToolMode mode : {stylus.idle, stylus.button1, stylus.button2}) {
       if (mode == ToolMode::kNeedle)
         throw SceneError(file + ": stylus '" + stylus.name +
-                         "' has mode needle, and no thread has one: give 'threads[].needle.arc'");
+                         "' has mode needle, but no suture has a needle; set 'sutures[].needle.arc'");
     }
   }
 }
 
-/// What no single key can tell.
+/// Checks rules that involve several keys.
 void requireConsistent(const std::string& file, const Scene& scene) {
-  if (scene.bodies.empty()) throw SceneError(file + ": 'bodies' must hold at least one body");
+  if (scene.bodies.empty()) throw SceneError(file + ": 'bodies' must contain at least one body");
   requireNames(file, "bodies", scene.bodies);
   requireNames(file, "styluses", scene.styluses);
   requireNames(file, "cameras", scene.cameras);
   requireNames(file, "obstacles", scene.obstacles);
-  requireNames(file, "threads", scene.threads);
+  requireNames(file, "sutures", scene.sutures);
   for (const BodyConfig& body : scene.bodies) {
     if (body.source == TissueSource::kMesh && body.mesh_file.empty()) {
-      throw SceneError(file + ": body '" + body.name + "' has source mesh and needs 'mesh_file'");
+      throw SceneError(file + ": body '" + body.name + "' has source mesh, which needs 'mesh_file'");
     }
     if (body.source == TissueSource::kLabels && body.scan.file.empty()) {
-      throw SceneError(file + ": body '" + body.name + "' has source labels and needs 'scan.file'");
+      throw SceneError(file + ": body '" + body.name + "' has source labels, which needs 'scan.file'");
     }
     const std::string fault = structureFault(body);
     if (!fault.empty()) throw SceneError(file + ": body '" + body.name + "': " + fault);
@@ -200,9 +200,9 @@ void requireConsistent(const std::string& file, const Scene& scene) {
       requireFixed(file + ": body '" + body.name + "' fixed[" + std::to_string(i) + "]", body.fixed[i]);
     }
   }
-  for (const ThreadConfig& thread : scene.threads) {
-    requireThread(file, thread);
-    requireNeedle(file, thread);
+  for (const SutureConfig& suture : scene.sutures) {
+    requireSuture(file, suture);
+    requireNeedle(file, suture);
   }
   requireNeedles(file, scene);
   try {
@@ -215,8 +215,9 @@ void requireConsistent(const std::string& file, const Scene& scene) {
     requireLens(file, camera);
     const Vector3d sight = camera.target_m - camera.position_m;
     if (sight.cross(camera.up).norm() <= 1e-9 * camera.up.norm()) {
-      throw SceneError(file + ": camera '" + camera.name +
-                       "': 'up' must not be zero or along the line of sight, nor 'target_m' equal 'position_m'");
+      throw SceneError(
+          file + ": camera '" + camera.name +
+          "': 'up' must not be zero or parallel to the line of sight, and 'target_m' must differ from 'position_m'");
     }
   }
 }
@@ -249,7 +250,7 @@ Scene parseScene(const std::string& yaml, const std::string& name, const Overrid
   try {
     YAML::Node root = YAML::Load(yaml);
     if (!root.IsMap())
-      throw SceneError(name + ": a scene is a map of keys, with 'bodies' at least; the file holds none");
+      throw SceneError(name + ": a scene must be a map of keys, at least with 'bodies'; the file contains no map");
     for (const std::string& text : overrides) applyOverride(root, text, source);
     YamlReader::readMap(root, "", source, scene);
   } catch (const YAML::Exception& e) {

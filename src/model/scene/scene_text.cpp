@@ -48,8 +48,8 @@ class KeyValues {
     for (size_t i = 0; i < values.size(); ++i) line((key + ("[" + std::to_string(i) + "]")).c_str(), values[i]);
   }
   template <class Struct>
-  void tissue(const char*, Struct&, const char*) {}   // its numbers are there
-  void names(const char*, Overlays&, const char*) {}  // what is drawn
+  void tissue(const char*, Struct&, const char*) {}   // its numbers are listed themselves
+  void names(const char*, Overlays&, const char*) {}  // appearance only
   template <class Struct>
   void group(const char* key, Struct& value, const char*) {
     KeyValues inner(out_, path_ + key + ".");

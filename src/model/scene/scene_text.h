@@ -8,8 +8,8 @@ namespace viscera {
 
 struct Scene;
 
-/// All keys of a scene with the values that they have, one `key=value` a line, numbers to the bit: two scenes with the
-/// same text are the same but for what their files hold.
+/// Returns all keys of a scene with their values, one `key=value` per line, numbers to the bit. Two scenes with the
+/// same text differ at most in the content of their files.
 std::string sceneText(const Scene& scene);
 
 }  // namespace viscera

@@ -16,7 +16,7 @@ namespace viscera {
 
 namespace {
 
-/// Field visitor that fills a map. Values out of range are defaults that stand for "not given", and are left out.
+/// Field visitor that fills a map. Out-of-range values are defaults that mean "not given"; they are left out.
 class MapFiller {
  public:
   explicit MapFiller(YAML::Node map) : map_(std::move(map)) {}
@@ -54,7 +54,7 @@ class MapFiller {
   }
   template <class Struct>
   void tissue(const char* key, Struct& value, const char*) {
-    if (!value.tissue.empty()) map_[key] = value.tissue;  // its numbers are there too, and go before it
+    if (!value.tissue.empty()) map_[key] = value.tissue;  // its numbers are written too, and take precedence
   }
   void names(const char* key, Overlays& value, const char*) {
     map_[key] = YAML::Node(YAML::NodeType::Sequence);
@@ -80,7 +80,8 @@ class MapFiller {
 
  private:
   static std::string digits(double value) { return exactText(value); }
-  /// @returns whether the map is to be there
+  /// Fills a map.
+  /// @returns whether the map is to be written
   template <class Struct>
   static bool fill(const YAML::Node& map, Struct& value) {
     MapFiller inner(map);

@@ -8,8 +8,8 @@ namespace viscera {
 
 struct Scene;
 
-/// A scene file of all keys with the values that they have, numbers to the bit: parseScene() makes the same scene of
-/// it, but for `folder`, where relative files are looked up, and `file`.
+/// Returns a scene file of all keys with their values, numbers to the bit. parseScene() turns it into the same scene,
+/// except for `folder`, where relative files are looked up, and `file`.
 std::string resolvedYaml(const Scene& scene);
 
 }  // namespace viscera

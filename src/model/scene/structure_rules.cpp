@@ -12,7 +12,7 @@ namespace {
 std::string sourceFault(const BodyConfig& body) {
   const bool has_mesh = body.source == TissueSource::kMesh;
   if (body.skin == SkinSource::kInput && !has_mesh && body.source != TissueSource::kLabels)
-    return "skin: input needs source: mesh or labels; use auto or volume";
+    return "skin: input needs source: mesh or labels; otherwise use auto or volume";
   if (body.fill == Fill::kEnclosed && !has_mesh) return "fill: enclosed needs source mesh";
   return "";
 }
@@ -26,8 +26,10 @@ std::string lawFault(const BodyConfig& body) {
     if (material.walls == Walls::kRows) return "material.walls: rows needs material.law: neo_hookean";
     return hasOwnPoisson(body) ? "poisson_ratio other than 0.25 needs material.law: neo_hookean: springs have 1/4" : "";
   }
-  if (material.weights != Weights::kCell) return "material.weights: paper does not go with material.law: neo_hookean";
-  if (material.walls == Walls::kRows && isPrestressed(body)) return "material.walls: rows does not go with prestress";
+  if (material.weights != Weights::kCell)
+    return "material.weights: paper cannot be combined with material.law: neo_hookean";
+  if (material.walls == Walls::kRows && isPrestressed(body))
+    return "material.walls: rows cannot be combined with material.prestress";
   return "";
 }
 

@@ -10,13 +10,13 @@
 
 namespace viscera {
 
-/// Nodes of its own instead of a lattice's?
+/// Returns whether the structure has its own nodes instead of a lattice's.
 inline bool isNetwork(Structure structure) {
   return structure == Structure::kSurface;
 }
 
-/// The law that the body's cells obey: of lattices that leapfrog steps the neo-Hookean one, unless the scene asks for
-/// springs or for what goes with them alone. Never Law::kAuto.
+/// Returns the law of the body's cells. It is neo-Hookean for lattices with leapfrog, unless the scene chooses springs
+/// or something that needs them. Never Law::kAuto.
 inline Law lawOf(const BodyConfig& body, Integrator integrator = Integrator::kLeapfrog) {
   const MaterialConfig& material = body.material;
   if (material.law != Law::kAuto) return material.law;
@@ -24,21 +24,21 @@ inline Law lawOf(const BodyConfig& body, Integrator integrator = Integrator::kLe
   return goes && material.weights == Weights::kCell ? Law::kNeoHookean : Law::kSprings;
 }
 
-/// Are cells at the surface tissue in part? Springs have full cells alone.
+/// Returns whether cells at the surface can be partly filled. With springs cells are always full.
 inline bool fillsInPart(const BodyConfig& body) {
   return lawOf(body) == Law::kNeoHookean;
 }
 
-/// Has the body or a part of it another Poisson's ratio than springs have?
+/// Returns whether the body or a part of it has a Poisson's ratio other than that of springs.
 bool hasOwnPoisson(const BodyConfig& body);
 
-/// Do springs of the body or of a part of it pull where they are?
+/// Returns whether the body or a part of it has a prestress.
 bool isPrestressed(const MaterialConfig& material, const std::vector<PartConfig>& parts);
 inline bool isPrestressed(const BodyConfig& body) {
   return isPrestressed(body.material, body.parts);
 }
 
-/// Does blood run out of some body (Body or BodyConfig) or part of one where it is cut?
+/// Returns whether some body (Body or BodyConfig) or a part of one bleeds where it is cut.
 template <class Bodies>
 bool mayBleed(const Bodies& bodies) {
   const auto bleeds = [](const auto& it) { return it.bleeding.flow_ml_per_min > 0; };
@@ -47,7 +47,7 @@ bool mayBleed(const Bodies& bodies) {
   });
 }
 
-/// What a body's structure does not go with, for a person; empty: nothing.
+/// Returns what the body's structure cannot be combined with, for a person; empty: no fault.
 std::string structureFault(const BodyConfig& body);
 
 }  // namespace viscera

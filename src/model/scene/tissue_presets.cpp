@@ -12,9 +12,9 @@
 namespace viscera {
 namespace {
 
-constexpr double kWet = 0.49;  ///< nu within seconds, in which no water leaves: as near to 1/2 as lattices go
+constexpr double kWet = 0.49;  ///< nu on a scale of seconds, in which no water leaves: as near to 1/2 as lattices allow
 
-// Numbers have two digits: tests of one tissue differ more. Of shear moduli E is three times as much.
+// Two digits, as tests of one tissue differ by more. E is three times a measured shear modulus.
 const std::vector<TissuePreset> kPresets = {
     {"liver", 6400, 3900, 8000, kWet, 1060,
      "MR elastography of 102 healthy people, 4.1 to 8.0 kPa; ultrasound of 50 has means of 3.9 to 4.7",
@@ -93,7 +93,7 @@ std::string numberOf(double value) {
   return value < 1e6 ? out.str() : std::to_string(static_cast<long>(value));
 }
 
-/// Words in small letters, but for sides, lobes and numbers: "KidneyLeft_2" is "kidney".
+/// Returns the words in lower case, without sides, lobes and numbers: "KidneyLeft_2" gives "kidney".
 std::vector<std::string> wordsOf(const std::string& text) {
   static const std::set<std::string> kAside = {"left", "right", "l",     "r",     "upper",  "middle", "lower",
                                                "lobe", "gland", "organ", "whole", "tissue", "segment"};
@@ -111,18 +111,18 @@ std::vector<std::string> wordsOf(const std::string& text) {
   return words;
 }
 
-/// What of a preset is in use.
+/// Returns a note on which values of a preset are in use.
 template <class Config>
 std::string noteOf(const Config& config, bool of_springs) {
   const TissuePreset& preset = *tissueNamed(config.tissue);
   const auto value = [](const std::string& name, double value, double of_preset, const std::string& unit) {
     return name + " " + numberOf(value) + unit +
-           (value == of_preset ? "" : " of the scene instead of " + numberOf(of_preset) + unit);
+           (value == of_preset ? "" : " from the scene instead of " + numberOf(of_preset) + unit);
   };
   return std::string("tissue ") + preset.name + ": " +
          value("E", config.young_modulus_pa, preset.young_modulus_pa, " Pa") + " (" + numberOf(preset.low_pa) + " to " +
          numberOf(preset.high_pa) + "), " +
-         (of_springs ? "nu that of its springs" : value("nu", config.poisson_ratio, preset.poisson_ratio, "")) + ", " +
+         (of_springs ? "nu of its springs" : value("nu", config.poisson_ratio, preset.poisson_ratio, "")) + ", " +
          value("density", config.density_kg_per_m3, preset.density_kg_per_m3, " kg/m3") + "; " + preset.test + "; " +
          preset.source;
 }
@@ -174,12 +174,12 @@ std::string tissueTable() {
   return out.str();
 }
 
-/// Empty: it is as stiff as organs are.
+/// Returns a note if the tissue is softer than organs are, else empty.
 std::string softNote(const std::string& what, double young_modulus_pa) {
   constexpr double kSoftest_pa = 100;  // fat and brain have a few hundred (docs/tissues.md)
   if (young_modulus_pa >= kSoftest_pa) return "";
   return what + ": a young_modulus_pa of " + numberText(young_modulus_pa) +
-         " Pa is softer than any organ: is it in kPa?";
+         " Pa is softer than any organ; was it given in kPa?";
 }
 
 std::vector<std::string> tissueNotes(const BodyConfig& body) {
@@ -190,8 +190,8 @@ std::vector<std::string> tissueNotes(const BodyConfig& body) {
     if (const std::string note = softNote("part " + part.part, part.young_modulus_pa); !note.empty())
       notes.push_back(note);
   if (body.target_nodes > 0 && !body.auto_spacing && body.spacing_m != BodyConfig{}.spacing_m)
-    notes.push_back("spacing_m " + numberText(body.spacing_m) + " is not used: target_nodes " +
-                    std::to_string(body.target_nodes) + " says how fine the lattice is");
+    notes.push_back("spacing_m " + numberText(body.spacing_m) + " is ignored: target_nodes " +
+                    std::to_string(body.target_nodes) + " sets the resolution of the lattice");
   if (!body.material.tissue.empty()) notes.push_back(noteOf(body.material, isNetwork(body.structure)));
   for (const PartConfig& part : body.parts) {
     if (!part.tissue.empty()) notes.push_back("part " + part.part + ", " + noteOf(part, false));

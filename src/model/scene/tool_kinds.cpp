@@ -6,8 +6,8 @@
 
 namespace viscera {
 
-bool hasThreadsOrClips(const Scene& scene) {
-  return !scene.threads.empty() || mayClip(scene.styluses);
+bool hasSuturesOrClips(const Scene& scene) {
+  return !scene.sutures.empty() || mayClip(scene.styluses);
 }
 
 }  // namespace viscera

@@ -16,72 +16,72 @@ namespace viscera {
 
 struct Scene;
 
-/// What a kind of tool does to tissue: bits. Kernels ask for these and know no kinds.
+/// Effects of a kind of tool on tissue: bits. Kernels test these and do not know the kinds.
 enum ToolEffect : uint32_t {
-  kPushes = layout::kToolPushes,  ///< nodes out of a swept sphere at the tip
-  kHolds = layout::kToolHolds,    ///< the nodes that it took when it began
-  kCuts = layout::kToolCuts,      ///< springs that its blade crosses
-  kErases = layout::kToolErases,  ///< springs of the nodes near its blade
+  kPushes = layout::kToolPushes,  ///< pushes nodes out of a swept sphere at the tip
+  kHolds = layout::kToolHolds,    ///< holds the nodes that it took when it began
+  kCuts = layout::kToolCuts,      ///< cuts the springs that its blade crosses
+  kErases = layout::kToolErases,  ///< erases the springs of the nodes near its blade
 };
 
-/// What is drawn of a tool in front of its shaft.
+/// Shape that is drawn at the front of a tool's shaft.
 enum class ToolTip { kBare, kBall, kJaws, kBlade, kCapsule, kCup };
 
-/// How a tool that holds lets go.
+/// Release of a tool that holds.
 struct Grip {
-  double release_speed_m_per_s;  ///< faster nodes are slowed to this
-  /// The reaction over a tick above which it lets go what it has; it holds nothing again until a new hold begins.
+  double release_speed_m_per_s;  ///< faster nodes are slowed to this speed [m/s]
+  /// Reaction over a tick above which it releases what it holds [N]; it holds nothing again until a new hold begins.
   double max_force_n = std::numeric_limits<double>::infinity();
 };
 
-/// Two fingers on a pivot, which is behind their tips, on the shaft; they open across it, along x of the stylus.
+/// Two jaws on a pivot, which is on the shaft behind their tips. They open across the shaft, along x of the stylus.
 struct Jaws {
-  double length_m;        ///< from the pivot to the tips
-  double open_rad;        ///< from finger to finger, when they are open; > closed_rad
-  double closing_s;       ///< from there to closed, where no hand tells how far they are
-  double closed_rad = 0;  ///< from finger to finger, when they are closed
+  double length_m;        ///< distance from the pivot to the tips [m]
+  double open_rad;        ///< angle between the open jaws [rad]; > closed_rad
+  double closing_s;       ///< time from open to closed [s], where no device reports the opening
+  double closed_rad = 0;  ///< angle between the closed jaws [rad]
 };
 
-/// Closed blades of scissors: tips cross there, edges lie 0.2 mm off the pivot of blades of 12 mm.
+/// Closed blades of scissors: the tips cross, and the edges are 0.2 mm off the pivot for blades of 12 mm.
 constexpr double kClosedBlades_rad = 0.03;
 
-/// @param closed  0: open, 1: closed   @returns rad
+/// Returns the opening [rad]. @param closed  0: open, 1: closed
 constexpr double openingOf(const Jaws& jaws, double closed) {
   return jaws.open_rad + closed * (jaws.closed_rad - jaws.open_rad);
 }
 
-/// One kind of tool: all that the rest of the program asks of it. To know what a stylus does, ask its row
-/// here, and never which kind it is.
+/// One kind of tool, with everything that the rest of the program needs to know of it. Other code reads the row of a
+/// stylus's mode and never compares modes.
 struct ToolKind {
   ToolMode mode;
-  uint32_t number;   ///< of the mode, as kernels have it in ToolMotion.info.x
-  const char* name;  ///< in scene files
-  uint32_t effects;  ///< of ToolEffect
+  uint32_t number;   ///< number of the mode in kernels, ToolMotion.info.x
+  const char* name;  ///< name in scene files
+  uint32_t effects;  ///< bits of ToolEffect
   ToolTip tip;
-  std::array<uint8_t, 3> color;                 ///< sRGB of what acts, and of the collar on the shaft
-  double (*reach_m)(const StylusConfig&);       ///< of what acts, around the tip or around the blade
-  Grip (*grip)(const StylusConfig&) = nullptr;  ///< of kinds that hold
-  Jaws (*jaws)(const StylusConfig&) = nullptr;  ///< of kinds with two fingers
-  bool closes = false;                          ///< its fingers are blades, which part what is between them
-  bool clips = false;                           ///< it sets a clip when its fingers have closed
-  bool grips = false;                           ///< it holds what its fingers close on, which slides above its force
-  bool burns = false;                           ///< it heats what its tip touches
+  std::array<uint8_t, 3> color;                 ///< sRGB of the tip, and of the collar on the shaft
+  double (*reach_m)(const StylusConfig&);       ///< reach around the tip or around the blade [m]
+  Grip (*grip)(const StylusConfig&) = nullptr;  ///< for kinds that hold
+  Jaws (*jaws)(const StylusConfig&) = nullptr;  ///< for kinds with two jaws
+  bool closes = false;                          ///< its jaws are blades, which cut what is between them
+  bool clips = false;                           ///< it sets a clip when its jaws have closed
+  bool grips = false;  ///< it holds what its jaws close on, which slides above the grip's force
+  bool burns = false;  ///< it heats what its tip touches
 
   constexpr bool does(uint32_t some) const { return (effects & some) != 0; }
-  /// It moves nodes: contact kernels run, and their reactions are summed.
+  /// Returns whether it moves nodes: contact kernels run, and their reactions are summed.
   constexpr bool touches() const { return does(kPushes | kHolds); }
-  /// It parts springs, along the whole blade: kernels of cuts run, the skin is looked at again.
+  /// Returns whether it severs springs along the whole blade: kernels of cuts run, and the surface mesh is updated.
   constexpr bool severs() const { return does(kCuts | kErases); }
 };
 
-/// Of tools whose fingers have no keys of their own, a length and an opening [m, rad].
+/// Length and opening of jaws without keys of their own [m, rad].
 constexpr double kPlainJaw_m = 0.014, kPlainOpening_rad = 0.44;
 
 inline Jaws plainJaws(const StylusConfig& c) {
   return {kPlainJaw_m, kPlainOpening_rad, c.jaw_closing_s};
 }
 
-/// The table. Colours after Okabe and Ito, told apart by colour-blind people too, and all of them from red tissue.
+/// Colours follow Okabe and Ito; colour-blind people can distinguish them, and all of them stand out from red tissue.
 // clang-format off
 inline constexpr ToolKind kToolKinds[] = {
     {ToolMode::kNone, layout::kModeNone, "none", 0, ToolTip::kBare, {190, 195, 202},
@@ -123,8 +123,8 @@ inline constexpr ToolKind kToolKinds[] = {
 // clang-format on
 inline constexpr size_t kToolKindCount = sizeof(kToolKinds) / sizeof(kToolKinds[0]);
 
-/// Is the row of each mode where kindOf() looks for it, is its number that of the kernels, does each kind that holds
-/// say how it lets go, and has each that is drawn with jaws some?
+/// Returns whether the table is consistent. The row of each mode is where kindOf() looks for it, and its number is that
+/// of the kernels. Each kind that holds has a grip, and each that is drawn with jaws has jaws.
 constexpr bool toolKindsAreWhole() {
   for (size_t i = 0; i < kToolKindCount; ++i) {
     if (static_cast<size_t>(kToolKinds[i].mode) != i || kToolKinds[i].number != i) return false;
@@ -141,9 +141,9 @@ constexpr const ToolKind& kindOf(ToolMode mode) {
   return kToolKinds[static_cast<size_t>(mode)];
 }
 
-/// Where the blade of a stylus begins and ends on its axis.
+/// Ends of a stylus's blade on its axis.
 struct BladeSpan {
-  double low_m, high_m;  ///< z in the stylus frame, of which the tip is the origin; low_m < high_m
+  double low_m, high_m;  ///< z in the stylus frame, with the tip as origin [m]; low_m < high_m
 };
 
 constexpr BladeSpan bladeSpan(const CutConfig& cut) {
@@ -151,13 +151,13 @@ constexpr BladeSpan bladeSpan(const CutConfig& cut) {
           cut.blade_side == BladeSide::kAhead ? 0 : cut.blade_length_m};
 }
 
-/// Does a stylus cut, erase or burn, with one button or another?
+/// Returns whether a stylus cuts, erases or burns in any of its modes.
 inline bool maySever(const StylusConfig& config) {
   const auto parts = [](ToolMode mode) { return kindOf(mode).severs() || kindOf(mode).burns; };
   return parts(config.idle) || parts(config.button1) || parts(config.button2);
 }
 
-/// Does some stylus set clips, with one button or another?
+/// Returns whether some stylus sets clips in any of its modes.
 inline bool mayClip(const std::vector<StylusConfig>& styluses) {
   for (const StylusConfig& stylus : styluses) {
     if (kindOf(stylus.idle).clips || kindOf(stylus.button1).clips || kindOf(stylus.button2).clips) return true;
@@ -165,7 +165,7 @@ inline bool mayClip(const std::vector<StylusConfig>& styluses) {
   return false;
 }
 
-/// Does some stylus burn tissue, with one button or another?
+/// Returns whether some stylus burns tissue in any of its modes.
 inline bool mayBurn(const std::vector<StylusConfig>& styluses) {
   for (const StylusConfig& stylus : styluses) {
     if (kindOf(stylus.idle).burns || kindOf(stylus.button1).burns || kindOf(stylus.button2).burns) return true;
@@ -173,15 +173,15 @@ inline bool mayBurn(const std::vector<StylusConfig>& styluses) {
   return false;
 }
 
-/// May a stylus push tissue with a probe, with one button or another?
+/// Returns whether a stylus pushes tissue with a probe in any of its modes.
 inline bool mayPush(const StylusConfig& stylus) {
   const auto pushes = [](ToolMode mode) { return kindOf(mode).does(kPushes); };
   return pushes(stylus.idle) || pushes(stylus.button1) || pushes(stylus.button2);
 }
 
-bool hasThreadsOrClips(const Scene& scene);
+bool hasSuturesOrClips(const Scene& scene);
 
-/// Does some stylus? What a model and a solver keep of cuts is there only then.
+/// Returns whether some stylus severs. Only then do a model and a solver keep data on cuts.
 inline bool maySever(const std::vector<StylusConfig>& styluses) {
   for (const StylusConfig& stylus : styluses) {
     if (maySever(stylus)) return true;

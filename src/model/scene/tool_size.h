@@ -8,12 +8,12 @@
 
 namespace viscera {
 
-/// A key of a stylus that says how large one of its tools is, and its value [m].
+/// Key of a stylus that sets the size of one of its tools, and its value [m].
 struct ToolSize {
   const char* key;
   double& (*of)(StylusConfig&);
-  bool meets_nodes = false;   ///< a reach within which it finds nodes, or meets those around
-  bool only_shrinks = false;  ///< of what is drawn alone: small organs are not hidden, large ones need nothing larger
+  bool meets_nodes = false;   ///< a reach within which it finds or meets nodes
+  bool only_shrinks = false;  ///< drawn only: it shrinks so as not to hide small organs, and never grows
 };
 
 inline constexpr std::array<ToolSize, 12> kToolSizes = {{
@@ -31,9 +31,8 @@ inline constexpr std::array<ToolSize, 12> kToolSizes = {{
     {"shaft_length_m", [](StylusConfig& c) -> double& { return c.shaft_length_m; }, false, true},
 }};
 
-/// Returns a stylus whose tools are `scale` times as large, but no smaller or larger than their keys accept.
-/// Shafts are never longer than they were.
-/// @param cells  how many times as large the cells are: reaches that meet nodes grow as much, if that is more
+/// Returns a stylus with tools `scale` times as large, within the ranges of their keys. Shafts never become longer.
+/// @param cells  factor by which the cells are larger: reaches that meet nodes grow by it if it exceeds `scale`
 StylusConfig scaledTools(StylusConfig stylus, double scale, double cells = 0);
 
 }  // namespace viscera

@@ -7,19 +7,20 @@
 
 namespace viscera {
 
-// The sections of a scene file; their keys are in scene_fields.h and body_fields.h.
+// The sections of a scene file; their keys are in scene_fields.h, body_fields.h and suture_fields.h.
 
 template <class V>
 void visitFields(V& v, Scene& c) {
-  v.text("name", c.name, "name, for reports");
-  v.list("bodies", c.bodies, layout::kMaxBodies, "pieces of tissue, at least one");
-  v.list("styluses", c.styluses, layout::kMaxStyluses, "tools");
-  v.list("cameras", c.cameras, 8, "views");
-  v.list("obstacles", c.obstacles, layout::kMaxObstacles, "rigid things that nodes do not enter");
-  v.group("collision", c.collision, "bodies against themselves and each other; costs nothing while it is off");
-  v.group("environment", c.environment, "gravity and frames");
+  v.text("name", c.name, "name of the scene, for reports");
+  v.list("bodies", c.bodies, layout::kMaxBodies, "bodies: pieces of tissue, at least one");
+  v.list("styluses", c.styluses, layout::kMaxStyluses, "styluses that users move, with their tools");
+  v.list("cameras", c.cameras, 8, "cameras that render the scene");
+  v.list("obstacles", c.obstacles, layout::kMaxObstacles, "obstacles: rigid shapes that nodes do not enter");
+  v.group("collision", c.collision, "collisions of bodies with themselves and each other; no cost while disabled");
+  v.group("environment", c.environment, "gravity, frames and wind");
   v.group("solver", c.solver, "time stepping");
-  v.list("threads", c.threads, 8, "threads that do not stretch, on obstacles, in hands that grab and through tissue");
+  v.list("sutures", c.sutures, 8,
+         "sutures, which do not stretch: on obstacles, in the grip of styluses and through tissue");
 }
 
 }  // namespace viscera

@@ -9,7 +9,7 @@
 
 namespace viscera {
 
-/// Field visitor that brings numbers into the ranges of their keys.
+/// Field visitor that clamps numbers to the ranges of their keys.
 class IntoRange {
  public:
   void number(const char*, double& value, Range range, const char*, const char*) {
@@ -28,7 +28,7 @@ class IntoRange {
   void choice(const char*, E&, const Choices<E>&, const char*) {}
 };
 
-/// Returns a struct of keys with each number, if it is out of its key's range, at the nearest that is accepted.
+/// Returns a struct of keys with each number clamped to its key's range.
 template <class Struct>
 Struct withinRanges(Struct keys) {
   IntoRange into_range;

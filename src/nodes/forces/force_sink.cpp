@@ -4,7 +4,7 @@
 
 #include <std_msgs/Bool.h>
 
-#include "nodes/hands/force_messages.h"
+#include "nodes/input/force_messages.h"
 #include "nodes/ros/conversions.h"
 
 namespace viscera::nodes {
@@ -21,7 +21,7 @@ ForceSink::ForceSink(ros::NodeHandle& node, const DeviceProfile& device) : port_
   withForceMessage(port_.type,
                    [&](auto message) { publisher_ = advertiseForce<decltype(message)>(node, port_.topic, port_); });
   if (port_.absolute_topic.empty()) return;
-  // A CRTK device takes a body wrench in its tip's frame unless told that it is in the frame of its poses.
+  // CRTK devices interpret a body wrench in the frame of their tip unless this topic selects the frame of their poses.
   absolute_ = node.advertise<std_msgs::Bool>(port_.absolute_topic, 1, true);
   std_msgs::Bool absolute;
   absolute.data = true;

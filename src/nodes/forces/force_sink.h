@@ -5,24 +5,24 @@
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 
-#include "nodes/hands/stylus_mailbox.h"
+#include "nodes/input/stylus_mailbox.h"
 #include "viscera/tools/force_limiter.h"
 
 namespace viscera::nodes {
 
-/// A reaction as a device takes it: along its axes, about the origin of its poses, times its scale, and within what it
-/// is made for, whatever the scene's limits have become meanwhile; force and torque shrink by one factor. No torque for
-/// one whose messages have none.
-/// @param reaction  on the tip, tissue frame: force, and torque about the tip
+/// Returns the reaction as a device takes it: along the device's axes, about the origin of its poses, multiplied by its
+/// scale. One factor scales force and torque down to the limits of the device, independently of the scene's current
+/// limits. The torque is zero if the device's messages have none.
+/// @param reaction  force on the tip and torque about the tip, tissue frame
 Reaction toDevice(const Reaction& reaction, const DeviceFrame& frame, const ForcePort& port);
 
-/// Where a device takes its forces, in the message and the frame that its driver knows.
+/// Publishes forces for one device, in the message type and frame that its driver expects.
 class ForceSink {
  public:
   ForceSink(ros::NodeHandle& node, const DeviceProfile& device);
 
   bool hasSubscribers() const { return publisher_ && publisher_.getNumSubscribers() > 0; }
-  /// @param reaction  as of toDevice(); not finite becomes zero   @returns what the device is told
+  /// Publishes a reaction. @param reaction  see toDevice(); zero is sent if it is not finite   @returns what was sent
   Reaction send(const Reaction& reaction, const DeviceFrame& frame, const ros::Time& stamp);
 
  private:

@@ -9,7 +9,7 @@
 namespace viscera::nodes {
 namespace {
 
-/// Which body a stylus will touch is unknown.
+/// Returns constants that are valid for every body, since the body that a stylus will touch is not known.
 TissueConstants tissueOf(const Scene& scene, const StylusConfig& stylus) {
   std::vector<double> moduli_pa;
   for (const BodyConfig& body : scene.bodies) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "haptics/force_loop.h"
-#include "nodes/hands/stylus_mailbox.h"
+#include "nodes/input/stylus_mailbox.h"
 
 namespace viscera {
 struct Scene;
@@ -13,14 +13,14 @@ struct Scene;
 
 namespace viscera::nodes {
 
-/// What the private parameters of the simulator say of forces between two ticks.
+/// The private parameters of the simulator that control forces between two ticks.
 struct HapticOptions {
-  double rate_hz = 1000;   ///< 0: forces once per tick
-  double delay_s = 0.002;  ///< of a device: from a pose measured there to the force that answers it
-  int priority = 20;       ///< of the thread that answers, SCHED_FIFO; 0: as every other thread
+  double rate_hz = 1000;   ///< rate of force updates [Hz]; 0: one force per tick
+  double delay_s = 0.002;  ///< delay of a device [s]: from its measurement of a pose to the force that answers it
+  int priority = 20;       ///< SCHED_FIFO priority of the force thread; 0: ordinary scheduling
 };
 
-/// The same for each stylus of a scene, with what its device says. @param mailboxes  of the styluses, in order
+/// Returns the options of each stylus of a scene, combined with its device's profile. @param mailboxes  [styluses]
 std::vector<ForceLoop::Stylus> forceStyluses(const HapticOptions& options, const Scene& scene,
                                              const std::vector<const StylusMailbox*>& mailboxes);
 

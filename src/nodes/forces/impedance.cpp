@@ -11,7 +11,7 @@
 namespace viscera::nodes {
 namespace {
 
-/// One factor for what the device would give at a place of the tip.
+/// Returns the factor that limits the force at a position of the tip.
 double shareAt(const ContactModel& model, const Vector3d& tip_m, SteadyTime now, double most_n, const ForcePort& port) {
   const double size_n = model.at(tip_m, std::chrono::duration<double>(now - SteadyTime{}).count()).force_n.norm();
   return shareWithin(port.scale * size_n, std::min(port.scale * most_n, port.max_force_n));
@@ -50,7 +50,7 @@ crtk_msgs::CartesianImpedance toImpedance(const HapticServo& servo, const Stylus
     stiffness.x() = stiffness.y() = 0;
   }
   const double share = device.force.scale * shareAt(model, hand.pose.position_m, now, most_n, device.force);
-  stiffness *= share * device.scale;  // newtons of the motors per metre of the hand
+  stiffness *= share * device.scale;  // unit: newtons of the motors per metre of the device
   out.force_orientation = toQuaternion(frame.from_tissue * axes);
   out.force_position = toVector(device.pose.unit_m * mailbox.inDevice({place_m, hand.pose.orientation}).position_m);
   out.position_negative.p = toVector(-stiffness);

@@ -7,21 +7,22 @@
 
 #include <string>
 
-#include "nodes/hands/stylus_mailbox.h"
+#include "nodes/input/stylus_mailbox.h"
 #include "viscera/haptics/haptic_servo.h"
 
 namespace viscera::nodes {
 
-/// The local model of a stylus for a device that closes the loop itself, as its driver has places and axes: through
-/// base, axes, tip and scales, as forces are. z is the normal, out of the tissue. Of a probe there is a force below the
-/// place where the model has none, and none above; across the normal it has neither stiffness nor force. A grip is held
-/// both ways, with the diagonal of its stiffness in these axes. Where the newest pose of the hand would be given more
-/// than the stylus and its device may, all shrinks by one factor. Nothing is felt by a hand that is not there, or has
-/// the clutch.
-/// @param most_n  largest force on the tip
+/// Returns the local contact model of a stylus as an impedance, for a device that closes the loop itself. The impedance
+/// is in the units and axes of the driver: base, axes, tip and scales are applied as they are to forces. z is the
+/// normal, out of the tissue.
+/// A probe feels a force only below the position where the model's force is zero, and none across the normal. A grip is
+/// held in both directions, with the diagonal of its stiffness in these axes. If the newest pose would give more force
+/// than the limit of the stylus and its device, one factor scales everything down. The impedance is zero if the stylus
+/// is not tracked or its clutch is pressed.
+/// @param most_n  largest force on the tip [N]
 crtk_msgs::CartesianImpedance toImpedance(const HapticServo& servo, const StylusMailbox& mailbox, double most_n,
                                           SteadyTime now, const ros::Time& stamp);
-/// Nothing is felt.
+/// Returns an impedance that exerts no force.
 crtk_msgs::CartesianImpedance noImpedance(const std::string& frame, const ros::Time& stamp);
 
 }  // namespace viscera::nodes

@@ -17,7 +17,8 @@ constexpr std::pair<const char*, double StylusConfig::*> kLimits[] = {
     {"max_torque_nm", &StylusConfig::max_torque_nm},
     {"max_torque_rate_nm_per_s", &StylusConfig::max_torque_rate_nm_per_s}};
 
-/// Does an override set this key of a stylus: itself, with the whole stylus, or with all of them?
+/// Returns whether an override sets this key of a stylus: the key itself, the whole stylus, or the list of all
+/// styluses.
 bool sets(const std::string& override_text, size_t stylus, const std::string& key) {
   const size_t equals = override_text.find('=');
   const std::string path = override_text.substr(0, equals), one = "styluses[" + std::to_string(stylus) + "]";
@@ -60,8 +61,8 @@ std::vector<std::string> LaunchLimits::bound(std::vector<StylusConfig>& styluses
       const double limit = limitOf(stylus.name, key);
       if (stylus.*key <= limit) continue;
       std::ostringstream note;
-      note << "stylus " << stylus.name << ": " << name << " is " << limit << ", which the launch's ~overrides set, not "
-           << stylus.*key;
+      note << "stylus " << stylus.name << ": " << name << " is " << limit
+           << ", as set by the ~overrides of the launch file, not " << stylus.*key;
       notes.push_back(note.str());
       stylus.*key = limit;
     }

@@ -11,16 +11,16 @@
 
 namespace viscera::nodes {
 
-/// Limits of forces that the overrides of a launch set: bounds for the styluses of every scene that is loaded later.
-/// Limits that a scene file sets are of that scene alone.
+/// Force limits that the overrides of a launch set. They bound the styluses of every scene that is loaded later; limits
+/// in a scene file apply to that scene only.
 class LaunchLimits {
  public:
-  /// @param styluses   of the scene that was launched, without the limits of their devices
+  /// @param styluses   styluses of the launched scene, without the limits of their devices
   /// @param overrides  its overrides
   LaunchLimits(const std::vector<StylusConfig>& styluses, const Overrides& overrides);
 
-  /// Lowers limits to those of the launch. A stylus of a name that the launched scene did not have gets the least of
-  /// them, since any of the devices may be its.
+  /// Lowers limits to those of the launch. A stylus that the launched scene did not have gets the lowest of the
+  /// launch's limits, since it may use any of the devices.
   /// @returns a line for each limit that was lowered
   std::vector<std::string> bound(std::vector<StylusConfig>& styluses) const;
 
@@ -30,7 +30,7 @@ class LaunchLimits {
     std::string stylus;
     std::vector<std::pair<Key, double>> limits;
   };
-  /// @returns infinity: none
+  /// Returns the limit of a stylus; infinity if there is none.
   double limitOf(const std::string& stylus, Key key) const;
 
   std::vector<Named> styluses_;

@@ -15,17 +15,18 @@ struct Scene;
 
 namespace viscera::nodes {
 
-/// Topics `obstacles/<name>/force`: what the tissue does to each obstacle, tick by tick.
+/// Publishes the force of the tissue on each obstacle after every tick, on topics `obstacles/<name>/force`.
 class ObstacleForcePublisher {
  public:
   ObstacleForcePublisher(ros::NodeHandle& node, const Scene& scene);
-  /// Sends what a tick measured; once, however often its frame comes. @param stamp  of the tick
+  /// Publishes the forces that a tick measured. A tick is sent once, even if its frame comes again.
+  /// @param stamp  of the tick
   void publish(const Frame& frame, const ros::Time& stamp);
 
  private:
   const std::string tissue_frame_;
   std::vector<ros::Publisher> publishers_;  ///< [obstacles]
-  uint64_t tick_ = 0;                       ///< that was sent last
+  uint64_t tick_ = 0;                       ///< last tick that was sent
 };
 
 }  // namespace viscera::nodes

@@ -18,9 +18,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Longer than a release takes, WrenchSchedule::kRelease_s, even on a busy machine; an end waits no longer.
+/// Limit of waiting for a release at the end. Longer than WrenchSchedule::kRelease_s, even on a busy machine.
 constexpr std::chrono::milliseconds kReleaseLimit{40};
-/// roscpp writes to sockets on a thread of its own and does not tell when it has: it has by then.
+/// roscpp writes to sockets on its own thread and does not report when; it has done so after this time.
 constexpr std::chrono::milliseconds kFlush{10};
 
 }  // namespace
@@ -69,7 +69,7 @@ void WrenchPublisher::put(const Hands& hands) {
     }
     loop_.put(ticks, handsNow(now), now);
     ticked_ = true;
-    if (loop_.answering()) return;  // the next period is soon enough
+    if (loop_.answering()) return;  // the next period is early enough
     put_ = true;
   }
   changed_.notify_one();
@@ -112,7 +112,7 @@ void WrenchPublisher::awaitZeros(std::unique_lock<PriorityMutex>& lock) {
     std::this_thread::sleep_for(kFlush);
 }
 
-/// Late answers are worse than late ticks: the thread asks to go first.
+/// Raises the priority of the thread, since late forces are worse than late ticks.
 void WrenchPublisher::schedule() {
   if (!loop_.betweenTicks()) return;
   const std::string how = goFirst(priority_);
@@ -126,8 +126,8 @@ HandsThere WrenchPublisher::listening() const {
   return out;
 }
 
-/// A hand that moves without the tool feels nothing, as one that is not tracked; one whose device does not listen must
-/// not feel a leap when it does.
+/// Returns the styluses as the force loop sees them. A stylus with a pressed clutch feels nothing, like one that is not
+/// tracked. A device without a subscriber must not feel a jump when it subscribes.
 ForceLoop::Hands WrenchPublisher::handsNow(SteadyTime now) const {
   ForceLoop::Hands out;
   for (size_t s = 0; s < mailboxes_.size(); ++s) {
@@ -161,7 +161,7 @@ void WrenchPublisher::main() {
     loop_.sent(told_n, now);
     const Clock::time_point sent = Clock::now();
     for (size_t s = 0; s < latencies_.size(); ++s) {
-      // What is worked out for a hand is timed whether its device listens or not.
+      // measures the latency of the force whether the device subscribes or not
       if (loop_.answering()) poses_received_[s] = hands[s].tracked ? hands[s].told : SteadyTime{};
       latencies_[s].add(poses_received_[s], sent);
     }
@@ -182,7 +182,7 @@ std::array<Vector3d, layout::kMaxStyluses> WrenchPublisher::send(const Wrenches&
 }
 
 void WrenchPublisher::sendEnergies() {
-  const std::vector<ForceLoop::Felt> all = felt();
+  const std::vector<ForceLoop::HapticStats> all = felt();
   for (size_t s = 0; s < energies_.size(); ++s) {
     if (energies_[s].getNumSubscribers() == 0) continue;
     std_msgs::Float64 energy;
@@ -191,7 +191,7 @@ void WrenchPublisher::sendEnergies() {
   }
 }
 
-/// @param live  ticks come in time; else nothing is to be felt
+/// @param live  whether ticks come in time; otherwise the impedance is zero
 void WrenchPublisher::sendImpedances(bool live) {
   const ros::Time stamp = ros::Time::now();
   for (size_t s = 0; s < impedances_.size(); ++s) {
@@ -205,9 +205,9 @@ void WrenchPublisher::sendImpedances(bool live) {
   }
 }
 
-std::vector<ForceLoop::Felt> WrenchPublisher::felt() {
+std::vector<ForceLoop::HapticStats> WrenchPublisher::felt() {
   const std::lock_guard<PriorityMutex> lock(mutex_);
-  std::vector<ForceLoop::Felt> out;
+  std::vector<ForceLoop::HapticStats> out;
   for (size_t s = 0; s < mailboxes_.size(); ++s) out.push_back(loop_.felt(s));
   return out;
 }
@@ -224,7 +224,7 @@ std::vector<LatencyMeter::Reading> WrenchPublisher::takeLatencies() {
     for (size_t s = 0; s < taken.size(); ++s) taken[s] = latencies_[s].take();
   }
   std::vector<LatencyMeter::Reading> out;
-  for (const LatencyMeter& meter : taken) out.push_back(meter.reading());  // which sorts: not under the lock
+  for (const LatencyMeter& meter : taken) out.push_back(meter.reading());  // sorts, so it runs without the lock
   return out;
 }
 

@@ -11,7 +11,7 @@
 #include "haptics/force_loop.h"
 #include "nodes/forces/force_sink.h"
 #include "nodes/forces/haptic_options.h"
-#include "nodes/hands/stylus_mailbox.h"
+#include "nodes/input/stylus_mailbox.h"
 #include "nodes/ros/latency_meter.h"
 #include "nodes/ros/priority_mutex.h"
 
@@ -21,22 +21,22 @@ struct Scene;
 
 namespace viscera::nodes {
 
-/// Forces to the devices, each to its ForceSink, from a thread that never waits: neither for the simulation, whose
-/// stall it notices and answers with zeros, nor for those who show pictures.
+/// Sends forces to the devices, each through its ForceSink, on a thread that never waits: neither for the simulation
+/// nor for publishers of images. It detects a stalled simulation and then sends zeros.
 class WrenchPublisher {
  public:
-  /// What a tick has for a stylus.
+  /// Results of a tick for one stylus.
   struct Hand {
     Reaction reaction;
-    SteadyTime pose_received{};  ///< of the pose that the reaction answers; 0: none
-    bool tracked = false;        ///< a hand is there
+    SteadyTime pose_received{};  ///< arrival of the pose that the reaction answers; 0: none
+    bool tracked = false;        ///< whether the stylus is tracked
     TickContact contact;
   };
   using Hands = std::array<Hand, layout::kMaxStyluses>;
 
-  /// @param mailboxes  of the scene's styluses, in order; they must outlive this
-  /// @param stall_s    a tick that comes later than this after the one before is a stall [s]
-  /// @param options    of what is sent between two ticks
+  /// @param mailboxes  mailboxes of the scene's styluses, in order; they must outlive this object
+  /// @param stall_s    longest time between two ticks that is not a stall [s]
+  /// @param options    options of the forces between two ticks
   WrenchPublisher(ros::NodeHandle& node, const std::vector<const StylusMailbox*>& mailboxes, double stall_s,
                   const Scene& scene, const HapticOptions& options);
   ~WrenchPublisher();
@@ -45,19 +45,19 @@ class WrenchPublisher {
 
   void setLimits(size_t stylus, const ForceLimits& limits);
   void put(const Hands& hands);
-  /// There are no ticks and so no forces until the next put().
+  /// Stops forces until the next put(), because there are no ticks.
   void rest();
-  /// Zeros go out, and nothing else ever again; waits until they are written to the devices, at most kReleaseLimit.
+  /// Sends zeros, and nothing after them. Waits until they are written to the devices, for at most kReleaseLimit.
   void release();
-  /// As release(), until resume(): the process is about to be stopped.
+  /// Sends zeros as release() does, until resume(). Called before the process is stopped.
   void suspend();
   void resume();
 
-  /// From the arrival of a pose to the sending of the force that answers it, since they were last taken: [styluses].
+  /// Returns the latencies since the last call, from the arrival of a pose to the sending of its force: [styluses].
   std::vector<LatencyMeter::Reading> takeLatencies();
-  /// [styluses] what the loop between ticks has done so far.
-  std::vector<ForceLoop::Felt> felt();
-  /// How the thread is scheduled: "SCHED_FIFO 20", or why not.
+  /// Returns statistics of the loop between ticks: [styluses].
+  std::vector<ForceLoop::HapticStats> felt();
+  /// Returns how the thread is scheduled: "SCHED_FIFO 20", or the reason why it is not.
   std::string scheduling();
   uint64_t stalls() const { return stalls_; }
   bool stalled() const { return stalled_; }
@@ -65,12 +65,12 @@ class WrenchPublisher {
  private:
   void main();
   void schedule();
-  /// Waits until zeros are written to the devices, at most kReleaseLimit.
+  /// Waits until zeros are written to the devices, for at most kReleaseLimit.
   void awaitZeros(std::unique_lock<PriorityMutex>& lock);
-  /// Which devices listen.
+  /// Returns which devices subscribe to forces.
   HandsThere listening() const;
   ForceLoop::Hands handsNow(SteadyTime now) const;
-  /// @returns what hands are told by it: forces of their motors, axes of the tissue frame
+  /// Sends wrenches to the devices. @returns the forces of the devices' motors, in the axes of the tissue frame
   std::array<Vector3d, layout::kMaxStyluses> send(const Wrenches& wrenches);
   void sendEnergies();
   void sendImpedances(bool live);
@@ -86,7 +86,7 @@ class WrenchPublisher {
   std::vector<ros::Publisher> energies_, impedances_;  ///< [styluses]
   std::array<SteadyTime, layout::kMaxStyluses> poses_received_{};
   bool put_ = false, stop_ = false;
-  bool ticked_ = false;  ///< since the last message
+  bool ticked_ = false;  ///< whether there was a tick since the last message
   HandsThere listening_{};
   std::vector<LatencyMeter> latencies_;
   std::atomic<uint64_t> stalls_{0};

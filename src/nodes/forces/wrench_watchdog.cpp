@@ -6,8 +6,8 @@
 
 #include <utility>
 
-#include "nodes/hands/device_choice.h"
-#include "nodes/hands/force_messages.h"
+#include "nodes/input/device_choice.h"
+#include "nodes/input/force_messages.h"
 #include "nodes/ros/master_watch.h"
 #include "nodes/ros/scene_choice.h"
 #include "nodes/ros/thread_name.h"
@@ -15,10 +15,10 @@
 namespace viscera::nodes {
 namespace {
 
-constexpr std::chrono::milliseconds kRepeat{20};  ///< zeros are sent again, for a driver that comes late
-/// roscpp writes to sockets on a thread of its own and does not tell when it has: it has by then.
+constexpr std::chrono::milliseconds kRepeat{20};  ///< period of repeated zeros, for a driver that starts late
+/// roscpp writes to sockets on its own thread and does not report when; it has done so after this time.
 constexpr std::chrono::milliseconds kWrenchWatchdogFlush{10};
-constexpr std::chrono::milliseconds kLook{20};  ///< how soon a lost master is seen
+constexpr std::chrono::milliseconds kLook{20};  ///< time until a lost master is detected
 constexpr double kMinTimeout_s = 0.005, kMaxTimeout_s = 10;
 
 }  // namespace
@@ -37,17 +37,17 @@ WatchdogOptions watchdogOptions(Parameters& parameters, const std::string& packa
   if (finds_topic) {
     options.topic = options.port.topic;
   } else if (options.port.type == ForceType::kNone) {
-    throw ParameterError("parameter ~device: " + choice.profile + " takes no forces");
+    throw ParameterError("parameter ~device: " + choice.profile + " accepts no forces");
   }
   return options;
 }
 
-/// The way of messages of one type.
+/// Relay for messages of one type.
 class WrenchWatchdog::Line {
  public:
   virtual ~Line() = default;
   virtual void listen(ros::NodeHandle& node, WrenchWatchdog& watchdog) = 0;
-  virtual void sendZero() = 0;  ///< in place of the last that was passed on
+  virtual void sendZero() = 0;  ///< sends zero force in place of the last message
 };
 
 template <class Message>
@@ -96,7 +96,7 @@ WrenchWatchdog::WrenchWatchdog(const WatchdogOptions& options, EndWatch& end)
       watch_([this] { watch(); }),
       spinner_(1, &queue_) {
   if (!line_) {
-    ROS_INFO("the device takes no forces: there is nothing to watch");
+    ROS_INFO("the device accepts no forces, so there is nothing to watch");
     return;
   }
   ros::NodeHandle input(node_);
@@ -117,7 +117,7 @@ void WrenchWatchdog::run() {
   while (!end_.waitFor(kLook)) {
     const uint64_t silences = silences_;
     if (std::exchange(told, silences) != silences)
-      ROS_WARN("no wrench for %.3f s: zeros go out until they come again",
+      ROS_WARN("no wrench for %.3f s; zeros are sent until wrenches arrive again",
                std::chrono::duration<double>(timeout_).count());
     master.require();
   }
@@ -127,7 +127,7 @@ void WrenchWatchdog::pass(const std::function<void()>& send) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (stopped_ || suspended_) return;
   heard_ = Clock::now();
-  if (std::exchange(silent_, false)) changed_.notify_all();  // what is due now is a time-out
+  if (std::exchange(silent_, false)) changed_.notify_all();  // the time-out must now be waited for
   send();
 }
 

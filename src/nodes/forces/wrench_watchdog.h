@@ -23,24 +23,25 @@ namespace viscera::nodes {
 
 struct WatchdogOptions {
   double timeout_s = 0.1;
-  ForcePort port;                    ///< what the driver takes: its type and message count; of type none: nothing
-  std::string topic = "wrench_out";  ///< to the driver
+  ForcePort port;                    ///< message type and count of the driver; type none: it takes no forces
+  std::string topic = "wrench_out";  ///< topic of the driver
 };
-/// @param package_folder  where config/devices/<profile>.yaml are looked up   @throws ParameterError, DeviceError
+/// Reads the options.
+/// @param package_folder  folder with config/devices/<profile>.yaml   @throws ParameterError, DeviceError
 WatchdogOptions watchdogOptions(Parameters& parameters, const std::string& package_folder);
 
-/// Stands between a simulator and a driver that keeps the last force it was told: passes messages on, `wrench_in` to
-/// `wrench_out`, and sends zeros when they stop, for whatever reason, and when it ends itself. Zeros come from a thread
-/// that never waits: neither for the master nor for readers of the log.
+/// Relays forces from a simulator to a driver that keeps applying the last force it received. Passes messages from
+/// `wrench_in` to `wrench_out`, and sends zeros when they stop for any reason and when the watchdog itself ends. A
+/// thread that waits neither for the master nor for the log sends the zeros.
 class WrenchWatchdog {
  public:
-  /// @param end  must outlive this
+  /// @param end  must outlive this object
   WrenchWatchdog(const WatchdogOptions& options, EndWatch& end);
   ~WrenchWatchdog();
   WrenchWatchdog(const WrenchWatchdog&) = delete;
   WrenchWatchdog& operator=(const WrenchWatchdog&) = delete;
 
-  /// Until the end begins. A driver that takes no forces is left alone. @throws MasterLost
+  /// Runs until the end begins. Sends nothing to a driver that takes no forces. @throws MasterLost
   void run();
 
  private:
@@ -62,11 +63,11 @@ class WrenchWatchdog {
   ros::NodeHandle node_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::unique_ptr<Line> line_;  ///< null: the driver takes no forces
+  std::unique_ptr<Line> line_;  ///< relay of messages; null: the driver takes no forces
   Clock::time_point heard_{}, sent_{};
   bool silent_ = true, stopped_ = false;
-  bool suspended_ = false;             ///< the process is about to be stopped: nothing is passed on
-  std::atomic<uint64_t> silences_{0};  ///< that have begun
+  bool suspended_ = false;             ///< whether the process is about to be stopped: no messages are relayed
+  std::atomic<uint64_t> silences_{0};  ///< number of times that messages stopped
   EndWatch::Act act_;
   std::thread watch_;
   ros::AsyncSpinner spinner_;

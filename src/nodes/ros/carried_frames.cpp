@@ -32,14 +32,13 @@ void CarriedFrames::lookUp(const std::function<void(size_t, const Pose&)>& take)
   }
 }
 
-/// One warning in a while, for all of a kind.
+/// Warns at most once per period, for all objects of a kind.
 void CarriedFrames::warn(const Carried& carried, const char* why) {
   constexpr std::chrono::seconds kPeriod{5};
   const auto now = std::chrono::steady_clock::now();
   if (now < may_warn_) return;
   may_warn_ = now + kPeriod;
-  ROS_WARN("%s %s stays where it is: frame %s is not known (%s)", kind_, carried.name.c_str(), carried.frame.c_str(),
-           why);
+  ROS_WARN("%s %s keeps its pose: frame %s is unknown (%s)", kind_, carried.name.c_str(), carried.frame.c_str(), why);
 }
 
 }  // namespace viscera::nodes

@@ -19,20 +19,20 @@ struct Scene;
 
 namespace viscera::nodes {
 
-/// Frames in tf that carry things of a scene: where they are now, counts of lookups, and a warning now and then of
-/// those that tf does not know.
+/// tf frames that carry objects of a scene. Looks up their poses, counts lookups, and warns at intervals of frames that
+/// tf does not know.
 class CarriedFrames {
  public:
-  /// @param kind  of things, for the warning: "camera"   @param frames  must outlive this
-  /// @param max_transform_age_s  of what tf knows of a frame that moves [s]
+  /// @param kind  kind of object, for the warning: "camera"   @param frames  must outlive this object
+  /// @param max_transform_age_s  largest age of a moving frame's transform [s]
   CarriedFrames(const char* kind, const Scene& scene, const tf2_ros::Buffer& frames, double max_transform_age_s);
-  /// @param index  of the thing among its kind   @param frame  empty: nothing carries it
+  /// Adds an object. @param index  index among its kind   @param frame  frame that carries it; empty: none
   void add(size_t index, const std::string& name, const std::string& frame);
-  /// Looks all up. @param take  gets the index of each thing whose frame is known, and where that is
+  /// Looks up all frames. @param take  called with the index and pose of each object with a known frame
   void lookUp(const std::function<void(size_t index, const Pose& pose)>& take);
 
   bool empty() const { return carried_.empty(); }
-  /// @name Lookups since the start; from any thread
+  /// @name Number of lookups since the start; thread-safe
   /// @{
   uint64_t found() const { return found_; }
   uint64_t missed() const { return missed_; }

@@ -9,19 +9,19 @@
 
 namespace viscera::nodes {
 
-/// Says once that ROS time does not run although others were told to wait for it.
+/// Warns once if ROS time does not advance although nodes use simulated time.
 class ClockWatch {
  public:
-  /// Call from time to time.
+  /// Checks the clock. Call it at intervals.
   void check() {
-    constexpr std::chrono::seconds kPatience{3};  // a /clock that is on its way
+    constexpr std::chrono::seconds kPatience{3};  // allows for the first /clock message
     if (said_ || !ros::Time::isSimTime() || !ros::Time::now().isZero()) return;
     if (std::chrono::steady_clock::now() - started_ < kPatience) return;
     said_ = true;
     ROS_WARN(
-        "use_sim_time is true and nothing comes on /clock: stamps are zero, which other nodes take for invalid, and no "
-        "pose with such a stamp is used. Start what publishes /clock, or: rosparam set use_sim_time false, and start "
-        "the nodes again");
+        "use_sim_time is true, but nothing is published on /clock: stamps are zero, which is invalid, and no pose with "
+        "such a stamp is used. Start the publisher of /clock, or run `rosparam set use_sim_time false` and restart "
+        "the nodes");
   }
 
  private:

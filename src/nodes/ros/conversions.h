@@ -21,9 +21,10 @@ struct StylusConfig;
 
 namespace viscera::nodes {
 
-// Messages <-> core types: pure functions, no node needed. Everything is in metres, newtons and radians on both sides.
+// Conversions between messages and core types: pure functions without a node. Both sides use metres, newtons and
+// radians.
 
-/// The pose as sent; the quaternion is copied, not normalised.
+/// Returns the pose as sent; the quaternion is copied, not normalised.
 Pose fromMessage(const geometry_msgs::Pose& message);
 geometry_msgs::Pose toMessage(const Pose& pose);
 Pose fromMessage(const geometry_msgs::Transform& message);
@@ -33,23 +34,24 @@ geometry_msgs::TransformStamped toTransform(const Pose& pose, const std::string&
 std_msgs::Header toHeader(const std::string& frame, const ros::Time& stamp);
 geometry_msgs::Vector3 toVector(const Vector3d& v);
 geometry_msgs::Quaternion toQuaternion(const Quaterniond& q);
-/// All seven numbers are finite.
+/// Returns whether all seven numbers are finite.
 bool isFinite(const Pose& pose);
-/// Was a transform of something that moves true longer ago than that? Static ones have the stamp 0 and no age.
+/// Returns whether a transform is older than `age_s` [s]. Static transforms have the stamp 0 and no age.
 bool isOlder(const geometry_msgs::TransformStamped& transform, double age_s);
 
-/// Force and torque in a frame that is turned by `frame_from_tissue` against the tissue frame. A reaction that is not
-/// finite becomes zero: a device must never be sent one.
+/// Converts force and torque, with toWrench() into a frame that `frame_from_tissue` rotates against the tissue frame. A
+/// reaction that is not finite becomes zero: a device must never receive one.
 geometry_msgs::Wrench toMessage(const Reaction& reaction);
 geometry_msgs::WrenchStamped toWrench(const Reaction& reaction, const Quaterniond& frame_from_tissue,
                                       const std::string& frame, const ros::Time& stamp);
 
-/// Is it there, and has its kind two fingers?
+/// Returns whether the tool is present and its kind has two fingers.
 bool hasJaws(const StylusMotion& tool);
-/// Its joint `jaw`: position, the opening [rad]; effort, the moment that keeps them open about their pivot [N m].
+/// Returns the joint `jaw`: position is the opening angle [rad], effort the moment about the pivot that opens the jaws
+/// [N m].
 sensor_msgs::JointState toJaw(const StylusMotion& tool, double moment_nm, const ros::Time& stamp);
 
-/// tf2 refuses names with a leading slash, which drivers older than tf2 still send.
+/// Returns a name without leading slashes: tf2 refuses them, and drivers older than tf2 still send them.
 std::string tf2Name(const std::string& frame);
 std::string toolFrame(const StylusConfig& stylus, const std::string& frame_prefix);
 

@@ -8,8 +8,7 @@
 
 namespace viscera::nodes {
 
-/// Where handlers of crashes run in the thread that makes it, for as long as that lives: a stack that has overflowed
-/// has no room for them.
+/// Alternate stack for crash handlers of the thread that creates it: a stack that has overflowed has no room for them.
 class CrashStack {
  public:
   CrashStack() : room_(new char[kSize]) {
@@ -22,11 +21,11 @@ class CrashStack {
   CrashStack(const CrashStack&) = delete;
   CrashStack& operator=(const CrashStack&) = delete;
 
-  /// One for the calling thread, until it ends.
+  /// Creates one for the calling thread, until that thread ends.
   static void give() { thread_local const CrashStack stack; }
 
  private:
-  static constexpr size_t kSize = 65536;  ///< the registers of wide vectors, some 11 kB, and a small handler
+  static constexpr size_t kSize = 65536;  ///< [bytes]; wide vector registers take about 11 kB, and the handler is small
   const std::unique_ptr<char[]> room_;
   stack_t before_{};
 };

@@ -23,15 +23,15 @@ namespace viscera::nodes {
 namespace {
 
 constexpr int kEndSignals[] = {SIGINT, SIGTERM, SIGHUP};
-constexpr int kCrashSignals[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};  // the last is std::terminate() too
+constexpr int kCrashSignals[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};  // SIGABRT includes std::terminate()
 constexpr int kStopSignals[] = {SIGTSTP, SIGTTIN, SIGTTOU};
 constexpr char kEnd = 'e', kCrash = 'c', kClose = 'q', kStop = 's';
-/// What a crash waits for what is done before the end: zeros on their way to the devices take less.
+/// Time for acts after a crash: enough for zeros to reach the devices.
 constexpr long kCrashWait_ns = 60'000'000;
-/// A master that answers is told that this node is gone.
+/// Time to unregister from a master that answers.
 constexpr std::chrono::milliseconds kFarewell{200};
 
-int wake_pipe[2] = {-1, -1};  // what signal handlers can reach
+int wake_pipe[2] = {-1, -1};  // accessible to signal handlers
 std::atomic_flag crashed = ATOMIC_FLAG_INIT;
 std::atomic<int> forced_status{EXIT_SUCCESS};
 std::atomic_flag stopping = ATOMIC_FLAG_INIT;
@@ -40,7 +40,7 @@ std::atomic<std::chrono::steady_clock::rep> continued_at{0};
 void wake(char why) {
   const int saved = errno;
   const ssize_t written = write(wake_pipe[1], &why, 1);
-  static_cast<void>(written);  // full: the watch is awake already
+  static_cast<void>(written);  // the pipe is full: the watch is awake already
   errno = saved;
 }
 
@@ -49,7 +49,7 @@ void onEnd(int) {
 }
 
 void onStop(int) {
-  if (!stopping.test_and_set()) wake(kStop);  // the terminal may repeat it until the process stands
+  if (!stopping.test_and_set()) wake(kStop);  // the terminal may repeat the signal until the process has stopped
 }
 
 void onContinue(int) {
@@ -61,8 +61,8 @@ void sleep(timespec left) {
   }
 }
 
-/// The first crash ends the process, once there was time for what is done before. Threads that crash meanwhile stand
-/// still, also the one of EndWatch: what it has begun, others may still finish.
+/// Ends the process after the first crash, with time for the acts. Other threads that crash are suspended, including
+/// that of EndWatch: other threads may complete acts that it has begun.
 void onCrash(int signal) {
   while (crashed.test_and_set()) sleep({1, 0});
   wake(kCrash);
@@ -77,7 +77,7 @@ void onMastersDemand(XmlRpc::XmlRpcValue& parameters, XmlRpc::XmlRpcValue& resul
       parameters[1].getType() == XmlRpc::XmlRpcValue::TypeString)
     reason = static_cast<std::string&>(parameters[1]);
   wake(kEnd);
-  ROS_WARN("the ROS master asks this node to end: %s", reason.c_str());
+  ROS_WARN("the ROS master requests a shutdown of this node: %s", reason.c_str());
   result = ros::xmlrpc::responseInt(1, "", 0);
 }
 
@@ -91,7 +91,7 @@ void handle(int signal, void (*handler)(int), int flags) {
 }  // namespace
 
 EndWatch::EndWatch() {
-  if (pipe2(wake_pipe, O_CLOEXEC) != 0) throw Error("no pipe for signals");
+  if (pipe2(wake_pipe, O_CLOEXEC) != 0) throw Error("cannot create a pipe for signals");
   fcntl(wake_pipe[1], F_SETFL, O_NONBLOCK);
   CrashStack::give();
   thread_ = std::thread([this] { main(); });
@@ -130,13 +130,13 @@ void EndWatch::runActs() {
   for (const Act* act : acts_) act->run_();
 }
 
-/// As the signal would have done it, once there is nothing that must not stay as it is.
+/// Stops the process as the signal would have done, after the acts.
 void EndWatch::beStopped() {
   const std::lock_guard<std::mutex> lock(acts_mutex_);
   for (const Act* act : acts_)
     if (act->suspend_) act->suspend_();
   handle(SIGTSTP, SIG_DFL, 0);
-  raise(SIGTSTP);  // the process stands here; an orphaned one, which no terminal continues, does not
+  raise(SIGTSTP);  // the process stops here, unless it is orphaned and no terminal could continue it
   handle(SIGTSTP, onStop, SA_RESTART);
   stopping.clear();
   for (const Act* act : acts_)
@@ -165,7 +165,7 @@ void EndWatch::main() {
   if (!changed_.wait_for(lock, kLimit, [this] { return closing_; })) endByForce();
 }
 
-/// Something does not come back: a model that is being made, a driver, a master that does not answer.
+/// Ends a process that hangs: creating a model, in a driver, or waiting for a master that does not answer.
 void EndWatch::endByForce() {
   std::thread([] { ros::shutdown(); }).detach();
   std::this_thread::sleep_for(kFarewell);

@@ -11,22 +11,23 @@
 
 namespace viscera::nodes {
 
-/// How a process ends: by SIGINT, SIGTERM or SIGHUP, on the ROS master's demand (rosnode kill, a second node of the
-/// same name), by its own request, or by a crash. A node that drives a device names here what must be done before,
-/// which happens at once, on a thread that nothing else uses; and what before a terminal stops the process (SIGTSTP,
-/// as by Ctrl-Z, SIGTTIN, SIGTTOU), which goes on at SIGCONT. One per process, made before other threads and after
-/// ros::init() with NoSigintHandler, as roscpp's own handling would close the topics first. It outlives
-/// ros::shutdown(), which waits for the master for ever.
+/// Handles the end of a process: by SIGINT, SIGTERM or SIGHUP, on request of the ROS master (rosnode kill, a second
+/// node of the same name), by its own request, or by a crash. A node that drives a device registers acts that must run
+/// before the process ends. They run at once, on a dedicated thread.
+/// A node also registers acts that run before a terminal stops the process (SIGTSTP, as by Ctrl-Z, SIGTTIN, SIGTTOU)
+/// and after it continues (SIGCONT). There is one EndWatch per process, created before other threads and after
+/// ros::init() with NoSigintHandler, since roscpp's own handler would close the topics first. It outlives
+/// ros::shutdown(), which may wait for the master without limit.
 class EndWatch {
  public:
-  /// What is done when the end begins, or the process is stopped, for as long as this object lives.
+  /// Act that runs when the end begins or the process is stopped, as long as this object exists.
   class Act {
    public:
-    /// @param run      must not throw; in a crash, locks are as they were then
-    /// @param suspend  before the process is stopped   @param resume  after it went on; none of them may throw
+    /// @param run      must not throw; in a crash, locks stay in the state that they were in
+    /// @param suspend  runs before the process is stopped   @param resume  runs after it continues; neither may throw
     Act(EndWatch& watch, std::function<void()> run, std::function<void()> suspend = {},
         std::function<void()> resume = {});
-    ~Act();  ///< waits for it if it is under way
+    ~Act();  ///< waits for a running act
     Act(const Act&) = delete;
     Act& operator=(const Act&) = delete;
 
@@ -41,13 +42,13 @@ class EndWatch {
   EndWatch(const EndWatch&) = delete;
   EndWatch& operator=(const EndWatch&) = delete;
 
-  /// Waits until the end has begun and what is done before is done; @returns whether it has.
+  /// Waits until the end has begun and all acts are done. @returns whether they are
   bool waitFor(std::chrono::milliseconds limit);
-  /// The end begins, at this process's own request; returns at once. @param status  of a process ended by force
+  /// Begins the end at this process's own request; returns at once. @param status  exit status if the end is forced
   static void begin(int status);
-  /// From a signal, a demand or a request the process has this long; then it is ended, whatever it is doing.
+  /// Time that the process has after a signal or request; then it is killed, whatever it does.
   static constexpr std::chrono::milliseconds kLimit{900};
-  /// When the process last went on after it was stopped, by a terminal or by SIGSTOP; the epoch: never.
+  /// Returns when the process last continued after a terminal or SIGSTOP stopped it; the epoch if it never did.
   static std::chrono::steady_clock::time_point continued();
 
  private:

@@ -10,19 +10,19 @@
 namespace viscera::nodes {
 
 namespace {
-constexpr uint32_t kQueue = 100;      // messages of one topic, as tf2_ros::TransformListener has it
-constexpr double kWarnPeriod_s = 10;  // of a sender that goes on
+constexpr uint32_t kQueue = 100;      // messages of one topic, as in tf2_ros::TransformListener
+constexpr double kWarnPeriod_s = 10;  // of a sender that continues
 }  // namespace
 
 void FrameIntake::take(const tf2_msgs::TFMessage& message, const std::string& sender, const ros::Time& now,
                        bool fixed) {
   if (now < last_) {
-    ROS_WARN("the clock went back by %.3f s: what tf told before is forgotten", (last_ - now).toSec());
-    frames_.clear();  // but for what is fixed
+    ROS_WARN("the clock jumped back by %.3f s; earlier tf frames are discarded", (last_ - now).toSec());
+    frames_.clear();  // except static transforms
   }
   last_ = now;
   if (!fixed && !left_out_.empty() && sender == left_out_) return;
-  const ros::Duration kept = frames_.getCacheLength();  // beside a frame so far ahead all others are too old
+  const ros::Duration kept = frames_.getCacheLength();  // a frame further ahead would make all others too old for tf2
   for (const geometry_msgs::TransformStamped& frame : message.transforms) {
     if (!fixed && frame.header.stamp > now + kept) {
       ROS_WARN_THROTTLE(kWarnPeriod_s, "tf frame %s from %s: stamp %.3f s ahead of the clock; accepted: at most %.0f s",

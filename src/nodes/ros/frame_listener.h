@@ -12,30 +12,31 @@
 
 namespace viscera::nodes {
 
-/// What of /tf and /tf_static a buffer is told. As tf2_ros::TransformListener has it, but for two things. Frames that
-/// move and that this node sends itself are left out where nothing hangs on them. And when the clock goes back, as a
-/// bag that begins again makes it, frames with stamps of before are refused: one of them, still on its way, would make
-/// tf2 refuse all later ones, with a warning each, until the clock is where it was.
+/// Passes messages of /tf and /tf_static to a buffer, as tf2_ros::TransformListener does, with two differences. Moving
+/// frames that this node sends itself are left out if no frame depends on them. If the clock goes back, as when a bag
+/// restarts, frames with stamps from before the jump are refused. One of them, received late, would make tf2 refuse all
+/// later ones, each with a warning, until the clock reaches its stamp.
 class FrameIntake {
  public:
-  /// @param frames    must outlive this
-  /// @param left_out  name of the node whose moving frames are left out; empty: of none
+  /// @param frames    must outlive this object
+  /// @param left_out  name of the node to leave out, for moving frames; empty: none
   FrameIntake(tf2::BufferCore& frames, const std::string& left_out) : frames_(frames), left_out_(left_out) {}
 
-  /// @param sender  name of the node   @param now  of the clock that stamps go by   @param fixed  from /tf_static
+  /// Adds the frames of a message.
+  /// @param sender  name of the node   @param now  time by the clock of the stamps   @param fixed  from /tf_static
   void take(const tf2_msgs::TFMessage& message, const std::string& sender, const ros::Time& now, bool fixed);
 
  private:
   tf2::BufferCore& frames_;
   const std::string left_out_;
-  ros::Time last_;  ///< when a message was taken
+  ros::Time last_;  ///< time of the last message
 };
 
-/// Listens to both topics on a thread of its own.
+/// Subscribes to both topics on a thread of its own.
 class FrameListener {
  public:
-  /// @param frames        must outlive this
-  /// @param own_left_out  frames that this node sends on /tf are
+  /// @param frames        must outlive this object
+  /// @param own_left_out  whether to leave out the frames that this node sends on /tf
   FrameListener(tf2_ros::Buffer& frames, bool own_left_out);
 
  private:

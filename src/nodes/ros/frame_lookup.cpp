@@ -8,7 +8,7 @@ namespace viscera::nodes {
 namespace {
 
 bool isPose(const Pose& pose) {
-  constexpr double kLeast = 1e-6;  // of a quaternion's length: below it there is no orientation
+  constexpr double kLeast = 1e-6;  // least norm of a quaternion that has an orientation
   return pose.position_m.allFinite() && pose.orientation.coeffs().allFinite() && pose.orientation.norm() > kLeast;
 }
 

@@ -10,10 +10,10 @@
 
 namespace viscera::nodes {
 
-/// The newest that tf knows of a frame, without waiting.
-/// @param max_age_s  of a frame that moves [s]
-/// @throws tf2::TransformException  tf does not join it to the tissue frame, has not heard of it for so long, or what
-/// it heard is not finite
+/// Returns the newest pose of a frame in tf, without waiting.
+/// @param max_age_s  largest age of a moving frame's transform [s]
+/// @throws tf2::TransformException  tf does not connect it to the tissue frame, or the transform is too old or not
+/// finite
 Pose newestPose(const tf2_ros::Buffer& frames, const std::string& tissue_frame, const std::string& frame,
                 double max_age_s);
 

@@ -12,18 +12,18 @@
 
 namespace viscera::nodes {
 
-/// Sums up how long poses took until something that answers them was sent, until asked. Each pose counts once,
-/// with the first answer: those that follow it would tell how seldom the device speaks.
+/// Measures the time from the arrival of a pose to the first answer to it. Later answers to the same pose do not count:
+/// they would measure the rate of the device.
 class LatencyMeter {
  public:
-  static constexpr size_t kKept = 2048;  ///< two seconds of a device of 1 kHz
+  static constexpr size_t kKept = 2048;  ///< number of kept latencies: two seconds of a device of 1 kHz
 
   struct Reading {
-    double mean_s = 0, max_s = 0;  ///< 0 where no pose was answered
-    double p50_s = 0, p99_s = 0;   ///< of the newest kKept of them
+    double mean_s = 0, max_s = 0;  ///< mean and largest latency [s]; 0 if no pose was answered
+    double p50_s = 0, p99_s = 0;   ///< median and 99th percentile of the newest kKept latencies [s]
   };
 
-  /// @param received  when the pose came; 0: there was none   @param sent  when the answer was sent
+  /// Adds an answer. @param received  arrival of the pose; 0: no pose   @param sent  time of the answer
   void add(SteadyTime received, SteadyTime sent) {
     if (received == SteadyTime{} || received <= last_) return;
     last_ = received;
@@ -33,7 +33,8 @@ class LatencyMeter {
     sum_s_ += delay_s;
     longest_s_ = std::max(longest_s_, delay_s);
   }
-  /// The poses since they were last taken: a copy, to be read where nothing waits for it.
+  /// Returns a copy of the measurements since the last call and starts the next measurement. The caller reads the copy
+  /// without a lock.
   LatencyMeter take() {
     const LatencyMeter out = *this;
     count_ = 0;

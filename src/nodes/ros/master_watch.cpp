@@ -26,11 +26,11 @@ namespace viscera::nodes {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::chrono::seconds kPeriod{1};             ///< between questions
-constexpr std::chrono::milliseconds kLook{20};         ///< how soon it is seen that no one looks any more
-constexpr std::chrono::seconds kPatience{5};           ///< a busy master may miss a question or two
-constexpr std::chrono::milliseconds kLastAnswer{100};  ///< of a master that answers at all
-constexpr std::chrono::seconds kUnnoticed{5};  ///< lost, and no one has looked: main() waits for the master for ever
+constexpr std::chrono::seconds kPeriod{1};             ///< period of queries
+constexpr std::chrono::milliseconds kLook{20};         ///< time until the end of this object is noticed
+constexpr std::chrono::seconds kPatience{5};           ///< a busy master may miss a query or two
+constexpr std::chrono::milliseconds kLastAnswer{100};  ///< patience for the answer of a working master
+constexpr std::chrono::seconds kUnnoticed{5};          ///< loss that was not checked: main() may wait without limit
 constexpr timeval kConnectLimit{1, 0};
 
 bool masterKnowsThisNode() {
@@ -73,9 +73,9 @@ bool MasterLine::broken(std::chrono::milliseconds limit) {
 }
 
 MasterLost::MasterLost()
-    : Error("the ROS master is lost, or was restarted and does not know this node: start the node again") {
+    : Error("the ROS master is lost, or was restarted and does not know this node; restart the node") {
   EndWatch::begin(EXIT_FAILURE);
-  ROS_FATAL("%s", what());  // now: topics are unregistered before main() knows, and a master that hangs forbids that
+  ROS_FATAL("%s", what());  // logged now: a master that hangs would block it after topics are unregistered
 }
 
 struct MasterWatch::Shared {
@@ -83,7 +83,7 @@ struct MasterWatch::Shared {
   std::condition_variable changed;
   bool stop = false, ended = false;
   bool lost = false;
-  Clock::time_point known = Clock::now();  ///< when the master has last known this node
+  Clock::time_point known = Clock::now();  ///< time at which the master last knew this node
 };
 
 MasterWatch::MasterWatch() : shared_(std::make_shared<Shared>()), thread_([shared = shared_] { ask(shared); }) {}
@@ -126,7 +126,7 @@ void MasterWatch::ask(const std::shared_ptr<Shared>& shared) {
 
 bool MasterWatch::check() const {
   const std::lock_guard<std::mutex> lock(shared_->mutex);
-  // A process that was stopped has not been able to ask.
+  // A process that was stopped could not query.
   return !shared_->lost && Clock::now() - std::max(shared_->known, EndWatch::continued()) < kPatience;
 }
 

@@ -10,8 +10,8 @@
 
 namespace viscera::nodes {
 
-/// A connection to the ROS master's port that says nothing: its end is the master's, and is seen at once. Without one
-/// (the master cannot be reached in this way) there is nothing to see.
+/// An idle connection to the ROS master's port, which detects at once that the master has ended. Without a connection
+/// (the master may not be reachable like this) it detects nothing.
 class MasterLine {
  public:
   MasterLine() = default;
@@ -19,8 +19,8 @@ class MasterLine {
   MasterLine(const MasterLine&) = delete;
   MasterLine& operator=(const MasterLine&) = delete;
 
-  bool open();  ///< @returns false: no listener there
-  /// Waits so long at most. @returns whether it was open, and the other side has closed it
+  bool open();  ///< @returns whether the port accepts connections
+  /// Waits for at most `limit`. @returns whether the connection was open and the other side has closed it
   bool broken(std::chrono::milliseconds limit);
 
  private:
@@ -28,15 +28,15 @@ class MasterLine {
   int socket_ = -1;
 };
 
-/// The ROS master is gone. The log has said so, and the end of the process has begun.
+/// Error after the ROS master was lost. The loss has been logged, and the end of the process has begun.
 struct MasterLost : Error {
   MasterLost();
 };
 
-/// Notices that the ROS master is gone, was restarted and no longer knows this node, or does not answer. roscpp never
-/// registers again, so that a node would go on unseen for ever. The master is asked once a second, and at once when the
-/// connection to it ends, by a thread of its own: roscpp waits for an answer without limit. Where a loss is not looked
-/// at for 5 s, as by a node that advertises a topic just then, that thread begins the end of the process.
+/// Detects that the ROS master is gone, was restarted and does not know this node, or does not answer. roscpp never
+/// registers again, so the node would continue without being reachable. A separate thread queries the master once a
+/// second, and at once when the connection to it ends, since roscpp waits for an answer without limit. If the node does
+/// not check for a loss within 5 s, as while it advertises a topic, that thread begins the end of the process.
 class MasterWatch {
  public:
   MasterWatch();
@@ -44,10 +44,10 @@ class MasterWatch {
   MasterWatch(const MasterWatch&) = delete;
   MasterWatch& operator=(const MasterWatch&) = delete;
 
-  /// Does not wait for an answer either.
-  /// @return false once it is gone, or has not known this node or not answered for some seconds
+  /// Checks the master without waiting for an answer.
+  /// @return false once the master is gone, or has not known this node or not answered for some seconds
   bool check() const;
-  /// @throws MasterLost  where check() says false
+  /// Checks the master. @throws MasterLost  check() returns false
   void require() const {
     if (!check()) throw MasterLost();
   }
@@ -55,7 +55,7 @@ class MasterWatch {
  private:
   struct Shared;
   static void ask(const std::shared_ptr<Shared>& shared);
-  const std::shared_ptr<Shared> shared_;  ///< with a thread whose question may outlive this
+  const std::shared_ptr<Shared> shared_;  ///< shared with the thread, which may outlive this object
   std::thread thread_;
 };
 

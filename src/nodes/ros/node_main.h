@@ -19,27 +19,28 @@
 
 namespace viscera::nodes {
 
-/// The first line of roscpp's log asks the master for this parameter, and waits for ever where that hangs; later ones
-/// know it. No line that matters is to be the first.
+/// Caches a parameter that roscpp's first log line requests from the master; the request hangs if the master hangs. The
+/// first line must not be one that matters.
 inline void readyLog() {
   bool disabled = false;
   ros::param::getCached("/rosout_disable_topics_generation", disabled);
 }
 
-/// Runs the body of a node. An error becomes one line and the exit status 1.
-/// @param body  takes the EndWatch of the process
+/// Runs the body of a node. An error becomes one line of the log and exit status 1.
+/// @param body  called with the EndWatch of the process
 template <class Body>
 int nodeMain(int argc, char** argv, const char* name, Body body) {
-  const bool takes_arguments = !ros::isInitialized();  // else they are gone, and the name is new each time
+  const bool takes_arguments = !ros::isInitialized();  // a second ros::init() has no arguments, and its node name is a
+                                                       // different one each time
   const Relaunch launched(argc, argv);
-  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // lines of the log come as they are said, into a file or a pipe too
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // flushes the log line by line, also into a file or a pipe
   try {
     ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "%s: %s\n", name, oneLine(e.what()).c_str());
     return 1;
   }
-  const ros::NodeHandle keep_started;  // roscpp ends with the last handle, and logging with it
+  const ros::NodeHandle keep_started;  // roscpp and its logging end with the last handle
   readyLog();
   if (takes_arguments) launched.tellInherited();
   int status = 1;
@@ -48,7 +49,7 @@ int nodeMain(int argc, char** argv, const char* name, Body body) {
     try {
       memoryFor(std::string("node ") + name, [&] { body(end); });
       status = 0;
-    } catch (const MasterLost&) {  // which was said
+    } catch (const MasterLost&) {  // logged already
     } catch (const std::exception& e) {
       ROS_FATAL("%s", oneLine(e.what()).c_str());
     }

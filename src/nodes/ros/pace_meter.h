@@ -7,15 +7,15 @@
 
 namespace viscera::nodes {
 
-/// Sums up how long ticks took, until asked.
+/// Measures the durations of ticks.
 class PaceMeter {
  public:
   struct Reading {
-    double step_mean_s = 0, step_max_s = 0;  ///< wall-clock time of the work of a tick
-    double real_time_factor = 0;             ///< simulated over wall-clock time; 0 where no tick was made
+    double step_mean_s = 0, step_max_s = 0;  ///< wall-clock time of the work of a tick: mean and largest [s]
+    double real_time_factor = 0;             ///< simulated over wall-clock time; 0 if there was no tick
   };
 
-  /// @param step_s  work of the tick [s]   @param wall_s  from the tick before to this one [s]
+  /// Adds a tick. @param step_s  work of the tick [s]   @param wall_s  time since the previous tick [s]
   void add(double simulated_s, double step_s, double wall_s) {
     ++ticks_;
     simulated_s_ += simulated_s;
@@ -23,7 +23,7 @@ class PaceMeter {
     wall_s_ += wall_s;
     longest_s_ = std::max(longest_s_, step_s);
   }
-  /// The ticks since the last reading.
+  /// Returns the measurements since the last call.
   Reading take() {
     Reading out;
     if (ticks_) out = {step_s_ / static_cast<double>(ticks_), longest_s_, wall_s_ > 0 ? simulated_s_ / wall_s_ : 0};

@@ -7,23 +7,23 @@
 
 namespace viscera::nodes {
 
-/// Start times of ticks on the steady clock. A loop that falls behind is let off all but one tick of its debt, so that
-/// it does not race after a pause of the machine.
+/// Start times of ticks on the steady clock. A loop that falls behind keeps a debt of at most one tick, so it does not
+/// race after a pause of the machine.
 class Pacer {
  public:
   using Time = std::chrono::steady_clock::time_point;
   using Span = std::chrono::steady_clock::duration;
 
-  /// @param period_s  of a tick [s], > 0
+  /// @param period_s  duration of a tick [s], > 0
   explicit Pacer(double period_s)
       : period_(std::chrono::duration_cast<Span>(std::chrono::duration<double>(period_s))) {}
 
-  /// When the tick after the one that just ended may begin; `now` is the current time.
+  /// Returns the earliest start of the tick after the one that just ended; `now` is the current time.
   Time next(Time now) {
     due_ = std::max(due_ + period_, now - period_);
     return due_;
   }
-  /// The next tick may begin one period after `now`.
+  /// Sets the start of the next tick to one period after `now`.
   void restart(Time now) { due_ = now; }
 
  private:

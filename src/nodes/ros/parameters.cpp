@@ -90,7 +90,7 @@ std::vector<double> Parameters::numbers(const std::string& key, const std::vecto
   if (!value) return fallback;
   TextOut accepted;
   accepted << fallback.size() << " numbers, each " << min << ".." << max
-           << ": a list, or one string with blanks between them";
+           << ": a list, or one string separated by spaces";
   std::vector<double> out;
   if (value->getType() == XmlRpcValue::TypeString) {
     TextIn in(static_cast<const std::string&>(*value));
@@ -114,7 +114,7 @@ void Parameters::refuseOthers() const {
     if (known_.count(entry->first)) continue;
     std::string accepted;
     for (const std::string& key : known_) accepted += " ~" + key;
-    throw ParameterError("parameter ~" + entry->first + ": unknown; accepted are" + accepted);
+    throw ParameterError("parameter ~" + entry->first + ": unknown; accepted:" + accepted);
   }
 }
 

@@ -12,30 +12,32 @@
 
 namespace viscera::nodes {
 
-/// A ROS parameter is unknown, has the wrong type or is out of range. Names the parameter and what would do.
+/// Error for a ROS parameter that is unknown, of the wrong type or out of range. Names the parameter and the accepted
+/// values.
 struct ParameterError : Error {
   using Error::Error;
 };
 
-/// A node's private parameters. roscpp gives the default in silence for a wrong type, and casts numbers unchecked: here
-/// every such value is an error. Each reader throws ParameterError.
+/// A node's private parameters. roscpp silently returns the default for a wrong type and casts numbers unchecked. Here
+/// every such value is an error: each reader throws ParameterError.
 class Parameters {
  public:
-  /// @param values  struct of all private parameters, or an invalid value where there is none
+  /// @param values  struct of all private parameters, or an invalid value if there are none
   explicit Parameters(const XmlRpc::XmlRpcValue& values);
-  /// Those of this node, from the parameter server.
+  /// Reads the parameters of this node from the parameter server.
   static Parameters ofThisNode();
 
   std::string text(const std::string& key, const std::string& fallback);
   double number(const std::string& key, double fallback, double min, double max);
   bool flag(const std::string& key, bool fallback);
-  /// A list of strings, or one string with ';' between the items. Empty items are left out.
+  /// Reads a list of strings, or one string with ';' between the items. Empty items are left out.
   std::vector<std::string> texts(const std::string& key);
-  /// A list of so many numbers, or one string with blanks between them.
+  /// Reads a list of numbers of the length of `fallback`, or one string with spaces between them.
   std::vector<double> numbers(const std::string& key, const std::vector<double>& fallback, double min, double max);
   bool has(const std::string& key) const;
 
-  /// Call after all readers: a parameter that none of them asked for is a slip of the pen.
+  /// Throws ParameterError if there is a parameter that no reader has read, such as a misspelt one. Call it after all
+  /// readers.
   void refuseOthers() const;
 
  private:

@@ -13,8 +13,9 @@
 
 namespace viscera::nodes {
 
-/// A mutex whose holder runs with the priority of the first that waits for it: an ordinary thread that holds it while
-/// others keep it from running does not hold up one of real-time priority longer than it takes to let go.
+/// A mutex with priority inheritance: the holder runs with the priority of the thread that waits for it. An ordinary
+/// thread that is preempted while it holds the mutex does not delay a real-time thread for longer than its critical
+/// section.
 class PriorityMutex {
  public:
   PriorityMutex() {
@@ -22,7 +23,7 @@ class PriorityMutex {
     pthread_mutexattr_init(&how);
     pthread_mutexattr_setprotocol(&how, PTHREAD_PRIO_INHERIT);
     int refused = pthread_mutex_init(&mutex_, &how);
-    if (refused) refused = pthread_mutex_init(&mutex_, nullptr);  // a kernel without it
+    if (refused) refused = pthread_mutex_init(&mutex_, nullptr);  // the kernel lacks priority inheritance
     pthread_mutexattr_destroy(&how);
     require(refused);
   }
@@ -42,7 +43,7 @@ class PriorityMutex {
   pthread_mutex_t mutex_;
 };
 
-/// The std::condition_variable of a PriorityMutex, on the steady clock.
+/// A condition variable for PriorityMutex, on the steady clock.
 class PriorityCondition {
  public:
   PriorityCondition() {
@@ -59,7 +60,7 @@ class PriorityCondition {
   void notify_one() { pthread_cond_signal(&condition_); }
   void notify_all() { pthread_cond_broadcast(&condition_); }
 
-  /// @returns whether it is fulfilled; false only once `due` has passed
+  /// Waits until the predicate holds. @returns whether it holds; false only after `due` has passed
   template <class Fulfilled>
   bool wait_until(std::unique_lock<PriorityMutex>& lock, SteadyTime due, Fulfilled fulfilled) {
     const auto since = due.time_since_epoch();

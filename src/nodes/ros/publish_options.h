@@ -6,11 +6,11 @@
 
 namespace viscera::nodes {
 
-/// How what the simulation makes is sent.
+/// Options of the published topics.
 struct PublishOptions {
-  double surface_rate_hz = 30;       ///< most often that the surface and `scene_markers` are sent
-  double force_arrow_m_per_n = 0.1;  ///< length of the arrows in `scene_markers`
-  std::string frame_prefix;          ///< of the frames of tools and cameras; the scene's tissue frame has it already
+  double surface_rate_hz = 30;       ///< largest rate of the surface and of `scene_markers` [Hz]
+  double force_arrow_m_per_n = 0.1;  ///< length of the arrows in `scene_markers` [m/N]
+  std::string frame_prefix;          ///< prefix of tools' and cameras' frames; the scene's tissue frame has it already
 };
 
 }  // namespace viscera::nodes

@@ -9,11 +9,11 @@
 
 namespace viscera::nodes {
 
-/// How often something is done.
+/// Measures the rate of an event.
 class RateMeter {
  public:
   void add() { ++count_; }
-  /// @return per second, since it was last asked [Hz]; 0 the first time
+  /// Returns the rate since the last call [Hz]; 0 at the first call.
   double take(SteadyTime now) {
     const double since_s = before_ == SteadyTime{} ? 0 : std::chrono::duration<double>(now - before_).count();
     const double rate_hz = since_s > 0 ? static_cast<double>(count_) / since_s : 0;

@@ -49,8 +49,9 @@ void Relaunch::tellInherited() const {
   if (found.str().empty()) return;
   const std::string node = ros::this_node::getName();
   ROS_WARN(
-      "parameters in force that an earlier start, or rosparam, has left on the master:%s; `rosparam delete %s` clears "
-      "them",
+      "these parameters on the master come from an earlier start or from rosparam and are used:%s; `rosparam delete "
+      "%s` "
+      "removes them",
       oneLine(found.str()).c_str(), node.c_str());
 }
 
@@ -59,9 +60,8 @@ void Relaunch::requireParameters() const {
   if (run_id_.empty() || hasParameters()) return;
   if (ros::param::get("/run_id", now) && now == run_id_) return;
   throw ParameterError(
-      "the ROS master was restarted after roslaunch had started this node, and has lost its parameters: start "
-      "roslaunch "
-      "again, or give parameters as arguments, as in args=\"_scene:=heart\", which come with every respawn");
+      "the ROS master was restarted after roslaunch had started this node, and its parameters are lost. Restart "
+      "roslaunch, or give the parameters as arguments, as in args=\"_scene:=heart\", which every respawn gets again");
 }
 
 }  // namespace viscera::nodes

@@ -7,26 +7,27 @@
 
 namespace viscera::nodes {
 
-/// Sees to it that a node which roslaunch starts again runs what it ran before. A master that was restarted has lost
-/// the parameters of a launch file: the node would run its defaults. Those given as arguments (`_scene:=heart`, as
-/// launch/training.launch does) are there again.
+/// Ensures that a node that roslaunch respawns runs with the same parameters. A restarted master has lost the
+/// parameters of a launch file, so the node would run its defaults. Parameters given as arguments (`_scene:=heart`, as
+/// in launch/training.launch) survive a respawn.
 class Relaunch {
  public:
-  /// @param argc, argv  as main() gets them, before ros::init()
+  /// @param argc, argv  arguments of main(), before ros::init()
   Relaunch(int argc, const char* const* argv);
 
-  /// Of the run of roslaunch that started this node, by the folder of its log; empty if none did.
+  /// Returns the run id of the roslaunch that started this node, from its log folder; empty if none did.
   const std::string& runId() const { return run_id_; }
   bool hasParameters() const { return !given_.empty(); }
-  /// Says in the log which private parameters are in force that the command line did not give, as an earlier start on
-  /// this master left them; not of a node that roslaunch started, which sets them itself. After ros::init().
+  /// Logs the private parameters that an earlier start on this master has left and the command line did not set. Logs
+  /// nothing for a node that roslaunch started, since it sets the parameters itself. Call it after ros::init().
   void tellInherited() const;
-  /// After ros::init(). @throws ParameterError  the master is not the one of that run, and there are no such arguments
+  /// Checks the parameters after ros::init().
+  /// @throws ParameterError  the master belongs to another run, and there are no arguments
   void requireParameters() const;
 
  private:
   std::string run_id_;
-  std::set<std::string> given_;  ///< parameters, as arguments
+  std::set<std::string> given_;  ///< names of parameters that were given as arguments
 };
 
 }  // namespace viscera::nodes

@@ -19,7 +19,7 @@ double bytesIn(const std::string& folder) {
   std::error_code error;
   fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error), end;
   for (; !error && at != end; at.increment(error)) {
-    std::error_code gone;  // others may remove files meanwhile
+    std::error_code gone;  // others may remove files concurrently
     if (!at->is_regular_file(gone) || gone) continue;
     const uintmax_t bytes = at->file_size(gone);
     if (!gone) out += static_cast<double>(bytes);
@@ -34,18 +34,19 @@ SavedFolder::SavedFolder(const std::string& folder, double limit_gb)
 
 std::string SavedFolder::pathOf(const std::string& file) const {
   if (file.empty() || file.front() == '.' || file.find('/') != std::string::npos)
-    throw Error("file: '" + file + "' must be a plain name, which is looked up in ~saved_folder, " + path_);
+    throw Error("file: '" + file + "' must be a plain file name in ~saved_folder, " + path_);
   return path_ + "/" + file;
 }
 
 uint64_t SavedFolder::room() const {
   std::error_code error;
   fs::create_directories(path_, error);
-  if (error) throw Error("parameter ~saved_folder: " + path_ + " cannot be made: " + error.message());
+  if (error) throw Error("parameter ~saved_folder: " + path_ + " cannot be created: " + error.message());
   const double used = bytesIn(path_), left = limit_gb_ * kBytesPerGb - used;
   if (left >= 1) return static_cast<uint64_t>(left);
-  throw Error("parameter ~saved_folder: " + path_ + " holds " + numberText(used / kBytesPerGb, 3) + " GB, and " +
-              numberText(limit_gb_, 3) + " GB is all that services may fill: remove files, or raise ~saved_limit_gb");
+  throw Error("parameter ~saved_folder: " + path_ + " contains " + numberText(used / kBytesPerGb, 3) +
+              " GB; services may fill at most " + numberText(limit_gb_, 3) +
+              " GB. Remove files, or raise ~saved_limit_gb");
 }
 
 }  // namespace viscera::nodes

@@ -7,17 +7,17 @@
 
 namespace viscera::nodes {
 
-/// Folder that services write files into and read them from, `~saved_folder`. Callers may be anyone on the network:
-/// they choose plain names alone, and together fill no more than `~saved_limit_gb`.
+/// The folder in which services write and read files, `~saved_folder`. Any host on the network may call them, so they
+/// accept plain file names only, and all files together are limited to `~saved_limit_gb`.
 class SavedFolder {
  public:
-  /// @param limit_gb  of all files in it, 10^9 bytes each
+  /// @param limit_gb  limit of all files in it [GB, 10^9 bytes]
   SavedFolder(const std::string& folder, double limit_gb);
 
-  const std::string& path() const { return path_; }  ///< absolute
-  /// Returns the path of a file. @throws Error  no plain name
+  const std::string& path() const { return path_; }  ///< absolute path
+  /// Returns the path of a file. @throws Error  the name is not a plain file name
   std::string pathOf(const std::string& file) const;
-  /// Makes the folder. @return bytes that may be written yet, > 0   @throws Error  it cannot be made, or is full
+  /// Creates the folder. @return bytes that may still be written, > 0   @throws Error  it cannot be created, or is full
   uint64_t room() const;
 
  private:

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 std::string namesIn(const std::string& folder) {
   std::set<std::string> names;
-  std::error_code ignored;  // a missing folder holds no names
+  std::error_code ignored;  // a missing folder has no names
   for (const auto& entry : fs::directory_iterator(folder, ignored))
     if (entry.path().extension() == ".yaml") names.insert(entry.path().stem().string());
   std::string text;
@@ -31,7 +31,7 @@ Overrides meshChoice(Parameters& parameters) {
   const bool has_unit = parameters.has("mesh_unit_m");
   const double unit_m = parameters.number("mesh_unit_m", 1, kMinUnit_m, kMaxUnit_m);
   if (mesh.empty()) {
-    if (has_unit) throw ParameterError("parameter ~mesh_unit_m: has no meaning without ~mesh");
+    if (has_unit) throw ParameterError("parameter ~mesh_unit_m: is only used with ~mesh; set ~mesh too or remove it");
     return {};
   }
   const fs::path path = fs::absolute(mesh);
@@ -46,7 +46,7 @@ Overrides meshChoice(Parameters& parameters) {
   return overrides;
 }
 
-/// tf2 refuses names that begin with a slash.
+/// Returns ~frame_prefix. tf2 refuses names that begin with a slash.
 std::string framePrefix(Parameters& parameters) {
   const std::string prefix = parameters.text("frame_prefix", "");
   if (prefix.find_first_of("/ \t\n") == 0)
@@ -69,7 +69,7 @@ std::string namedFile(const std::string& key, const std::string& value, const st
 }
 
 std::string sceneFile(const std::string& scene, const std::string& package_folder) {
-  std::error_code ignored;  // what is not there has its own name
+  std::error_code ignored;  // a path that does not exist is kept
   return fs::weakly_canonical(namedPath(scene, package_folder + "/config/scenes"), ignored).string();
 }
 
@@ -89,14 +89,13 @@ SceneChoice SceneChoice::read(Parameters& parameters, const std::string& fallbac
   const std::string scene = sceneOfTask(loadTask(choice.task), choice.task);
   if (choice.scene.empty()) choice.scene = scene;
   if (sceneFile(choice.scene, package_folder) != sceneFile(scene, package_folder))
-    throw ParameterError("parameter ~scene: " + choice.scene + " is not the scene of ~task, " + scene +
-                         "; leave it out");
+    throw ParameterError("parameter ~scene: " + choice.scene + " is not the scene of ~task, " + scene + "; remove it");
   return choice;
 }
 
 Scene SceneChoice::load(const std::string& package_folder) const {
   const std::string folder = package_folder + "/config/scenes";
-  requireWithinBounds(namedPath(scene, folder));  // or an error would tell what is there
+  requireWithinBounds(namedPath(scene, folder));  // otherwise an error would reveal which files exist
   Scene out = loadFittedScene(namedFile("scene", scene, folder), mesh, overrides).scene;
   out.environment.tissue_frame = frame_prefix + out.environment.tissue_frame;
   return out;

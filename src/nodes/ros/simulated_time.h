@@ -7,13 +7,13 @@
 
 namespace viscera::nodes {
 
-/// Time that goes on as fast as a simulation does, made of the times that it tells: it stands while the simulation is
-/// paused, never goes back, and a reset is no jump.
+/// Time that advances as fast as a simulation, from the times that it publishes. It stops while the simulation is
+/// paused, never goes back, and does not jump at a reset.
 class SimulatedTime {
  public:
   using SteadyTime = std::chrono::steady_clock::time_point;
 
-  /// The simulation says how far it is. @param time_s  since its start or reset   @param tick_s  in a tick
+  /// Sets the simulation's time. @param time_s  since its start or reset [s]   @param tick_s  duration of a tick [s]
   void tell(double time_s, double tick_s, SteadyTime now) {
     if (!told_ || time_s == last_s_) {
       if (!told_) advanced_ = now;
@@ -25,7 +25,7 @@ class SimulatedTime {
     tick_s_ = tick_s;
     told_ = true;
   }
-  /// Since the first call of tell() [s]. Within a tick it runs on with the clock.
+  /// Returns the time since the first call of tell() [s]. Within a tick it advances with the clock.
   double at(SteadyTime now) const {
     if (!told_) return 0;
     return elapsed_s_ + std::clamp(std::chrono::duration<double>(now - advanced_).count(), 0.0, tick_s_);
@@ -34,7 +34,7 @@ class SimulatedTime {
  private:
   bool told_ = false;
   double last_s_ = 0, tick_s_ = 0, elapsed_s_ = 0;
-  SteadyTime advanced_{};  ///< when the simulation last went on
+  SteadyTime advanced_{};  ///< time at which the simulation last advanced
 };
 
 }  // namespace viscera::nodes

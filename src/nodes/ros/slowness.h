@@ -6,13 +6,13 @@
 
 namespace viscera::nodes {
 
-/// Decides when it is worth saying that a simulation is slower than real time, or pictures come too seldom: after some
-/// readings in a row, and again only when it has kept up for as many readings since.
+/// Decides when to warn that a simulation is slower than real time, or that images come too rarely. It warns after
+/// several slow readings in a row, and warns again only after as many readings in a row were not slow.
 class Slowness {
  public:
   explicit Slowness(int readings = 2) : readings_(readings) {}
 
-  /// A reading, once a second. @return  true: say it now
+  /// Adds a reading, once a second. @return  whether to warn now
   bool note(bool slow) {
     in_a_row_ = slow == last_slow_ ? in_a_row_ + 1 : 1;
     last_slow_ = slow;

@@ -8,7 +8,8 @@
 
 namespace viscera::nodes {
 
-/// Names the calling thread for top, gdb and /proc; as all our threads begin with it, gives it its CrashStack.
+/// Sets the name of the calling thread for top, gdb and /proc. Also creates its CrashStack, since every thread of ours
+/// calls this first.
 /// @param name  at most 15 characters
 inline void nameThread(const char* name) {
   pthread_setname_np(pthread_self(), name);

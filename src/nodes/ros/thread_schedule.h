@@ -6,9 +6,9 @@
 
 namespace viscera::nodes {
 
-/// Asks that the calling thread goes before all ordinary ones (SCHED_FIFO), and wakes when it wants to and not 50 us
-/// later. @param priority  1..99; 0: it stays ordinary
-/// @returns how it is scheduled: "SCHED_FIFO 20", "ordinary", or what was refused and how it is permitted
+/// Schedules the calling thread before all ordinary ones (SCHED_FIFO), without the default timer slack of 50 us.
+/// @param priority  1..99; 0: ordinary scheduling
+/// @returns how it is scheduled: "SCHED_FIFO 20", "ordinary", or what was refused and how to permit it
 std::string goFirst(int priority);
 
 }  // namespace viscera::nodes

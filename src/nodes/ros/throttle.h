@@ -6,14 +6,14 @@
 
 namespace viscera::nodes {
 
-/// Picks ticks evenly so that a rate is kept, counted in ticks and so free of jitter.
+/// Picks evenly spaced ticks to keep a rate. It counts ticks and has no jitter.
 class Throttle {
  public:
-  /// @param rate_hz  wanted, > 0   @param tick_hz  of the ticks, > 0
+  /// @param rate_hz  desired rate [Hz], > 0   @param tick_hz  rate of the ticks [Hz], > 0
   Throttle(double rate_hz, double tick_hz) : share_(std::min(1.0, rate_hz / tick_hz)) {}
 
   void setRate(double rate_hz, double tick_hz) { share_ = std::min(1.0, rate_hz / tick_hz); }
-  /// Call once in a tick: whether this one is picked. The first one is.
+  /// Returns whether this tick is picked. Call it once per tick. The first tick is picked.
   bool pick() {
     credit_ += share_;
     if (credit_ < 1 - kRounding) return false;
@@ -22,7 +22,7 @@ class Throttle {
   }
 
  private:
-  static constexpr double kRounding = 1e-9;  // 90 Hz of 30 Hz must not drift to every fourth tick
+  static constexpr double kRounding = 1e-9;  // 30 Hz at ticks of 90 Hz must not drift to every fourth tick
   double share_;
   double credit_ = 1;
 };

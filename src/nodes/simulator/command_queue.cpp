@@ -22,7 +22,7 @@ CommandAnswer CommandQueue::call(Command&& command, std::chrono::milliseconds li
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (closed_) return failure("the simulation has ended");
-    if (commands_.size() >= kCapacity) return failure("too many commands are waiting: try again later");
+    if (commands_.size() >= kCapacity) return failure("too many commands are waiting; try again later");
     commands_.push_back(std::move(command));
   }
   changed_.notify_one();
@@ -31,12 +31,12 @@ CommandAnswer CommandQueue::call(Command&& command, std::chrono::milliseconds li
     return failure("no answer within " + std::to_string(limit.count()) + " ms");
   try {
     return answer.get();
-  } catch (const std::future_error&) {  // an error ended the simulation while it was at this command
+  } catch (const std::future_error&) {  // an error ended the simulation during this command
     return failure("the simulation has ended");
   }
 }
 
-/// After the deadline this does not change any more.
+/// Returns whether a command has begun. After the deadline the result does not change.
 bool CommandQueue::hasBegun(const std::atomic<bool>& begun) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return begun;

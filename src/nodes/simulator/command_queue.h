@@ -25,47 +25,48 @@ class Session;
 
 namespace viscera::nodes {
 
-/// What came of a command, in the words of the service's answer.
+/// The result of a command, as in the service's response.
 struct CommandAnswer {
   bool success = false;
   std::string message;
-  std::string state_hash;           ///< of a step
-  std::vector<Reaction> reactions;  ///< of a step: [styluses] after its last tick, tissue frame
+  std::string state_hash;           ///< state hash after a step
+  std::vector<Reaction> reactions;  ///< [styluses] reactions after the last tick of a step, tissue frame
   uint64_t tick = 0;
 };
 
-/// Something that a service asks of the simulation's thread.
+/// A request of a service to the simulation thread.
 struct Command {
   enum class Kind { kReset, kPause, kResume, kStep, kOverlays, kChange };
   Kind kind = Kind::kReset;
-  uint32_t ticks = 0;                    ///< of a step
-  std::optional<StylusSamples> samples;  ///< of a step: where the styluses are at its end; else as devices say
-  std::string camera;                    ///< of overlays: by name; empty: all
+  uint32_t ticks = 0;                    ///< number of ticks of a step
+  std::optional<StylusSamples> samples;  ///< samples at the end of a step; empty: from the devices
+  std::string camera;                    ///< name of the camera of overlays; empty: all cameras
   Overlays overlays;
-  /// Of a change: makes it, running or paused. @returns what to answer  @throws Error  why not
+  /// Makes a change, while the simulation runs or is paused.
+  /// @returns the message of the response   @throws Error reason of the failure
   std::function<std::string(Session&)> change;
-  bool leaps = false;                              ///< of a change: to another state, at another tick
-  std::chrono::steady_clock::time_point deadline;  ///< the answer is not waited for after this
+  bool leaps = false;                              ///< whether a change jumps to another state, at another tick
+  std::chrono::steady_clock::time_point deadline;  ///< time after which the caller does not wait for the answer
   std::shared_ptr<std::atomic<bool>> begun = std::make_shared<std::atomic<bool>>(false);
   std::promise<CommandAnswer> answer;
 };
 
-/// Bounded queue of commands from service callbacks to the simulation's thread.
+/// Bounded queue of commands from service callbacks to the simulation thread.
 class CommandQueue {
  public:
   static constexpr size_t kCapacity = 8;
-  /// How much longer than its limit a caller waits for a command that was begun in time: a tick, however slow.
+  /// Additional time that a caller waits for a command that began in time: enough for a slow tick.
   static constexpr std::chrono::seconds kGrace{10};
 
-  /// Hands a command over and waits for its answer until `limit` has passed; fails at once if the queue is full or
-  /// closed. A command whose caller has given up is not executed.
+  /// Enqueues a command and waits for its answer for at most `limit`. Fails at once if the queue is full or closed. A
+  /// command is not executed after its caller has given up.
   CommandAnswer call(Command&& command, std::chrono::milliseconds limit);
 
-  /// Next command, if one waits. For the simulation's thread.
+  /// Returns the next command, if there is one. Called by the simulation thread.
   std::optional<Command> take();
-  /// Sleeps until a command waits, the queue is closed or `limit` has passed.
+  /// Sleeps until there is a command, the queue is closed or `limit` has passed.
   void wait(std::chrono::milliseconds limit);
-  /// Refuses all commands from now on; those that wait are answered.
+  /// Refuses all further commands; waiting commands are answered.
   void close();
 
  private:

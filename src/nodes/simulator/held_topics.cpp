@@ -11,14 +11,14 @@
 
 namespace viscera::nodes {
 
-/// roscpp counts those who advertise a topic; the first and the last of them tell the master.
+/// roscpp counts the publishers of a topic; only the first and the last contact the master.
 HeldTopics::HeldTopics() {
   std::vector<std::string> names;
   ros::this_node::getAdvertisedTopics(names);
   ros::NodeHandle node;
   for (const std::string& name : names) {
     const ros::PublicationPtr there = ros::TopicManager::instance()->lookupPublication(name);
-    if (!there) continue;  // ended meanwhile
+    if (!there) continue;  // it has ended concurrently
     ros::AdvertiseOptions options(name, 1, there->getMD5Sum(), there->getDataType(), there->getMessageDefinition());
     publishers_.push_back(node.advertise(options));
   }

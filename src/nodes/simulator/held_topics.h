@@ -8,8 +8,8 @@
 
 namespace viscera::nodes {
 
-/// Everything that this process publishes stays advertised as long as this lives: an object that ends meanwhile and one
-/// that takes its place need neither the master nor new connections to the subscribers.
+/// Keeps all topics that this process publishes advertised as long as this object exists. An object that ends and its
+/// successor then need neither the master nor new connections to the subscribers.
 class HeldTopics {
  public:
   HeldTopics();

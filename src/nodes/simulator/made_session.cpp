@@ -16,30 +16,31 @@
 namespace viscera::nodes {
 namespace {
 
-/// The calling thread, and those that it starts, give way to all others of the process. It cannot be taken back.
+/// Lowers the priority of the calling thread and of the threads that it starts. This cannot be undone.
 void giveWay() {
-  constexpr int kNice = 5;  // a third of the processor beside a thread that wants all of it
+  constexpr int kNice = 5;  // a third of the CPU share of a thread with normal priority
   setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNice);
 }
 
 }  // namespace
 
 MadeSession::~MadeSession() {
-  if (session && !session->solver().onHost()) (void)context->makeCurrent();  // its buffers end in it
+  if (session && !session->solver().onHost()) (void)context->makeCurrent();  // its buffers are freed in the context
 }
 
-/// A scene that does not ask for the GPU goes without: on the processor, and without pictures.
-/// @throws GpuError  it asks for it
+/// Creates the context. A scene that does not require the GPU runs without one: on the CPU, and without images.
+/// @throws GpuError  the scene requires the GPU
 void MadeSession::makeContext() {
   if (context || !no_context.empty()) return;
   try {
     context = std::make_unique<gpu::Context>(scene.solver.device);
   } catch (const GpuError& error) {
     if (scene.solver.backend == Backend::kGpu || scene.solver.device >= 0)
-      throw GpuError(error.what() + std::string("; solver.backend: auto without solver.device does without, on the "
-                                                "processor and without pictures"));
+      throw GpuError(error.what() +
+                     std::string("; solver.backend: auto without solver.device works without OpenGL, on the "
+                                 "CPU and without pictures"));
     no_context = oneLine(error.what());
-    ROS_WARN_ONCE("no pictures, and the processor steps: %s", no_context.c_str());
+    ROS_WARN_ONCE("no pictures, and the tissue is stepped on the CPU: %s", no_context.c_str());
   }
 }
 
@@ -62,7 +63,7 @@ void MadeSession::makeRest(const Progress& progress) {
 }
 
 void MadeSession::give() const {
-  // With its state on the host, the session's own thread has the context.
+  // With its state on the host, the session has a thread of its own with the context.
   if (context && (!session || !session->solver().onHost())) context->release();
 }
 

@@ -10,27 +10,27 @@
 
 namespace viscera::nodes {
 
-/// A scene with what was made of it so far, on one thread for another one to go on with.
+/// A scene with what has been created for it so far. One thread creates it and another thread may continue.
 struct MadeSession {
   explicit MadeSession(const Scene& of) : scene(of) {}
-  ~MadeSession();  ///< on any thread, once it was given up
+  ~MadeSession();  ///< runs on any thread, after give()
   MadeSession(const MadeSession&) = delete;
   MadeSession& operator=(const MadeSession&) = delete;
 
-  Scene scene;                            ///< with numbers in place of `spacing_m: auto` once there is a model
-  std::shared_ptr<const Model> model;     ///< null: none yet
-  std::unique_ptr<gpu::Context> context;  ///< which the session needs to its end; null: there is no OpenGL
-  std::string no_context;                 ///< why there is none; empty: there is, or it was not looked for yet
-  std::unique_ptr<Session> session;       ///< null: none yet
+  Scene scene;                            ///< scene; with numbers instead of `spacing_m: auto` once there is a model
+  std::shared_ptr<const Model> model;     ///< model; null: not created yet
+  std::unique_ptr<gpu::Context> context;  ///< context, which the session needs until its end; null: no OpenGL
+  std::string no_context;                 ///< reason why there is no context; empty: there is one, or not yet
+  std::unique_ptr<Session> session;       ///< session; null: not created yet
 
-  /// Makes the model, while another simulator runs: on a thread that gives way to all others.
-  /// @throws Error; what `progress` throws
+  /// Creates the model while another simulator runs, on a thread of low priority.
+  /// @throws Error; exceptions of `progress`
   void makeModel(const Progress& progress);
-  /// Makes what is not there yet. @throws Error; what `progress` throws
+  /// Creates what does not exist yet. @throws Error; exceptions of `progress`
   void makeRest(const Progress& progress);
-  /// The calling thread gives the session up, so that another one may take it.
+  /// Releases the session from the calling thread, so that another thread may take it.
   void give() const;
-  /// The calling thread takes it. @throws GpuError
+  /// Makes the session current on the calling thread. @throws GpuError
   void take() const;
 
  private:

@@ -14,13 +14,13 @@ ObstacleFrames::ObstacleFrames(const Scene& scene, const tf2_ros::Buffer& frames
 
 void ObstacleFrames::apply(Session& session) {
   constexpr double kWarnPeriod_s = 5;
-  const uint64_t held_back = session.extremes().obstacles_held_back;
-  if (held_back > held_back_) {
+  const uint64_t speed_limited = session.extremes().obstacles_speed_limited;
+  if (speed_limited > speed_limited_) {
     ROS_WARN_THROTTLE(kWarnPeriod_s,
-                      "the frame of an obstacle is faster than tissue can follow: it is held back (%lu ticks)",
-                      static_cast<unsigned long>(held_back));
+                      "the frame of an obstacle moves faster than tissue can follow; its speed is limited (%lu ticks)",
+                      static_cast<unsigned long>(speed_limited));
   }
-  held_back_ = held_back;
+  speed_limited_ = speed_limited;
   carried_.lookUp([&](size_t obstacle, const Pose& pose) { session.setObstacleFrame(obstacle, pose); });
 }
 

@@ -10,27 +10,28 @@
 
 namespace viscera::nodes {
 
-/// Obstacles that tf frames carry: looks their frames up before every tick.
+/// Obstacles that tf frames carry. Their frames are looked up before every tick.
 class ObstacleFrames {
  public:
-  /// @param frames  must outlive this
-  /// @param max_transform_age_s  of what tf knows of a frame that moves [s]
+  /// @param frames  must outlive this object
+  /// @param max_transform_age_s  largest age of a moving frame's transform [s]
   ObstacleFrames(const Scene& scene, const tf2_ros::Buffer& frames, double max_transform_age_s);
 
-  /// Tells the session where the frames are now. An obstacle whose frame tf does not know stays where it was.
+  /// Sets the obstacles' poses in the session. An obstacle stays where it is if tf does not know its frame.
   void apply(Session& session);
   bool empty() const { return carried_.empty(); }
-  /// @name Lookups since the start, for the diagnostics; from any thread
+  /// @name Number of lookups since the start, for the diagnostics; thread-safe
   /// @{
   uint64_t found() const { return carried_.found(); }
   uint64_t missed() const { return carried_.missed(); }
-  /// Ticks since the start or the last reset in which a frame was faster than tissue can follow.
-  uint64_t heldBack() const { return held_back_; }
+  /// Returns the number of ticks since the start or the last reset in which an obstacle was limited to the speed that
+  /// tissue can follow.
+  uint64_t speedLimited() const { return speed_limited_; }
   /// @}
 
  private:
   CarriedFrames carried_;
-  std::atomic<uint64_t> held_back_{0};
+  std::atomic<uint64_t> speed_limited_{0};
 };
 
 }  // namespace viscera::nodes

@@ -11,14 +11,14 @@
 namespace viscera::nodes {
 namespace {
 
-/// Where a stage begins and ends, in shares of the time.
+/// Beginning and end of a stage, in shares of the time.
 struct Span {
   const char* stage;
   double from, to;
 };
 
-// Measured of the heart on two cores without a GPU, as the log's stamps tell, begun as README's first ROS command.
-constexpr double kShareOfAuto = 0.4, kShareOfRest = 0.5;  // of all; of what is left
+// Measured with the heart on two cores without a GPU, from the stamps of the log of README's first ROS command.
+constexpr double kShareOfAuto = 0.4, kShareOfRest = 0.5;  // share of everything; share of the rest
 constexpr std::array<Span, 2> kAuto = {{{"measure this machine", 0, 0.7}, {"choose spacing", 0.7, 1}}};
 constexpr std::array<Span, 8> kBody = {{{"read", 0, 0.05},
                                         {"voxelise", 0.05, 0.35},

@@ -10,17 +10,17 @@ struct Scene;
 
 namespace viscera::nodes {
 
-/// How far the making of a scene is, in one number, from the stages that it tells of and the shares of the time that
-/// they were measured to take.
+/// Progress of creating a scene, as one number. It is computed from the reported stages and measured shares of the
+/// total time.
 class Preparation {
  public:
   explicit Preparation(const Scene& scene);
 
-  /// @param stage, fraction  as a Progress is told   @returns 0..99, never less than before
+  /// Returns the progress [%], 0..99, never less than before. @param stage, fraction  arguments of a Progress
   int percentAt(const std::string& stage, double fraction);
 
  private:
-  double auto_share_, bodies_share_;  ///< of the whole: of finding a spacing, of all bodies
+  double auto_share_, bodies_share_;  ///< share of the total time for finding a spacing, and for all bodies
   const size_t bodies_;
   size_t bodies_begun_ = 0;
   double done_ = 0;

@@ -14,10 +14,10 @@
 namespace viscera::nodes {
 namespace {
 
-/// The node ends, and the model that is being made is not wanted.
+/// Thrown when the node ends and the model that is being created is not needed.
 struct Ended {};
 
-/// The request as the parameters of the same names, whose checks it goes through.
+/// Converts the request to parameters of the same names, so that their checks apply.
 Parameters parametersOf(const LoadScene::Request& request, const std::string& frame_prefix) {
   XmlRpc::XmlRpcValue values;
   values["scene"] = request.scene;
@@ -29,7 +29,7 @@ Parameters parametersOf(const LoadScene::Request& request, const std::string& fr
   return Parameters(values);
 }
 
-/// Of an error in a parameter, which was a field of the request.
+/// Converts an error about a parameter to one about the request's field.
 std::string asField(std::string text) {
   const std::string prefix = "parameter ~";
   if (text.compare(0, prefix.size(), prefix) == 0) text.erase(0, prefix.size());
@@ -66,7 +66,7 @@ void SceneSwitch::begin(Session& session) {
   std::optional<CarriedTissue> tissue;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    keep_up_.begin(next_ ? next_->scene : running_.scene, session.scene());
+    adaptive_resolution_.begin(next_ ? next_->scene : running_.scene, session.scene());
     if (state_ == State::kStarting) tissue.swap(carried_);
     carried_.reset();
   }
@@ -78,7 +78,7 @@ void SceneSwitch::leave(const Session& session) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (state_ != State::kRequested || !carries_) return;
   }
-  CarriedTissue tissue = session.carried();  // the service waits, and asks for nothing else meanwhile
+  CarriedTissue tissue = session.carried();  // the service waits and sends no other request meanwhile
   const std::lock_guard<std::mutex> lock(mutex_);
   carried_ = std::move(tissue);
 }
@@ -111,7 +111,7 @@ bool SceneSwitch::goBack(const std::string& error) {
   return true;
 }
 
-/// @throws Error  the scene cannot be simulated
+/// Checks a request. @throws Error  the scene cannot be simulated
 SimulatorOptions SceneSwitch::check(const LoadScene::Request& request) const {
   if (request.scene.empty()) throw ParameterError("parameter ~scene: must be given");
   SimulatorOptions next = running_;
@@ -121,7 +121,7 @@ SimulatorOptions SceneSwitch::check(const LoadScene::Request& request) const {
   return next;
 }
 
-/// @throws Error  no model can be made of the scene
+/// Creates the session, or as much of it as possible. @throws Error  no model can be created
 std::unique_ptr<MadeSession> SceneSwitch::make(const char* service, const Scene& scene) const {
   Preparation preparation(scene);
   made_percent_ = 0;
@@ -135,8 +135,9 @@ std::unique_ptr<MadeSession> SceneSwitch::make(const char* service, const Scene&
   made->makeModel(progress);
   try {
     made->makeRest(progress);
-  } catch (const std::exception& error) {  // perhaps for want of memory, which the old one has
-    ROS_WARN("%s: the rest waits for the end of the old scene: %s", service, oneLine(error.what()).c_str());
+  } catch (const std::exception& error) {  // possibly for lack of memory, which the old session uses
+    ROS_WARN("%s: the rest of the new scene is prepared after the old one has ended: %s", service,
+             oneLine(error.what()).c_str());
     made->session.reset();
   }
   made->give();
@@ -148,7 +149,7 @@ std::unique_ptr<MadeSession> SceneSwitch::takeMade() {
   return std::move(made_);
 }
 
-void SceneSwitch::bury(std::unique_ptr<MadeSession> ended) {
+void SceneSwitch::retire(std::unique_ptr<MadeSession> ended) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (made_ && made_->session) buried_ = std::move(ended);
 }
@@ -159,16 +160,16 @@ void SceneSwitch::holdTopics() {
   topics_ = std::move(topics);
 }
 
-/// What is left of the simulator that ran before, and takes its time to end.
+/// Destroys what is left of the previous simulator, which takes time.
 void SceneSwitch::endOld() {
-  std::unique_ptr<MadeSession> session;  // both outlive the lock
+  std::unique_ptr<MadeSession> session;  // both are destroyed after the lock is released
   std::unique_ptr<HeldTopics> topics;
   const std::lock_guard<std::mutex> lock(mutex_);
   session.swap(buried_);
   topics.swap(topics_);
 }
 
-/// @returns why the scene did not come to run, or nothing
+/// Replaces the simulator. @returns the reason if the scene did not run; empty otherwise
 std::string SceneSwitch::change(const SimulatorOptions& next, std::unique_ptr<MadeSession> made, bool carries) {
   std::unique_lock<std::mutex> lock(mutex_);
   changed_.wait(lock, [this] { return state_ == State::kRunning || state_ == State::kEnd; });
@@ -181,7 +182,7 @@ std::string SceneSwitch::change(const SimulatorOptions& next, std::unique_ptr<Ma
   error_.clear();
   changed_.wait(lock, [this] { return state_ == State::kRunning || state_ == State::kEnd; });
   if (state_ == State::kEnd) return "the simulation has ended";
-  return error_.empty() ? "" : "the scene that ran before was started again, at rest: " + error_;
+  return error_.empty() ? "" : "the previous scene was restarted, at rest: " + error_;
 }
 
 template <class Response>
@@ -216,7 +217,7 @@ bool SceneSwitch::onCoarsen(std_srvs::Trigger::Request& /*request*/, std_srvs::T
       "coarsen",
       [&] {
         SimulatorOptions next = running_;
-        next.scene = keep_up_.coarser(running_.scene);
+        next.scene = adaptive_resolution_.coarser(running_.scene);
         next.limit_notes.clear();
         return next;
       },

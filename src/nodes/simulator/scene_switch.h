@@ -15,7 +15,7 @@
 #include <optional>
 #include <string>
 
-#include "calibration/keep_up.h"
+#include "calibration/adaptive_resolution.h"
 #include "nodes/simulator/held_topics.h"
 #include "nodes/simulator/made_session.h"
 #include "nodes/simulator/simulator_options.h"
@@ -24,43 +24,45 @@
 
 namespace viscera::nodes {
 
-/// Service `load_scene`: another scene in the same node. It is read, and its session is made while the old one runs, so
-/// that a bad one is refused and the old one is missed for as short as can be; then the whole simulator is made again
-/// with it, by the caller, who runs simulators one after another. Where there is no room for both sessions, only the
-/// model is made before. A scene that does not come to run then gives way to the old one, at rest.
-/// Service `coarsen`: the same scene with coarser lattices, where `spacing_m: auto` was too fine for the load that
-/// came; its tissue goes on in the state that it was in.
+/// Services that replace the simulator in a running node.
+/// `load_scene` loads another scene. It reads the scene and creates its session while the old one runs, so a bad scene
+/// is refused and the interruption is short. The caller, which runs simulators one after another, then creates the
+/// whole simulator with it. If there is no memory for both sessions, only the model is created in advance. If the new
+/// scene then fails, the old one runs again, at rest.
+/// `coarsen` loads the same scene with coarser lattices, if `spacing_m: auto` was too fine for the load. The tissue
+/// keeps its state.
 class SceneSwitch {
  public:
-  /// @param running  of the simulator that is made first   @param package_folder  where scenes are looked up by name
+  /// @param running  options of the first simulator
+  /// @param package_folder  folder in which scenes are looked up by name
   SceneSwitch(ros::NodeHandle node, const SimulatorOptions& running, const std::string& package_folder);
   ~SceneSwitch();
   SceneSwitch(const SceneSwitch&) = delete;
   SceneSwitch& operator=(const SceneSwitch&) = delete;
 
-  // For the main thread:
-  /// The running simulator is to end, as a scene waits for its place.
+  // Called on the main thread:
+  /// Returns whether the running simulator must end because a scene is ready to replace it.
   bool isRequested() const;
-  /// The session of the simulator that was made last is there, and goes on with the tissue of the one before if it was
-  /// made for that; on its thread.
+  /// Reports that the session of the newest simulator exists. Transfers the tissue of the previous session if this one
+  /// was created for that. Called on the session's thread.
   void begin(Session& session);
-  /// A session ends, on its thread.
+  /// Reports that a session ends, on its thread.
   void leave(const Session& session);
-  /// The simulator that was made last runs.
+  /// Reports that the newest simulator runs.
   void noteReady();
-  /// How much of the scene that a service waits for is made [%]; below 0: none waits.
+  /// Returns the progress of the scene that a service waits for [%]; below 0 if there is none.
   int madePercent() const { return made_percent_; }
-  /// Of the session that runs.
-  KeepUp& keepUp() { return keep_up_; }
-  /// What the next simulator is made of, if there is to be one; then isRequested() is false.
+  /// Returns the adaptive resolution of the running session.
+  AdaptiveResolution& adaptiveResolution() { return adaptive_resolution_; }
+  /// Returns the options of the next simulator, if there is one; then isRequested() is false.
   std::optional<SimulatorOptions> takeNext();
-  /// What there is of its session; once. Null: nothing.
+  /// Returns what exists of its session, once. Null if there is nothing.
   std::unique_ptr<MadeSession> takeMade();
-  /// The running simulator ends for the next one, in whose place its subscribers then find that.
+  /// Keeps the topics of the running simulator advertised until the next one has taken over its subscribers.
   void holdTopics();
-  /// A session that ran: its end waits until the next one runs, unless that needs the room.
-  void bury(std::unique_ptr<MadeSession> ended);
-  /// The simulator made last has ended. @returns whether it never ran and takeNext() makes the one before again
+  /// Keeps an ended session until the next one runs, unless its memory is needed.
+  void retire(std::unique_ptr<MadeSession> ended);
+  /// Reports that the newest simulator has ended. @returns whether it never ran and takeNext() returns the previous one
   bool goBack(const std::string& error);
 
  private:
@@ -78,17 +80,17 @@ class SceneSwitch {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   State state_ = State::kStarting;
-  SimulatorOptions running_;  ///< of the simulator that ran last
+  SimulatorOptions running_;  ///< options of the simulator that ran last
   std::optional<SimulatorOptions> next_;
   std::unique_ptr<MadeSession> made_, buried_;
   std::unique_ptr<HeldTopics> topics_;
-  bool carries_ = false;                  ///< the next session goes on with the tissue of this one
-  std::optional<CarriedTissue> carried_;  ///< on its way
+  bool carries_ = false;                  ///< whether the next session takes over the tissue of this one
+  std::optional<CarriedTissue> carried_;  ///< tissue that is being transferred
   mutable std::atomic<int> made_percent_{-1};
-  std::string error_;  ///< why the last one did not run; empty: it does
-  bool first_ = true;  ///< no simulator has run yet
+  std::string error_;  ///< reason why the last simulator did not run; empty: it runs
+  bool first_ = true;  ///< whether no simulator has run yet
   ros::CallbackQueue queue_;
-  KeepUp keep_up_;
+  AdaptiveResolution adaptive_resolution_;
   ros::ServiceServer load_scene_, coarsen_;
   ros::AsyncSpinner spinner_;
 };

@@ -14,7 +14,7 @@
 namespace viscera::nodes {
 namespace {
 
-/// Every setting by one of its values. @param numberOf, wordOf  (setting)
+/// Returns one value of every setting as a message. @param numberOf, wordOf  callables that take a setting
 template <class NumberOf, class WordOf>
 dynamic_reconfigure::Config configOf(const std::vector<Setting>& settings, NumberOf numberOf, WordOf wordOf) {
   dynamic_reconfigure::Config out;
@@ -40,7 +40,7 @@ dynamic_reconfigure::Config valuesOf(const std::vector<Setting>& settings) {
       settings, [](const Setting& s) { return s.number; }, [](const Setting& s) { return s.word; });
 }
 
-/// The words as clients evaluate them: a dictionary of Python.
+/// Returns the words as clients evaluate them: as a Python dictionary.
 std::string editMethod(const Setting& setting) {
   if (setting.isNumber()) return "";
   std::string out = "{'enum_description': '" + setting.name + "', 'enum': [";
@@ -88,24 +88,24 @@ SettingsServer::SettingsServer(ros::NodeHandle node, std::vector<Setting> settin
   server_ = node.advertiseService("set_parameters", &SettingsServer::onSet, this);
 }
 
-/// @throws Error  there is none
+/// Returns a setting. @throws Error  there is none
 const Setting& SettingsServer::find(const std::string& name, bool number) const {
   for (const Setting& setting : settings_) {
     if (setting.name == name && setting.isNumber() == number) return setting;
   }
   std::string known;
   for (const Setting& setting : settings_) known += " " + setting.name;
-  throw Error("no " + std::string(number ? "number" : "word") + " '" + name + "'; there are" + known);
+  throw Error("no " + std::string(number ? "number" : "word") + " '" + name + "'; accepted:" + known);
 }
 
-/// Those that differ from what holds. @throws Error  an unknown name, a value out of range
+/// Returns the settings that the request changes. @throws Error  an unknown name, a value out of range
 std::vector<Setting> SettingsServer::changesOf(const dynamic_reconfigure::Config& request) const {
   std::vector<Setting> out;
   for (const auto& wanted : request.doubles) {
     Setting setting = find(wanted.name, true);
     if (!(wanted.value >= setting.min && wanted.value <= setting.max)) {
       TextOut text;
-      text << wanted.name << ": " << wanted.value << " is not in " << setting.min << ".." << setting.max;
+      text << wanted.name << ": " << wanted.value << " is outside " << setting.min << ".." << setting.max;
       throw Error(text.str());
     }
     if (setting.number == wanted.value) continue;
@@ -117,17 +117,18 @@ std::vector<Setting> SettingsServer::changesOf(const dynamic_reconfigure::Config
     if (std::find(setting.choices.begin(), setting.choices.end(), wanted.value) == setting.choices.end()) {
       std::string known;
       for (const std::string& word : setting.choices) known += (known.empty() ? "" : ", ") + word;
-      throw Error(wanted.name + ": '" + wanted.value + "' is none of " + known);
+      throw Error(wanted.name + ": '" + wanted.value + "' is not one of " + known);
     }
     if (setting.word == wanted.value) continue;
     setting.word = wanted.value;
     out.push_back(setting);
   }
-  if (!request.bools.empty() || !request.ints.empty()) throw Error("there are neither flags nor whole numbers");
+  if (!request.bools.empty() || !request.ints.empty())
+    throw Error("flags and whole numbers are not accepted: there are no such settings");
   return out;
 }
 
-/// The protocol has no place for a reason: it is logged, and the answer says what holds.
+/// Serves a request. The protocol has no field for an error: it is logged, and the response has the current values.
 bool SettingsServer::onSet(dynamic_reconfigure::Reconfigure::Request& request,
                            dynamic_reconfigure::Reconfigure::Response& response) {
   try {
@@ -141,7 +142,7 @@ bool SettingsServer::onSet(dynamic_reconfigure::Reconfigure::Request& request,
       keep(changed);
     }
   } catch (const Error& error) {
-    ROS_WARN("%s/set_parameters: refused, %s", namespace_.c_str(), error.what());
+    ROS_WARN("%s/set_parameters: refused: %s", namespace_.c_str(), error.what());
   }
   const std::lock_guard<std::mutex> lock(mutex_);
   response.config = valuesOf(settings_);

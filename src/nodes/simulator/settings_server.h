@@ -12,30 +12,30 @@
 
 namespace viscera::nodes {
 
-/// A number or one of some words that can be changed while a node runs.
+/// A number, or a word from a list, that can be changed while a node runs.
 struct Setting {
   std::string name, meaning;
   double min = 0, max = 0, number = 0;
-  std::vector<std::string> choices;  ///< words; none: it is a number
+  std::vector<std::string> choices;  ///< accepted words; empty: the setting is a number
   std::string word;
 
   bool isNumber() const { return choices.empty(); }
 };
 
-/// The server's side of dynamic_reconfigure, for rqt_reconfigure and dynparam: topics `parameter_descriptions` and
-/// `parameter_updates` and the service `set_parameters` of a namespace. Unlike dynamic_reconfigure::Server it is not
-/// generated from a file, so that names, ranges and words are the scene's; it leaves nothing on the parameter server,
-/// whose values would be those of another scene at the next start; and it refuses what is out of range instead of
-/// taking the nearest.
+/// The server side of dynamic_reconfigure, for rqt_reconfigure and dynparam: topics `parameter_descriptions` and
+/// `parameter_updates` and the service `set_parameters` of a namespace. It differs from dynamic_reconfigure::Server in
+/// three points. It is not generated from a file, so names, ranges and words are those of the scene. It leaves nothing
+/// on the parameter server, since at the next start those values would belong to another scene. It refuses values out
+/// of range instead of clamping them.
 class SettingsServer {
  public:
-  /// What is to hold from now on. @throws Error  why it cannot; then nothing has changed
+  /// Applies changed settings. @throws Error  reason of the failure; then nothing has changed
   using Apply = std::function<void(const std::vector<Setting>& changed)>;
 
-  /// @param node  of the namespace; its queue serves the requests, one after another
+  /// @param node  handle of the namespace; its queue serves the requests, one after another
   SettingsServer(ros::NodeHandle node, std::vector<Setting> settings, Apply apply);
 
-  /// A word was changed by another way. From any thread.
+  /// Records that a word was changed elsewhere. Thread-safe.
   void noteWord(const std::string& name, const std::string& word);
 
  private:

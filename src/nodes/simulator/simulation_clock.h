@@ -11,15 +11,15 @@
 
 namespace viscera::nodes {
 
-/// The time of the simulator in this namespace, by its topic `tick`; the steady clock where none sends it.
+/// The time of the simulator in this namespace, from its topic `tick`; the steady clock if there is no such topic.
 class SimulationClock {
  public:
-  /// Needs a spinner.
+  /// Requires a spinner.
   explicit SimulationClock(ros::NodeHandle& node);
 
-  /// How far time went on since the last call, or since the start [s].
+  /// Returns the time since the last call, or since the start [s].
   double take();
-  /// Someone looks at what a simulator shows.
+  /// Returns whether the simulator's output has a viewer.
   bool isViewed() const;
 
  private:

@@ -15,13 +15,13 @@
 namespace viscera::nodes {
 namespace {
 
-constexpr std::chrono::milliseconds kIdlePeriod{20};  ///< how often forces are re-sent as zero while paused
+constexpr std::chrono::milliseconds kIdlePeriod{20};  ///< period of zero forces while paused
 
 double seconds(std::chrono::steady_clock::duration span) {
   return std::chrono::duration<double>(span).count();
 }
 
-/// The model is being made, and it is not wanted any more.
+/// Thrown when the model that is being created is not needed.
 struct Stopped {};
 
 CommandAnswer answer(bool success, const std::string& message, const Session& session) {
@@ -111,21 +111,21 @@ void SimulationLoop::tick(Session& session, const StylusSamples& samples, bool l
     pace_.add(session.tick_s(), seconds(stepped - begun), seconds(stepped - tick_ended_));
   }
   tick_ended_ = stepped;
-  ports_.stepped(session.tick(), samples, frame.tools, std::exchange(hands_anew_, false));
+  ports_.stepped(session.tick(), samples, frame.tools, std::exchange(input_reset_, false));
   deliver(session, std::move(frame), samples, live);
 }
 
-Wants SimulationLoop::drawable(const Wants& wants) const {
+FrameRequest SimulationLoop::drawable(const FrameRequest& wants) const {
   if (made_->context) return wants;
-  Wants out;
+  FrameRequest out;
   out.surface = wants.surface;
   return out;
 }
 
-/// Of the state at the start. Pictures take their time: they are those of the first ticks.
+/// Delivers the initial surface without images: drawing takes time, and they come with the first ticks.
 void SimulationLoop::showSkin(Session& session) {
   Frame frame = session.drain();
-  Wants wants;
+  FrameRequest wants;
   wants.surface = ports_.stills(true, false).surface;
   if (wants.surface) frame.surface = session.show(wants).surface;
   deliver(session, std::move(frame), ports_.samples(), false);
@@ -136,7 +136,7 @@ void SimulationLoop::showSkin(Session& session) {
 void SimulationLoop::rest(Session& session) {
   Frame frame = session.drain();
   const bool aimed = ports_.aim && ports_.aim(session);
-  const Wants wants = drawable(ports_.stills(std::exchange(unseen_, false), aimed));
+  const FrameRequest wants = drawable(ports_.stills(std::exchange(unseen_, false), aimed));
   if (wants.count() > 0) {
     Pictures shown = session.show(wants);
     if (shown.surface) frame.surface = std::move(shown.surface);
@@ -148,7 +148,7 @@ void SimulationLoop::rest(Session& session) {
 }
 
 void SimulationLoop::deliver(const Session& session, Frame&& frame, const StylusSamples& samples, bool live) {
-  if (!live) frame.reactions = {};  // tissue that stands still must not push, nor tissue stepped by something else
+  if (!live) frame.reactions = {};  // tissue that is paused or stepped by a command must not push
   {
     const std::lock_guard<std::mutex> lock(status_mutex_);
     ready_ = true;
@@ -161,7 +161,7 @@ void SimulationLoop::deliver(const Session& session, Frame&& frame, const Stylus
     status_.reactions = frame.reactions;
     status_.stats = frame.stats;
     status_.health = frame.health;
-    status_.held_back = frame.held_back;
+    status_.speed_limited = frame.speed_limited;
     status_.inside = frame.inside;
     status_.facts = session.facts();
     status_.modes.clear();
@@ -172,32 +172,32 @@ void SimulationLoop::deliver(const Session& session, Frame&& frame, const Stylus
   ports_.deliver(std::move(frame), samples, live);
 }
 
-/// What a hand did before, or while it was not looked at, is no motion: a blade would sweep through the tissue.
-void SimulationLoop::forgetHands(Session& session) {
-  session.forgetHands();
-  hands_anew_ = true;
+/// Discards stylus motion from before, or from a time without ticks: a blade would sweep through the tissue.
+void SimulationLoop::resetInput(Session& session) {
+  session.resetInput();
+  input_reset_ = true;
   stepped_to_.reset();
-  ports_.forget();
+  ports_.resetInput();
 }
 
 CommandAnswer SimulationLoop::execute(const Command& command, Session& session) {
   switch (command.kind) {
     case Command::Kind::kReset:
-      ports_.rest();  // before what takes time, here and below: a picture of the state at rest, too
+      ports_.rest();  // before anything that takes time, here and below, including an image of the state at rest
       session.reset();
-      forgetHands(session);
+      resetInput(session);
       unseen_ = true;
       return answer(true, "back to rest", session);
     case Command::Kind::kPause:
       if (paused_) return answer(false, "already paused", session);
       paused_ = true;
       ports_.rest();
-      forgetHands(session);
+      resetInput(session);
       return answer(true, "paused", session);
     case Command::Kind::kResume:
       if (!paused_) return answer(false, "not paused", session);
       paused_ = false;
-      forgetHands(session);
+      resetInput(session);
       return answer(true, "running", session);
     case Command::Kind::kOverlays:
       return setOverlays(command, session);
@@ -220,7 +220,7 @@ CommandAnswer SimulationLoop::change(const Command& command, Session& session) {
     message = error.what();
   }
   if (command.leaps) {
-    forgetHands(session);
+    resetInput(session);
     unseen_ = true;
   }
   return answer(done, message, session);
@@ -236,7 +236,7 @@ CommandAnswer SimulationLoop::setOverlays(const Command& command, Session& sessi
   }
   if (!found) return answer(false, "camera: the scene has no camera '" + command.camera + "'", session);
   unseen_ = true;
-  return answer(true, "from the next picture on", session);
+  return answer(true, "applies from the next picture on", session);
 }
 
 StylusSamples SimulationLoop::samplesOf(const Command& command, uint32_t tick) const {
@@ -252,7 +252,7 @@ StylusSamples SimulationLoop::samplesOf(const Command& command, uint32_t tick) c
 }
 
 CommandAnswer SimulationLoop::step(const Command& command, Session& session) {
-  if (!paused_) return answer(false, "not paused: call pause first", session);
+  if (!paused_) return answer(false, "not paused; call pause first", session);
   if (command.ticks > kMaxStepTicks) return answer(false, "ticks must be 0.." + std::to_string(kMaxStepTicks), session);
   uint32_t done = 0;
   StylusSamples last_samples;
@@ -261,7 +261,7 @@ CommandAnswer SimulationLoop::step(const Command& command, Session& session) {
     tick(session, last_samples, false);
   }
   if (command.samples && done > 0) stepped_to_ = last_samples;
-  Frame last = session.drain();  // measurements of the last tick too
+  Frame last = session.drain();  // includes measurements of the last tick
   const Wrenches reactions = last.reactions;
   deliver(session, std::move(last), last_samples, false);
   unseen_ = unseen_ || done > 0;

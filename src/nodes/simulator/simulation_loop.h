@@ -24,68 +24,69 @@
 
 namespace viscera::nodes {
 
-/// How the simulation does: a copy for the diagnostics.
+/// State of the simulation, copied for the diagnostics.
 struct LoopStatus {
   std::string gpu, backend, stepped_by;
   bool software_gpu = false;
-  bool pictures = true;  ///< there is OpenGL to draw them with
+  bool pictures = true;  ///< whether there is OpenGL to draw images
   bool paused = false;
   double dt_s = 0, dt_safe_s = 0, dt_limit_s = 0;
   uint64_t tick = 0;
   Counters counters;
   layout::TickStats stats{};
   Health health;
-  std::array<bool, layout::kMaxStyluses> held_back{}, inside{};
+  std::array<bool, layout::kMaxStyluses> speed_limited{}, inside{};
   std::array<Reaction, layout::kMaxStyluses> reactions;
-  /// What each stylus does with no button pressed, and while the first or the second is.
+  /// [styluses] tool modes: without buttons, with button 1, with button 2
   std::vector<std::array<ToolMode, 3>> modes;
-  FactGroups facts;         ///< of what lives in the tissue
-  PaceMeter::Reading pace;  ///< since the last LoopStatus was taken
+  FactGroups facts;         ///< facts of processes in the tissue
+  PaceMeter::Reading pace;  ///< pace since the last LoopStatus was taken
 };
 
-/// What the loop asks of its surroundings, on its own thread. None of them may block.
+/// Callbacks of the loop, called on its own thread. None of them may block.
 struct LoopPorts {
-  std::function<void(Session&)> place;  ///< obstacles that others carry, for a tick that begins now; may be null
-  /// Cameras that others carry, also while the state stands still; @returns whether one has moved; may be null
+  std::function<void(Session&)> place;  ///< sets poses of carried obstacles for the tick that begins; may be null
+  /// Sets poses of carried cameras, also while paused. @returns whether one has moved; may be null
   std::function<bool(Session&)> aim;
-  std::function<StylusSamples()> samples;            ///< for that tick
-  std::function<Wants()> wants;                      ///< of that tick
-  std::function<void(const Session&, Frame&)> look;  ///< before a frame is delivered; may be null
-  std::function<void(Session&)> ready;               ///< once, before the first tick
-  std::function<void(const Session&)> leave;         ///< once, after the last one, while there is a session
-  /// After every tick: what it took from the hands, and made of it. @param hands_anew  forgotten before it
-  std::function<void(uint64_t tick, const StylusSamples&, const ToolMotions&, bool hands_anew)> stepped;
-  /// What came back after a tick with these samples. @param live  the tissue follows the hands: forces may go out
+  std::function<StylusSamples()> samples;            ///< returns the samples for that tick
+  std::function<FrameRequest()> wants;               ///< returns the outputs of that tick
+  std::function<void(const Session&, Frame&)> look;  ///< adds to a frame before it is delivered; may be null
+  std::function<void(Session&)> ready;               ///< called once, before the first tick
+  std::function<void(const Session&)> leave;         ///< called once, after the last tick, if there is a session
+  /// Receives every tick. @param input_reset  whether input was discarded before the tick
+  std::function<void(uint64_t tick, const StylusSamples&, const ToolMotions&, bool input_reset)> stepped;
+  /// Receives the results of a tick with these samples.
+  /// @param live  whether tissue follows the styluses: forces may be sent
   std::function<void(Frame&&, const StylusSamples&, bool live)> deliver;
-  /// What is wanted of a state that stands still. @param changed  others than newcomers have not seen it either
-  /// @param aimed  nor has anybody the pictures of some camera, which has moved
-  std::function<Wants(bool changed, bool aimed)> stills;
-  std::function<void()> rest;    ///< no forces, at once, until a tick is delivered that is live
-  std::function<void()> forget;  ///< hands were not followed, or will not be: what devices said before is void
-  std::function<void()> failed;  ///< an error has ended the thread
+  /// Returns the outputs of a state that does not advance. @param changed  the state changed since it was last shown
+  /// @param aimed  a camera has moved since its images were last shown
+  std::function<FrameRequest(bool changed, bool aimed)> stills;
+  std::function<void()> rest;    ///< stops forces at once, until a live tick is delivered
+  std::function<void()> resetInput;  ///< discards device input: styluses were not followed, or will not be
+  std::function<void()> failed;  ///< called when an error has ended the thread
 };
 
-/// Owns the thread on which the OpenGL context and the session live, and paces it by the steady clock.
+/// Runs the session, with its OpenGL context, on a thread of its own that is paced by the steady clock.
 class SimulationLoop {
  public:
-  /// Most ticks that one step command may ask for.
+  /// Largest number of ticks of one step command.
   static constexpr uint32_t kMaxStepTicks = 10000;
 
-  /// @param made  a session of the scene that was made before, or as much of it; null: none
+  /// @param made  the session of the scene, or as much of it as was created in advance; null: none
   SimulationLoop(const Scene& scene, std::unique_ptr<MadeSession> made, LoopPorts ports, Progress progress);
   ~SimulationLoop();
   SimulationLoop(const SimulationLoop&) = delete;
   SimulationLoop& operator=(const SimulationLoop&) = delete;
 
-  /// The thread has ended: by stop(), or by an error that stop() will rethrow.
+  /// Returns whether the thread has ended: by stop(), or by an error that stop() will rethrow.
   bool ended() const { return ended_; }
-  /// Ends the thread. @throws what ended it, if that was an error
+  /// Ends the thread. @throws the error that ended it, if any
   void stop();
-  /// Of a thread that has ended: the session, so that its end may wait for a better time.
+  /// Returns the session of a thread that has ended, so that the caller destroys it later.
   std::unique_ptr<MadeSession> takeSession() { return std::move(made_); }
 
   CommandQueue& commands() { return commands_; }
-  /// Nothing until the session is ready. The pace is measured again from here.
+  /// Returns the status; empty until the session is ready. Starts the next measurement of the pace.
   std::optional<LoopStatus> takeStatus();
 
  private:
@@ -94,19 +95,19 @@ class SimulationLoop {
   void main();
   void run();
   void tick(Session& session, const StylusSamples& samples, bool live);
-  /// Hands over what is still on its way from the GPU and what newcomers want to see, without forces; time does not
-  /// count until the next tick.
+  /// Delivers frames that are still in flight from the GPU and frames for new subscribers, without forces. Pacing
+  /// restarts at the next tick.
   void rest(Session& session);
   void showSkin(Session& session);
   void deliver(const Session& session, Frame&& frame, const StylusSamples& samples, bool live);
-  void forgetHands(Session& session);
+  void resetInput(Session& session);
   CommandAnswer execute(const Command& command, Session& session);
   CommandAnswer change(const Command& command, Session& session);
   CommandAnswer setOverlays(const Command& command, Session& session);
   CommandAnswer step(const Command& command, Session& session);
-  /// Without images where there is no OpenGL.
-  Wants drawable(const Wants& wants) const;
-  /// Of one tick of a step.
+  /// Returns the outputs that can be drawn: no images without OpenGL.
+  FrameRequest drawable(const FrameRequest& wants) const;
+  /// Returns the samples of one tick of a step.
   StylusSamples samplesOf(const Command& command, uint32_t tick) const;
 
   const Scene scene_;
@@ -116,9 +117,9 @@ class SimulationLoop {
   CommandQueue commands_;
   Pacer pacer_;
   bool paused_ = false;
-  bool unseen_ = true;                       ///< the state changed, and no tick has shown it
-  bool hands_anew_ = false;                  ///< hands were forgotten since the last tick
-  std::optional<StylusSamples> stepped_to_;  ///< by a step whose caller said where the styluses are
+  bool unseen_ = true;                       ///< whether the state changed and no tick has shown it
+  bool input_reset_ = false;                 ///< whether input was discarded since the last tick
+  std::optional<StylusSamples> stepped_to_;  ///< samples of the last step that had samples
   Clock::time_point tick_ended_{};
   std::atomic<bool> stop_{false}, ended_{false};
   std::exception_ptr error_;

@@ -17,16 +17,17 @@
 namespace viscera::nodes {
 namespace {
 
-constexpr std::chrono::milliseconds kWatchPeriod{10};  ///< how soon a lost master is seen
+constexpr std::chrono::milliseconds kWatchPeriod{10};  ///< time until a lost master is detected
 constexpr double kWarnPeriod_s = 5;
-/// However short the ticks are: other work on the machine may hold a thread up for so long.
+/// Lower limit for short ticks: other work on the machine may delay a thread for this time.
 constexpr double kShortestStall_s = 0.015;
 
 double stallTime_s(const SimulatorOptions& options) {
   return std::max(options.stall_ticks / options.scene.solver.tick_hz, kShortestStall_s);
 }
 
-/// Does something follow a frame of tf? It may hang on one that this node sends, as a camera on a tool.
+/// Returns whether anything depends on tf frames. Its frame may depend on one that this node sends, like a camera on a
+/// tool.
 bool followsFrames(const SimulatorOptions& options) {
   const auto carried = [](const auto& item) { return !item.frame.empty(); };
   const auto tracked = [](const DeviceProfile& device) { return !device.pose.tf_frame.empty(); };
@@ -64,7 +65,7 @@ Simulator::Simulator(const SimulatorOptions& options, EndWatch& end, SceneSwitch
       services_(std::in_place, node_, options.scene.styluses, SavedFolder(options.saved_folder, options.saved_limit_gb),
                 loop_.commands(), SimulatorServices::Switches{recordings_, tasks_}, modeSet()),
       diagnostics_(std::in_place, node_, options.scene, loop_,
-                   SimulatorDiagnostics::Publishers{publisher_, wrenches_, recordings_, scenes_.keepUp(),
+                   SimulatorDiagnostics::Publishers{publisher_, wrenches_, recordings_, scenes_.adaptiveResolution(),
                                                     [this] { return preparingPercent(); }},
                    inputs_, obstacles_, camera_frames_),
       device_spinner_(1, &device_queue_) {
@@ -74,14 +75,14 @@ Simulator::~Simulator() {
   wrenches_.release();
 }
 
-/// In the log, and in rviz, where there is nothing else to see.
+/// Reports progress in the log, and in rviz, which has nothing else to show.
 void Simulator::reportProgress(const std::string& stage, double fraction) {
   ROS_INFO_THROTTLE(1, "preparing: %s %.0f %%", stage.c_str(), 100 * fraction);
   preparing_percent_ = preparation_.percentAt(stage, fraction);
   publisher_.tell("preparing: " + std::to_string(preparing_percent_) + " %");
 }
 
-/// Of this scene, or of the next one that load_scene makes meanwhile; below 0: none is being made.
+/// Returns the progress of this scene, or of the next one that load_scene creates [%]; below 0: none.
 int Simulator::preparingPercent() const {
   const int next = scenes_.madePercent();
   return next >= 0 || ready_ ? next : preparing_percent_.load();
@@ -150,22 +151,22 @@ LoopPorts Simulator::ports() {
     tasks_.leave();
     recordings_.leave();
   };
-  ports.stepped = [this](uint64_t tick, const StylusSamples& samples, const ToolMotions& tools, bool hands_anew) {
-    samples_.publish(tick, samples, tools, hands_anew);
+  ports.stepped = [this](uint64_t tick, const StylusSamples& samples, const ToolMotions& tools, bool input_reset) {
+    samples_.publish(tick, samples, tools, input_reset);
   };
   ports.deliver = [this](Frame&& frame, const StylusSamples& samples, bool live) {
     deliver(std::move(frame), samples, live);
   };
   ports.rest = [this] { wrenches_.rest(); };
-  ports.forget = [this] {
-    for (const auto& input : inputs_) input->mailbox().forgetButtons();
+  ports.resetInput = [this] {
+    for (const auto& input : inputs_) input->mailbox().clearButtons();
   };
   ports.failed = [this] { wrenches_.release(); };
   return ports;
 }
 
-/// Without pictures of cameras whose places are unknown.
-Wants Simulator::placed(Wants wants) const {
+/// Returns the outputs without images of cameras with unknown poses.
+FrameRequest Simulator::placed(FrameRequest wants) const {
   for (size_t k = 0; k < kPictureKinds; ++k) {
     std::vector<bool>& wanted = wants.of(static_cast<PictureKind>(k));
     for (size_t c = 0; c < wanted.size(); ++c) wanted[c] = wanted[c] && camera_frames_.isPlaced(c);
@@ -177,7 +178,7 @@ void Simulator::deliver(Frame&& frame, const StylusSamples& samples, bool live) 
   if (live) {
     WrenchPublisher::Hands hands;
     for (size_t s = 0; s < inputs_.size(); ++s) {
-      // a hand that is not tracked, or moves without the tool, must not be pushed
+      // a stylus that is not tracked, or has its clutch pressed, must not be pushed
       if (samples[s].valid && !inputs_[s]->mailbox().clutched())
         hands[s] = {frame.reactions[s], frame.poses_received[s], true, frame.contacts[s]};
     }
@@ -216,7 +217,7 @@ void Simulator::warnOfStalls() {
   stalls_ = stalls;
   ROS_WARN_THROTTLE(
       kWarnPeriod_s,
-      "no tick in time (~stall_ticks): forces are zero until ticks come in time again; stalls so far: %lu",
+      "no tick arrived in time (~stall_ticks): forces are zero until ticks are in time again; stalls so far: %lu",
       static_cast<unsigned long>(stalls));
 }
 
@@ -234,15 +235,15 @@ void Simulator::stepAside(ros::AsyncSpinner& spinner) {
 #ifdef VISCERA_RECONFIGURE
   settings_.reset();
 #endif
-  wrenches_.release();      // hands feel nothing from here on
-  device_queue_.disable();  // or the spinner would wait for a message
+  wrenches_.release();      // no forces from here on
+  device_queue_.disable();  // otherwise the spinner would wait for a message
   device_spinner_.stop();
   for (const auto& input : inputs_) input->unsubscribe();
 }
 
-/// In place of the tissue that did not come to be.
+/// Shows a failure in place of the tissue.
 void Simulator::tellFailure(const std::string& why) {
-  constexpr std::chrono::milliseconds kFlush{50};  // roscpp writes on a thread of its own: it has by then
+  constexpr std::chrono::milliseconds kFlush{50};  // roscpp writes on its own thread; it has done so after this time
   publisher_.tell(why);
   std::this_thread::sleep_for(kFlush);
 }
@@ -274,7 +275,7 @@ void Simulator::run() {
     if (!ready_) tellFailure(oneLine(error.what()));
     throw;
   }
-  scenes_.bury(loop_.takeSession());
+  scenes_.retire(loop_.takeSession());
   if (failed()) std::rethrow_exception(error_);
   if (lost) throw *lost;
 }

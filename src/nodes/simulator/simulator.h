@@ -33,22 +33,22 @@
 #include "nodes/simulator/simulator_settings.h"
 #endif
 #include "nodes/forces/wrench_publisher.h"
-#include "nodes/hands/stylus_input.h"
+#include "nodes/input/stylus_input.h"
 #include "nodes/views/tick_publisher.h"
 #include "nodes/views/tool_frame_publisher.h"
 #include "session/recording_switch.h"
 
 namespace viscera::nodes {
 
-/// The node: stylus inputs -> simulation loop -> frame publisher, with services and diagnostics beside it.
+/// The simulator node: stylus inputs, simulation loop and frame publisher, with services and diagnostics.
 class Simulator {
  public:
-  /// @param end, scenes, recordings  must outlive this
+  /// @param end, scenes, recordings  must outlive this object
   Simulator(const SimulatorOptions& options, EndWatch& end, SceneSwitch& scenes, RecordingSwitch& recordings);
   ~Simulator();
 
-  /// Runs until the end begins, or another scene waits for its place.
-  /// @throws what ends the simulation: GpuError, MeshError, ...; Error if the master is lost
+  /// Runs until the end begins or another scene replaces this one.
+  /// @throws the error that ends the simulation: GpuError, MeshError, ...; Error if the master is lost
   void run();
 
  private:
@@ -57,9 +57,9 @@ class Simulator {
   static std::vector<std::string> toolFrames(const Scene& scene, const std::string& prefix);
   std::vector<const StylusMailbox*> mailboxes() const;
   LoopPorts ports();
-  Wants placed(Wants wants) const;
+  FrameRequest placed(FrameRequest wants) const;
   void deliver(Frame&& frame, const StylusSamples& samples, bool live);
-  /// Ends forces at once, and the node as soon as run() sees it.
+  /// Stops forces at once, and ends the node when run() sees the error.
   void fail(std::exception_ptr error);
   void listen();
   void warnOfStalls();
@@ -67,7 +67,7 @@ class Simulator {
   void reportProgress(const std::string& stage, double fraction);
   int preparingPercent() const;
   void tellFailure(const std::string& why);
-  /// Ends all that ticks do not need, while they go on: another simulator waits for the place of this one.
+  /// Ends everything that ticks do not need, while they continue, because another simulator waits to replace this one.
   void stepAside(ros::AsyncSpinner& spinner);
 
   EndWatch& end_;
@@ -78,22 +78,22 @@ class Simulator {
   FrameListener listener_;
   ObstacleFrames obstacles_;
   CameraFrames camera_frames_;
-  ros::CallbackQueue device_queue_;  ///< of the inputs, which it outlives
+  ros::CallbackQueue device_queue_;  ///< queue of the inputs; must outlive them
   SimulatorDiagnostics::Inputs inputs_;
   std::mutex error_mutex_;
-  std::exception_ptr error_;  ///< of a thread that publishes
+  std::exception_ptr error_;  ///< error of a publishing thread
   WrenchPublisher wrenches_;
   EndWatch::Act release_;
-  Preparation preparation_;  ///< of the simulation's thread
+  Preparation preparation_;  ///< used on the simulation thread
   ToolFramePublisher tool_frames_;
   FramePublisher publisher_;
   TickPublisher ticks_;
   SamplesPublisher samples_;
   ObstacleForcePublisher obstacle_forces_;
   std::atomic<int> preparing_percent_{0};
-  std::atomic<bool> ready_{false};  ///< the session is made: devices may be listened to
+  std::atomic<bool> ready_{false};  ///< whether the session exists, so that devices may be subscribed to
   bool listening_ = false;
-  uint64_t stalls_ = 0;  ///< that were warned of
+  uint64_t stalls_ = 0;  ///< number of stalls that were warned of
   std::string recording_fault_;
   TaskSwitch tasks_;
   SimulationLoop loop_;

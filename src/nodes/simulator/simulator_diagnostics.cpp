@@ -34,9 +34,9 @@ void addLatency(const std::string& name, const LatencyMeter::Reading& reading,
 
 void warnOfSlowness(const PaceMeter::Reading& pace, double tick_s) {
   ROS_WARN(
-      "slower than real time: factor %.2g for 2 s, a tick of %.3g ms takes %.3g ms. Ways out: a coarser "
+      "slower than real time: factor %.2g for 2 s, a tick of %.3g ms takes %.3g ms. Possible remedies: a coarser "
       "bodies[].spacing_m, or 'auto'; a larger solver.dt_fraction, or solver.integrator 'pd'; fewer or smaller images "
-      "(cameras[].rate_hz, width_px, height_px) and a lower ~surface_rate_hz; other programs that leave the processors",
+      "(cameras[].rate_hz, width_px, height_px) and a lower ~surface_rate_hz; fewer other programs",
       pace.real_time_factor, 1e3 * tick_s, 1e3 * pace.step_mean_s);
 }
 
@@ -65,7 +65,7 @@ SimulatorDiagnostics::SimulatorDiagnostics(ros::NodeHandle node, const Scene& sc
     updater_.add(inputs_[i]->mailbox().config().name, [this, i](Status& status) { stylus(i, status); });
   if (!obstacles_.empty()) updater_.add("obstacles", this, &SimulatorDiagnostics::obstacles);
   if (!camera_frames_.empty()) updater_.add("cameras", this, &SimulatorDiagnostics::cameras);
-  // Forced from the steady clock, since the updater's own period follows ROS time, which may stand still.
+  // Uses the steady clock: the updater's own period follows ROS time, which may stand still.
   timer_ = node.createSteadyTimer(ros::WallDuration(kPeriod_s), [this](const ros::SteadyTimerEvent&) { update(); });
 }
 
@@ -78,7 +78,7 @@ void SimulatorDiagnostics::update() {
   updater_.force_update();
 }
 
-/// Adds a status for each process of the scene once its session is there.
+/// Adds a status for each process of the scene once the session exists.
 void SimulatorDiagnostics::addProcesses() {
   if (!now_) return;
   for (const FactGroup& group : now_->facts) {
@@ -87,7 +87,7 @@ void SimulatorDiagnostics::addProcesses() {
   }
 }
 
-/// Of a simulation that is slower than real time they come the more seldom; in a pause they come if something changes.
+/// Warns of slow images. A simulation slower than real time makes fewer; while paused, images are sent on changes only.
 void SimulatorDiagnostics::watchPictures() {
   if (!now_ || !now_->pictures) return;
   if (!std::exchange(told_ways_, true)) {
@@ -110,10 +110,10 @@ void SimulatorDiagnostics::simulation(Status& status) {
   if (!now_) return status.summary(Level::OK, "preparing");
   status.summary(Level::OK, now_->paused ? "paused" : "running");
   if (now_->stats.crowded)
-    status.summaryf(Level::WARN, "%u nodes touch nothing: too many lie in one place for collision to compare them",
+    status.summaryf(Level::WARN, "%u nodes have no contacts: too many are at one position for the collision search",
                     now_->stats.crowded);
   if (now_->health.recovering) status.summary(Level::WARN, "recovering from an instability: no forces");
-  if (now_->stats.nonfinite) status.summary(Level::ERROR, "nodes are not finite: call reset");
+  if (now_->stats.nonfinite) status.summary(Level::ERROR, "nodes are not finite; call reset");
   status.add("gpu", now_->gpu);
   status.add("gpu_is_software", now_->software_gpu);
   status.add("backend", now_->backend);
@@ -128,7 +128,7 @@ void SimulatorDiagnostics::simulation(Status& status) {
   status.add("nonfinite_nodes", now_->stats.nonfinite);
   status.add("max_stretch", fromBits(now_->stats.max_stretch_bits));
   status.add("max_speed_m_per_s", fromBits(now_->stats.max_speed_bits));
-  status.add("governor_trips", now_->health.trips);
+  status.add("roll_backs", now_->health.trips);
   status.add("recovering", now_->health.recovering);
   status.add("strained", now_->health.strained);
   status.add("kinetic_energy_j", now_->stats.kinetic_j);
@@ -151,14 +151,14 @@ void SimulatorDiagnostics::simulation(Status& status) {
 void SimulatorDiagnostics::pace(Status& status) {
   if (!now_) return status.summary(Level::OK, "preparing");
   const PaceMeter::Reading& pace = now_->pace;
-  const bool slow = !now_->paused && pace.real_time_factor < KeepUp::kSlow;
-  status.summary(slow ? Level::WARN : Level::OK, slow ? "slower than real time" : "keeps up");
+  const bool slow = !now_->paused && pace.real_time_factor < AdaptiveResolution::kSlow;
+  status.summary(slow ? Level::WARN : Level::OK, slow ? "slower than real time" : "real time");
   if (!now_->paused && slowness_.note(slow)) warnOfSlowness(pace, tick_s_);
-  const std::string finer = now_->paused ? "" : publishers_.keep_up.note(pace.real_time_factor, now_->tick);
+  const std::string finer = now_->paused ? "" : publishers_.adaptive_resolution.note(pace.real_time_factor, now_->tick);
   if (!finer.empty()) ROS_WARN("%s", finer.c_str());
   if (!slow && pictures_.areBehind())
-    status.summary(Level::WARN, "keeps up, but pictures come less than a third as often as wanted");
-  if (publishers_.wrenches.stalled()) status.summary(Level::WARN, "ticks do not come in time: forces are zero");
+    status.summary(Level::WARN, "real time, but pictures have less than a third of their rate");
+  if (publishers_.wrenches.stalled()) status.summary(Level::WARN, "ticks are late: forces are zero");
   status.add("real_time_factor", pace.real_time_factor);
   status.add("step_mean_ms", 1e3 * pace.step_mean_s);
   status.add("step_max_ms", 1e3 * pace.step_max_s);
@@ -170,7 +170,7 @@ void SimulatorDiagnostics::pace(Status& status) {
 }
 
 void SimulatorDiagnostics::latency(Status& status) {
-  status.summary(Level::OK, "from the arrival of a pose to the sending of what answers it");
+  status.summary(Level::OK, "from the arrival of a pose to the sending of the response");
   for (size_t i = 0; i < inputs_.size(); ++i)
     addLatency("pose_to_force_" + inputs_[i]->mailbox().config().name, force_latencies_[i], status);
   addLatency("pose_to_surface", latencies_.surface, status);
@@ -181,28 +181,28 @@ void SimulatorDiagnostics::obstacles(Status& status) {
   const uint64_t missed = obstacles_.missed();
   const bool missing = missed > missed_before_;
   missed_before_ = missed;
-  const uint64_t held_back = obstacles_.heldBack();
-  const bool jumping = held_back > held_back_before_;
-  held_back_before_ = held_back;
+  const uint64_t speed_limited = obstacles_.speedLimited();
+  const bool jumping = speed_limited > speed_limited_before_;
+  speed_limited_before_ = speed_limited;
   status.summary(missing || jumping ? Level::WARN : Level::OK,
-                 missing   ? "a frame is not known, or from too long ago: its obstacle stays"
-                 : jumping ? "faster than tissue can follow: held back"
+                 missing   ? "a frame is unknown or too old: its obstacle keeps its pose"
+                 : jumping ? "faster than tissue can follow: speed limited"
                            : "carried");
   status.add("frames_found", obstacles_.found());
   status.add("frames_missed", missed);
-  status.add("ticks_held_back", held_back);
+  status.add("ticks_speed_limited", speed_limited);
 }
 
 void SimulatorDiagnostics::cameras(Status& status) {
   const uint64_t missed = camera_frames_.missed();
   const bool missing = missed > std::exchange(cameras_missed_before_, missed);
   status.summary(missing ? Level::WARN : Level::OK,
-                 missing ? "a frame is not known, or from too long ago: its camera stays" : "carried");
+                 missing ? "a frame is unknown or too old: its camera keeps its pose" : "carried");
   status.add("frames_found", camera_frames_.found());
   status.add("frames_missed", missed);
 }
 
-/// Every fact of a process, as metrics.json has them.
+/// Reports all facts of a process, as in metrics.json.
 void SimulatorDiagnostics::process(const std::string& name, Status& status) {
   status.summary(Level::OK, "preparing");
   for (const FactGroup& group : now_ ? now_->facts : FactGroups{}) {
@@ -221,23 +221,23 @@ void SimulatorDiagnostics::stylus(size_t index, Status& status) {
 
   status.summary(Level::OK, in.seen ? "tracked" : "no pose yet");
   if (in.stale) status.summary(input.hasPublisher() ? Level::WARN : Level::OK, "the last pose is stale");
-  if (now_ && now_->held_back[index]) status.summary(Level::WARN, "faster than tissue can follow: held back");
+  if (now_ && now_->speed_limited[index]) status.summary(Level::WARN, "faster than tissue can follow: speed limited");
   const std::string rivals = input.rivals();
   if (!rivals.empty()) status.summary(Level::WARN, "several nodes send poses: " + rivals);
   if (now_ && now_->inside[index])
-    status.summary(Level::WARN, "appeared inside tissue: no force until the tip was outside");
+    status.summary(Level::WARN, "appeared inside tissue: no force until the tip has been outside");
   if (dropping) status.summary(Level::WARN, "messages are dropped");
   status.add("device", input.mailbox().device().about);
   status.add("has_publisher", input.hasPublisher());
   status.add("input_age_s", in.input_age_s);
   status.add("poses_accepted", in.accepted);
-  status.add("presses_ignored", in.presses_ignored);
+  status.add("button_presses_ignored", in.button_presses_ignored);
   status.add("clutched", in.clutched);
   status.add("base_moves", in.base_moves);
   for (size_t i = 0; i < kDropReasons; ++i)
     status.add(std::string("dropped_") + text(static_cast<Drop>(i)), in.dropped[i]);
   if (index < felt_.size()) {
-    const ForceLoop::Felt& felt = felt_[index];
+    const ForceLoop::HapticStats& felt = felt_[index];
     const uint64_t before = index < felt_before_.size() ? felt_before_[index].answers : 0;
     status.add("haptic_answers", felt.answers);
     status.add("haptic_rate_hz", static_cast<double>(felt.answers - before) / kPeriod_s);

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "calibration/keep_up.h"
+#include "calibration/adaptive_resolution.h"
 #include "nodes/forces/wrench_publisher.h"
-#include "nodes/hands/stylus_input.h"
+#include "nodes/input/stylus_input.h"
 #include "nodes/ros/slowness.h"
 #include "nodes/simulator/obstacle_frames.h"
 #include "nodes/simulator/simulation_loop.h"
@@ -25,7 +25,7 @@
 
 namespace viscera::nodes {
 
-/// Sends /diagnostics once a second: health of the simulation, its pace, how long an answer takes, and every stylus.
+/// Publishes /diagnostics once a second: health and pace of the simulation, latencies, and every stylus.
 class SimulatorDiagnostics {
  public:
   using Inputs = std::vector<std::unique_ptr<StylusInput>>;
@@ -34,11 +34,11 @@ class SimulatorDiagnostics {
     FramePublisher& frames;
     WrenchPublisher& wrenches;
     const RecordingSwitch& recordings;
-    KeepUp& keep_up;
-    std::function<int()> preparing_percent;  ///< of a scene that is being made; below 0: none is
+    AdaptiveResolution& adaptive_resolution;
+    std::function<int()> preparing_percent;  ///< returns the progress of a new scene [%]; below 0: none
   };
 
-  /// @param loop, publishers, inputs, obstacles, camera_frames  must outlive this
+  /// @param loop, publishers, inputs, obstacles, camera_frames  must outlive this object
   SimulatorDiagnostics(ros::NodeHandle node, const Scene& scene, SimulationLoop& loop, const Publishers& publishers,
                        const Inputs& inputs, const ObstacleFrames& obstacles, const CameraFrames& camera_frames);
 
@@ -62,19 +62,19 @@ class SimulatorDiagnostics {
   const ObstacleFrames& obstacles_;
   const CameraFrames& camera_frames_;
   uint64_t cameras_missed_before_ = 0;
-  uint64_t missed_before_ = 0;        ///< frames of obstacles
-  uint64_t held_back_before_ = 0;     ///< ticks of obstacles
-  std::vector<std::string> cameras_;  ///< their names
-  std::set<std::string> processes_;   ///< names of those that have a status
-  const std::string scene_;           ///< its name
+  uint64_t missed_before_ = 0;        ///< number of missed lookups of obstacles' frames
+  uint64_t speed_limited_before_ = 0;     ///< number of ticks in which obstacles were limited in speed
+  std::vector<std::string> cameras_;  ///< names of the cameras
+  std::set<std::string> processes_;   ///< names of the processes that have a status
+  const std::string scene_;           ///< name of the scene
   const double tick_s_;
   Slowness slowness_;
   PictureWatch pictures_;
-  bool told_ways_ = false;  ///< how pictures are drawn
+  bool told_ways_ = false;  ///< whether it was logged how images are drawn
   std::optional<LoopStatus> now_;
   FramePublisher::Latencies latencies_;
   std::vector<LatencyMeter::Reading> force_latencies_;  ///< [styluses]
-  std::vector<ForceLoop::Felt> felt_, felt_before_;     ///< [styluses]
+  std::vector<ForceLoop::HapticStats> felt_, felt_before_;     ///< [styluses]
   std::vector<uint64_t> dropped_before_;
   diagnostic_updater::Updater updater_;
   ros::SteadyTimer timer_;

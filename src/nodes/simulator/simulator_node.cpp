@@ -18,7 +18,7 @@
 namespace viscera::nodes {
 namespace {
 
-/// One scene after another, as the service load_scene asks for them.
+/// Runs one scene after another, as service load_scene requests them.
 void runScenes(SimulatorOptions options, const std::string& package_folder, EndWatch& end) {
   RecordingSwitch recordings(options.record);
   SceneSwitch scenes(ros::NodeHandle(), options, package_folder);
@@ -41,7 +41,7 @@ void runScenes(SimulatorOptions options, const std::string& package_folder, EndW
 }  // namespace viscera::nodes
 
 int main(int argc, char** argv) {
-  const viscera::nodes::Relaunch relaunch(argc, argv);  // roscpp takes arguments away
+  const viscera::nodes::Relaunch relaunch(argc, argv);  // roscpp removes arguments
   return viscera::nodes::nodeMain(argc, argv, "simulator", [&relaunch](viscera::nodes::EndWatch& end) {
     relaunch.requireParameters();
     auto parameters = viscera::nodes::Parameters::ofThisNode();

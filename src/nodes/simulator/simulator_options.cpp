@@ -10,7 +10,7 @@ namespace viscera::nodes {
 namespace {
 
 HapticOptions hapticOptions(Parameters& parameters) {
-  constexpr double kSlowest_hz = 100, kFastest_hz = 5000;  // slower than this a tick is as good
+  constexpr double kSlowest_hz = 100, kFastest_hz = 5000;  // below this, one force per tick is as good
   HapticOptions options;
   options.rate_hz = parameters.number("haptic_rate_hz", options.rate_hz, 0, kFastest_hz);
   if (options.rate_hz > 0 && options.rate_hz < kSlowest_hz)
@@ -20,7 +20,7 @@ HapticOptions hapticOptions(Parameters& parameters) {
   return options;
 }
 
-/// To folders and what comes with the package; to none where there are no folders.
+/// Restricts files to the folders and those of the package; no restriction if there are no folders.
 void bindFiles(std::vector<std::string> folders, const std::string& package_folder) {
   if (!folders.empty()) folders.push_back(package_folder + "/config");
   bindFilesTo(folders, "parameter ~scene_folders");

@@ -9,7 +9,7 @@
 #include "devices/device_profile.h"
 #include "nodes/forces/haptic_options.h"
 #include "nodes/forces/launch_limits.h"
-#include "nodes/hands/device_choice.h"
+#include "nodes/input/device_choice.h"
 #include "nodes/ros/parameters.h"
 #include "nodes/ros/publish_options.h"
 #include "nodes/ros/scene_choice.h"
@@ -17,32 +17,32 @@
 
 namespace viscera::nodes {
 
-/// What the private parameters of the simulator say.
+/// The private parameters of the simulator.
 struct SimulatorOptions {
   static constexpr double kLeastSurfaceRate_hz = 0.1, kMostSurfaceRate_hz = 1000;
-  std::string package_folder;                 ///< where config/ is
-  SceneChoice choice;                         ///< what the scene was made of
-  Scene scene;                                ///< its styluses have the limits of their devices
+  std::string package_folder;                 ///< folder that contains config/
+  SceneChoice choice;                         ///< parameters that chose the scene
+  Scene scene;                                ///< scene; its styluses have the limits of their devices
   std::vector<DeviceProfile> devices;         ///< [styluses]
-  DeviceChoices device_choices;               ///< by the styluses' names, which another scene may have too
-  std::optional<LaunchLimits> launch_limits;  ///< of the first scene; null: not read yet
-  std::vector<std::string> limit_notes;       ///< a line for each limit of this scene that those have lowered
+  DeviceChoices device_choices;               ///< devices by names of styluses, which another scene may also have
+  std::optional<LaunchLimits> launch_limits;  ///< limits of the first scene; empty: not read yet
+  std::vector<std::string> limit_notes;       ///< a line for each limit of this scene that the launch limits lowered
   PublishOptions publish;
-  std::string saved_folder = "viscera_saved";  ///< of `save_state`, `load_state` and `save_surface`
-  double saved_limit_gb = 50;                  ///< of all files in it
+  std::string saved_folder = "viscera_saved";  ///< folder of `save_state`, `load_state` and `save_surface`
+  double saved_limit_gb = 50;                  ///< limit of all files in it [GB]
   std::string record;                          ///< file or folder of a recording; empty: none
-  double stall_ticks = 3;                      ///< forces are zero from so many ticks without one on
-  double max_transform_age_s = 0.5;            ///< of what tf knows of a frame that moves
+  double stall_ticks = 3;                      ///< number of tick periods without a tick after which forces are zero
+  double max_transform_age_s = 0.5;            ///< largest age of a moving frame's transform [s]
   HapticOptions haptics;
 
-  /// Another scene, whose styluses have the devices that were chosen for those of their names, and no limits of forces
-  /// above those that the launch set.
+  /// Loads another scene. Its styluses get the devices that were chosen for their names, and no force limits above
+  /// those of the launch.
   /// @throws ParameterError, DeviceError, RegistrationError
   void take(const SceneChoice& choice, const std::string& package_folder);
 };
 
-/// Binds this process to the files of ~scene_folders, if there are any.
-/// @param package_folder  where config/scenes/<name>.yaml and config/devices/<name>.yaml are looked up
+/// Reads the parameters. Restricts this process to the files of ~scene_folders, if it is set.
+/// @param package_folder  folder with config/scenes/<name>.yaml and config/devices/<name>.yaml
 /// @throws ParameterError, SceneError, DeviceError, FileBoundError
 SimulatorOptions simulatorOptions(Parameters& parameters, const std::string& package_folder);
 

@@ -10,7 +10,7 @@
 #include "math/nearest_names.h"
 #include "math/number_text.h"
 #include "model/scene/tool_kinds.h"
-#include "nodes/hands/stylus_mailbox.h"
+#include "nodes/input/stylus_mailbox.h"
 #include "nodes/ros/conversions.h"
 #include "viscera/math/error.h"
 #include "viscera/session/session.h"
@@ -19,11 +19,11 @@
 namespace viscera::nodes {
 namespace {
 
-constexpr std::chrono::seconds kTriggerLimit{10};  ///< a tick, however slow, and a reset
+constexpr std::chrono::seconds kTriggerLimit{10};  ///< enough for a slow tick and a reset
 constexpr std::chrono::seconds kStepLimit{60};
-constexpr uint32_t kServices = 14;  ///< one thread each
+constexpr uint32_t kServices = 14;  ///< number of services, with one thread each
 
-/// Waits for what a command comes to.
+/// Waits for the result of a command.
 template <class Response>
 void answer(CommandQueue& commands, Command&& command, Response& response) {
   const CommandAnswer answer = commands.call(std::move(command), kTriggerLimit);
@@ -37,7 +37,7 @@ size_t indexOf(const std::string& stylus, const std::vector<StylusConfig>& stylu
   return s;
 }
 
-/// @throws Error  a name that the scene does not have
+/// Returns the index of a stylus. @throws Error  the scene has no such stylus
 size_t stylusNamed(const std::string& name, const std::vector<StylusConfig>& styluses) {
   const size_t s = indexOf(name, styluses);
   if (s < styluses.size()) return s;
@@ -47,55 +47,55 @@ size_t stylusNamed(const std::string& name, const std::vector<StylusConfig>& sty
               (known.empty() ? "none" : nearestFirstText(name, known)));
 }
 
-/// @throws Error  another word than idle, button1, button2
+/// Returns a switch by name. @throws Error  another word than idle, button1, button2
 ToolSwitch switchNamed(const std::string& name) {
   if (name == "idle") return ToolSwitch::kIdle;
   if (name == "button1") return ToolSwitch::kButton1;
   if (name == "button2") return ToolSwitch::kButton2;
-  throw Error("which: '" + name + "' is none of idle, button1, button2");
+  throw Error("which: '" + name + "' is not one of idle, button1, button2");
 }
 
-/// @throws Error  a mode that no kind of tool has
+/// Returns a mode by name. @throws Error  no kind of tool has this mode
 ToolMode modeNamed(const std::string& name) {
   std::vector<std::string> known;
   for (const ToolKind& kind : kToolKinds) {
     if (name == kind.name) return kind.mode;
     known.emplace_back(kind.name);
   }
-  throw Error("mode: '" + name + "' is none of " + nearestFirstText(name, known));
+  throw Error("mode: '" + name + "' is not one of " + nearestFirstText(name, known));
 }
 
-/// @throws Error  a thread or piece that there is not
+/// Returns the index of a piece. @throws Error  there is no such suture or piece
 size_t pieceNamed(const Session& session, const std::string& name, uint32_t which) {
-  const std::vector<ThreadConfig>& threads = session.scene().threads;
+  const std::vector<SutureConfig>& sutures = session.scene().sutures;
   uint32_t pieces = 0;
-  for (size_t p = 0; p < threadPieces(session); ++p) {
-    if (threads[threadOf(session, p)].name == name && pieces++ == which) return p;
+  for (size_t p = 0; p < suturePieces(session); ++p) {
+    if (sutures[sutureOf(session, p)].name == name && pieces++ == which) return p;
   }
   if (pieces > 0)
-    throw Error("piece: thread '" + name + "' is in " + std::to_string(pieces) + ", there is no " +
-                std::to_string(which));
+    throw Error("piece: suture '" + name + "' has " + std::to_string(pieces) + (pieces == 1 ? " piece" : " pieces") +
+                ", but no piece " + std::to_string(which));
   std::string known;
-  for (const ThreadConfig& thread : threads) known += (known.empty() ? "" : ", ") + thread.name;
-  throw Error("thread: the scene has no thread '" + name + "'; it has " + (known.empty() ? "none" : known));
+  for (const SutureConfig& suture : sutures) known += (known.empty() ? "" : ", ") + suture.name;
+  throw Error("suture: the scene has no suture '" + name + "'; it has " + (known.empty() ? "none" : known));
 }
 
-/// @throws Error  it is not in that range
+/// Returns a value within a range. @throws Error  it is out of range
 double within(const char* key, double value, double low, double high) {
   if (value >= low && value <= high) return value;
   throw Error(std::string(key) + ": " + numberText(value) + " must be " + numberText(low) + " .. " + numberText(high));
 }
 
-/// Where a step takes the styluses. @throws Error  a name that the scene does not have, or twice; no pose
+/// Returns the samples that a step moves to. @throws Error  an unknown name, a repeated name, an invalid pose
 StylusSamples samplesOf(const std::vector<StylusState>& states, const std::vector<StylusConfig>& styluses) {
   StylusSamples samples;
   for (const StylusState& state : states) {
     const size_t s = indexOf(state.stylus, styluses);
     if (s == styluses.size()) throw Error("styluses: the scene has no stylus '" + state.stylus + "'");
-    if (samples[s].valid) throw Error("styluses: '" + state.stylus + "' is there twice");
+    if (samples[s].valid) throw Error("styluses: '" + state.stylus + "' is given twice");
     Pose pose = fromMessage(state.pose);
     if (!isFinite(pose) || !isUnit(pose.orientation))
-      throw Error("styluses: the pose of '" + state.stylus + "' must be finite, its quaternion of length 1");
+      throw Error("styluses: the pose of '" + state.stylus + "' must be finite, with a quaternion of length 1");
     pose.orientation.normalize();
     if (!(pose.position_m.norm() <= styluses[s].workspace_m))
       throw Error("styluses: '" + state.stylus + "' is farther than workspace_m from the tissue frame");
@@ -108,10 +108,10 @@ StylusSamples samplesOf(const std::vector<StylusState>& states, const std::vecto
 }
 
 std::string saveSurface(Session& session, const std::string& path) {
-  Wants wants;
+  FrameRequest wants;
   wants.surface = true;
   const std::unique_ptr<SurfaceFrame> skin = session.show(wants).surface;
-  if (!skin) throw Error("the skin of tick " + std::to_string(session.tick()) + " did not come");
+  if (!skin) throw Error("the skin of tick " + std::to_string(session.tick()) + " is missing");
   writeSkin(session, *skin, path);
   return path;
 }
@@ -134,7 +134,7 @@ SimulatorServices::SimulatorServices(ros::NodeHandle node, const std::vector<Sty
   servers_.push_back(node.advertiseService("step", &SimulatorServices::onStep, this));
   servers_.push_back(node.advertiseService("set_overlays", &SimulatorServices::onSetOverlays, this));
   servers_.push_back(node.advertiseService("set_tool_mode", &SimulatorServices::onSetToolMode, this));
-  servers_.push_back(node.advertiseService("tie_thread", &SimulatorServices::onTieThread, this));
+  servers_.push_back(node.advertiseService("tie_suture", &SimulatorServices::onTieSuture, this));
   advertiseFile(node, "save_state", false, [this](Session& session, const std::string& path) {
     saved_folder_.room();
     session.save(path);
@@ -201,7 +201,8 @@ void SimulatorServices::advertiseTrigger(ros::NodeHandle& node, const std::strin
   servers_.push_back(node.advertiseService<Request, Response>(name, serve));
 }
 
-/// Modes come with the state, and settings are told of them; limits of forces are those of now, which devices have.
+/// Loads a state. Tool modes come with the state, and the settings are updated. Force limits stay as they are, since
+/// they depend on the devices.
 std::string SimulatorServices::loadState(Session& session, const std::string& path) const {
   std::vector<ForceLimits> limits;
   for (size_t s = 0; s < styluses_.size(); ++s) limits.push_back(session.forceLimits(s));
@@ -249,7 +250,7 @@ bool SimulatorServices::onSetToolMode(SetToolMode::Request& request, SetToolMode
     command.change = [=](Session& session) {
       session.setToolMode(stylus, when, mode);
       if (mode_set_) mode_set_(stylus, when, mode);
-      return "from the next tick on";
+      return "applies from the next tick on";
     };
     answer(commands_, std::move(command), response);
   } catch (const Error& error) {
@@ -258,23 +259,23 @@ bool SimulatorServices::onSetToolMode(SetToolMode::Request& request, SetToolMode
   return true;
 }
 
-bool SimulatorServices::onTieThread(TieThread::Request& request, TieThread::Response& response) {
+bool SimulatorServices::onTieSuture(TieSuture::Request& request, TieSuture::Response& response) {
   try {
-    ThreadTie tie;
+    SutureTie tie;
     if (!request.knot.empty()) tie.knot = knotNamed(request.knot);
     if (request.tension_n != 0) tie.tension_n = within("tension_n", request.tension_n, 1e-3, 100);
     tie.holds_n = within("holds_n", request.holds_n, 0, 1000);
     if (!request.strand_m.empty()) {
       if (request.strand_m.size() != 3)
-        throw Error("strand_m: " + std::to_string(request.strand_m.size()) + " numbers; 3, or none");
+        throw Error("strand_m: " + std::to_string(request.strand_m.size()) + " numbers; 3 or none are accepted");
       tie.to = TieTo::kStrand;
       for (int axis = 0; axis < 3; ++axis)
         tie.strand_m[axis] = within("strand_m", request.strand_m[static_cast<size_t>(axis)], -10, 10);
     }
     Command command;
     command.kind = Command::Kind::kChange;
-    command.change = [=, name = request.thread, which = request.piece](Session& session) {
-      session.tieThread(pieceNamed(session, name, which), tie);
+    command.change = [=, name = request.suture, which = request.piece](Session& session) {
+      session.tieSuture(pieceNamed(session, name, which), tie);
       return std::string(nameOf(tie.knot)) + ", drawn from the next tick on";
     };
     answer(commands_, std::move(command), response);

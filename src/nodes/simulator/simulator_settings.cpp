@@ -14,10 +14,10 @@
 namespace viscera::nodes {
 namespace {
 
-constexpr std::chrono::seconds kLimit{10};  ///< a tick, however slow
+constexpr std::chrono::seconds kLimit{10};  ///< enough for a slow tick
 constexpr const char* kSwitches[] = {"idle", "button1", "button2"};
 
-/// A visitor of a struct's scene keys that takes the numbers of some of them: their ranges and meanings.
+/// Visitor of a struct's scene keys that collects ranges and meanings of some numbers.
 class SomeKeys {
  public:
   explicit SomeKeys(std::vector<std::string> names) : names_(std::move(names)) {}
@@ -45,7 +45,7 @@ class SomeKeys {
   void choice(const char*, E&, const List&, const char*) {}
 
   std::vector<Setting> settings;
-  std::vector<double*> values;  ///< of the struct, one for each setting
+  std::vector<double*> values;  ///< [settings] pointers into the struct
 
  private:
   const std::vector<std::string> names_;
@@ -69,7 +69,7 @@ ToolMode simulatorSettingsModeNamed(const std::string& name) {
 }
 
 Setting modeSetting(const char* name, ToolMode mode) {
-  Setting out{name, std::string("what the stylus does: ") + name, 0, 0, 0, {}, nameOf(mode)};
+  Setting out{name, std::string("tool mode of the stylus: ") + name, 0, 0, 0, {}, nameOf(mode)};
   for (const ToolKind& kind : kToolKinds) out.choices.emplace_back(kind.name);
   return out;
 }
@@ -89,7 +89,7 @@ SimulatorSettings::~SimulatorSettings() {
   spinner_.stop();
 }
 
-/// Has something done by the simulation's thread, between ticks. @throws Error  why it was not
+/// Runs a change on the simulation thread, between ticks. @throws Error  reason of the failure
 void SimulatorSettings::change(const std::function<void(Session&)>& make) {
   Command command;
   command.kind = Command::Kind::kChange;
@@ -105,7 +105,7 @@ void SimulatorSettings::addSurface(const SimulatorOptions& options) {
   ros::NodeHandle node("~");
   node.setCallbackQueue(&queue_);
   const Setting rate = {"surface_rate_hz",
-                        "most often that surface and surface_marker are sent [Hz]",
+                        "largest rate at which surface and surface_marker are sent [Hz]",
                         SimulatorOptions::kLeastSurfaceRate_hz,
                         SimulatorOptions::kMostSurfaceRate_hz,
                         options.publish.surface_rate_hz,
@@ -135,7 +135,7 @@ void SimulatorSettings::addStylus(size_t stylus, const StylusConfig& config) {
   ros::NodeHandle node("~" + config.name);
   node.setCallbackQueue(&queue_);
   std::vector<Setting> settings = limitsOf(styluses_[stylus]).settings;
-  // Who reaches the master may make forces smaller: the scene and the device's profile say what the hand can take.
+  // Anyone who reaches the master may only lower forces: scene and device profile say what is safe for the user.
   for (Setting& setting : settings) setting.max = setting.number;
   const ToolMode modes[] = {config.idle, config.button1, config.button2};
   for (size_t i = 0; i < 3; ++i) settings.push_back(modeSetting(kSwitches[i], modes[i]));
@@ -153,7 +153,7 @@ void SimulatorSettings::addStylus(size_t stylus, const StylusConfig& config) {
               modes.emplace_back(static_cast<ToolSwitch>(i), simulatorSettingsModeNamed(setting.word));
           }
         }
-        // A scene may be without cuts altogether: these are refused before anything has changed.
+        // The scene may not allow cuts: cutting modes come first, so they are refused before anything has changed.
         std::stable_partition(modes.begin(), modes.end(), [](const auto& it) { return kindOf(it.second).severs(); });
         const ForceLimits limits = ForceLimits::of(next);
         change([this, stylus, modes, limits](Session& session) {

@@ -17,20 +17,20 @@
 
 namespace viscera::nodes {
 
-/// What can be changed by dynamic_reconfigure while the simulation runs: limits of forces and tool modes per stylus
-/// (`~<stylus>`), rates of pictures per camera (`~cameras/<camera>`) and of the surface (`~`). Names, ranges and
-/// meanings are those of the scene's keys; changes are made between ticks, and last until the scene is another one.
+/// Settings that dynamic_reconfigure can change while the simulation runs: limits of forces and tool modes per stylus
+/// (`~<stylus>`), image rates per camera (`~cameras/<camera>`) and the surface rate (`~`). Names, ranges and meanings
+/// are those of the scene's keys. Changes are made between ticks and last until another scene is loaded.
 class SimulatorSettings {
  public:
   struct Publishers {
     FramePublisher& frames;
     WrenchPublisher& wrenches;
   };
-  /// @param commands, publishers  must outlive this
+  /// @param commands, publishers  must outlive this object
   SimulatorSettings(const SimulatorOptions& options, CommandQueue& commands, const Publishers& publishers);
   ~SimulatorSettings();
 
-  /// A mode was changed by the service set_tool_mode.
+  /// Records that service set_tool_mode has changed a mode.
   void noteMode(size_t stylus, ToolSwitch when, ToolMode mode);
 
  private:
@@ -41,7 +41,7 @@ class SimulatorSettings {
 
   CommandQueue& commands_;
   const Publishers publishers_;
-  std::vector<StylusConfig> styluses_;  ///< with what holds; of the queue's thread
+  std::vector<StylusConfig> styluses_;  ///< current settings; used on the queue's thread
   ros::CallbackQueue queue_;
   std::vector<std::unique_ptr<SettingsServer>> stylus_servers_;  ///< [styluses]
   std::vector<std::unique_ptr<SettingsServer>> other_servers_;

@@ -9,11 +9,11 @@
 #include "nodes/simulator/status_watch.h"
 
 int main(int argc, char** argv) {
-  try {  // several may watch at a time; nodeMain() finds it done
+  try {  // several may run at a time; nodeMain() does not repeat it
     ros::init(argc, argv, "status", ros::init_options::NoSigintHandler | ros::init_options::AnonymousName);
     if (!ros::master::check()) {
       std::printf(
-          "no ROS master answers at %s: start one with `roscore` or `roslaunch viscera training.launch`, or set "
+          "no ROS master answers at %s; start one with `roscore` or `roslaunch viscera training.launch`, or set "
           "ROS_MASTER_URI\n",
           ros::master::getURI().c_str());
       return 1;

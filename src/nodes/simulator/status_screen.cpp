@@ -12,8 +12,8 @@
 namespace viscera::nodes {
 namespace {
 
-constexpr size_t kIndent = 14;         ///< of what is said, behind whose it is
-constexpr size_t kFewestColumns = 40;  ///< a narrower window breaks lines by itself
+constexpr size_t kIndent = 14;         ///< column of the text, after the name
+constexpr size_t kFewestColumns = 40;  ///< a narrower window wraps lines itself
 const std::string kDropped = "dropped_";
 const std::string kImageRate = "image_rate_hz_";
 
@@ -21,7 +21,7 @@ bool begins(const std::string& text, const std::string& with) {
   return text.compare(0, with.size(), with) == 0;
 }
 
-/// A text with its number. @param as  with one of %.Nf or %.Ng
+/// Formats a number. @param as  text with one of %.Nf or %.Ng
 std::string format(const std::string& as, double number) {
   const size_t at = as.find("%.");
   const int digits = as[at + 2] - '0';
@@ -29,38 +29,39 @@ std::string format(const std::string& as, double number) {
          as.substr(at + 4);
 }
 
-std::string textOf(const ToldStatus& status, const std::string& key) {
+std::string textOf(const ReceivedStatus& status, const std::string& key) {
   const auto found = status.values.find(key);
   return found == status.values.end() ? "" : found->second;
 }
 
-double numberOf(const ToldStatus& status, const std::string& key) {
+double numberOf(const ReceivedStatus& status, const std::string& key) {
   return readNumber(textOf(status, key)).value_or(0);
 }
 
-bool isTrue(const ToldStatus& status, const std::string& key) {
+bool isTrue(const ReceivedStatus& status, const std::string& key) {
   return textOf(status, key) == "True" || textOf(status, key) == "1";
 }
 
-bool isStylus(const ToldStatus& status) {
+bool isStylus(const ReceivedStatus& status) {
   return status.values.count("poses_accepted") > 0;
 }
 
-const ToldStatus* partOf(const std::vector<ToldStatus>& told, const std::string& node, const std::string& part) {
-  const auto found =
-      std::find_if(told.begin(), told.end(), [&](const ToldStatus& it) { return it.node == node && it.part == part; });
+const ReceivedStatus* partOf(const std::vector<ReceivedStatus>& told, const std::string& node,
+                             const std::string& part) {
+  const auto found = std::find_if(told.begin(), told.end(),
+                                  [&](const ReceivedStatus& it) { return it.node == node && it.part == part; });
   return found == told.end() ? nullptr : &*found;
 }
 
-std::vector<std::string> simulatorsOf(const std::vector<ToldStatus>& told, const StatusView& view) {
+std::vector<std::string> simulatorsOf(const std::vector<ReceivedStatus>& told, const StatusView& view) {
   std::vector<std::string> out;
-  for (const ToldStatus& status : told)
+  for (const ReceivedStatus& status : told)
     if (status.part == "simulation" && (view.simulator.empty() || view.simulator == status.node))
       out.push_back(status.node);
   return out;
 }
 
-/// Lines `whose  said`, broken between words.
+/// Lines of a name and a text, broken between words.
 class Screen {
  public:
   explicit Screen(size_t columns) : columns_(std::max(columns, kFewestColumns)) {}
@@ -87,14 +88,14 @@ class Screen {
   std::string text_;
 };
 
-std::string simulationText(const ToldStatus& status) {
+std::string simulationText(const ReceivedStatus& status) {
   std::string out = status.message;
   if (status.values.count("tick")) out += ", tick " + textOf(status, "tick");
   if (status.values.count("stepped_by")) out += ", stepped by " + textOf(status, "stepped_by");
   return out;
 }
 
-std::string paceText(const ToldStatus& status) {
+std::string paceText(const ReceivedStatus& status) {
   if (!status.values.count("real_time_factor")) return status.message;
   std::string out = format("%.2f of real time", numberOf(status, "real_time_factor"));
   out += format(": a step takes %.3g ms", numberOf(status, "step_mean_ms"));
@@ -102,7 +103,7 @@ std::string paceText(const ToldStatus& status) {
   return out;
 }
 
-std::string ratesText(const ToldStatus& pace) {
+std::string ratesText(const ReceivedStatus& pace) {
   std::string out = format("surface and markers %.3g /s", numberOf(pace, "surface_rate_hz"));
   bool none = numberOf(pace, "surface_rate_hz") == 0;
   for (const auto& [key, value] : pace.values) {
@@ -111,17 +112,17 @@ std::string ratesText(const ToldStatus& pace) {
     none = none || rate_hz == 0;
     out += ", pictures of " + key.substr(kImageRate.size()) + format(" %.3g /s", rate_hz);
   }
-  return none ? out + " (what has no subscriber is not made)" : out;
+  return none ? out + " (topics without a subscriber are not made)" : out;
 }
 
-std::string handText(const ToldStatus& hand) {
+std::string handText(const ReceivedStatus& hand) {
   if (numberOf(hand, "poses_accepted") == 0) {
     const std::string device = " (" + textOf(hand, "device") + ")";
-    return isTrue(hand, "has_publisher") ? "no pose yet, though a device is connected" + device
+    return isTrue(hand, "has_publisher") ? "no pose yet, although a device is connected" + device
                                          : "no device: no poses arrive" + device;
   }
   std::string out = hand.message;
-  if (!isTrue(hand, "has_publisher")) out += ", no poses arrive any more";
+  if (!isTrue(hand, "has_publisher")) out += ", poses no longer arrive";
   if (hand.values.count("force_n")) out += format("; force %.3g N", numberOf(hand, "force_n"));
   if (isTrue(hand, "force_saturated")) out += " (the limit)";
   if (isTrue(hand, "clutched")) out += "; clutched";
@@ -133,7 +134,7 @@ std::string handText(const ToldStatus& hand) {
   return out + format("; last pose %.0f ms ago", 1e3 * numberOf(hand, "input_age_s"));
 }
 
-void sayDrops(Screen& screen, const ToldStatus& hand) {
+void sayDrops(Screen& screen, const ReceivedStatus& hand) {
   for (const auto& [key, value] : hand.values) {
     if (!begins(key, kDropped) || readNumber(value).value_or(0) == 0) continue;
     const std::string reason = key.substr(kDropped.size());
@@ -142,25 +143,26 @@ void sayDrops(Screen& screen, const ToldStatus& hand) {
   }
 }
 
-void saySimulator(Screen& screen, const std::vector<ToldStatus>& told, const std::string& node) {
-  const ToldStatus& simulation = *partOf(told, node, "simulation");
+void saySimulator(Screen& screen, const std::vector<ReceivedStatus>& told, const std::string& node) {
+  const ReceivedStatus& simulation = *partOf(told, node, "simulation");
   screen.title(node + format(", heard %.1f s ago", simulation.age_s));
   if (simulation.age_s > kSilent_s)
-    screen.say("WRONG",
-               "it is silent, and sends once a second: it has ended, hangs, or the network is gone. What "
-               "follows is old");
+    screen.say(
+        "WRONG",
+        "it is silent, although it should send every second: it has ended, hangs, or the network is down. The values "
+        "below are old");
   screen.say("simulation", simulationText(simulation));
-  if (const ToldStatus* pace = partOf(told, node, "pace")) {
+  if (const ReceivedStatus* pace = partOf(told, node, "pace")) {
     screen.say("pace", paceText(*pace));
     if (pace->values.count("surface_rate_hz")) screen.say("sends", ratesText(*pace));
   }
-  for (const ToldStatus& status : told) {
+  for (const ReceivedStatus& status : told) {
     if (status.node != node || !isStylus(status)) continue;
     screen.say(status.part, handText(status));
     sayDrops(screen, status);
   }
   bool well = simulation.age_s <= kSilent_s;
-  for (const ToldStatus& status : told) {
+  for (const ReceivedStatus& status : told) {
     if (status.node != node || status.level == 0) continue;
     screen.say(status.level > 1 ? "ERROR" : "WARNING", status.part + ": " + status.message);
     well = false;
@@ -168,21 +170,21 @@ void saySimulator(Screen& screen, const std::vector<ToldStatus>& told, const std
   if (well) screen.say("wrong", "nothing");
 }
 
-void sayNobody(Screen& screen, const std::vector<ToldStatus>& told, const StatusView& view) {
+void sayNobody(Screen& screen, const std::vector<ReceivedStatus>& told, const StatusView& view) {
   const std::string wanted = view.simulator.empty() ? "simulator" : "simulator '" + view.simulator + "'";
   if (view.watched_s < kSilent_s) return screen.title("waiting for /diagnostics of a " + wanted);
   std::vector<std::string> others;
-  for (const ToldStatus& status : told)
+  for (const ReceivedStatus& status : told)
     if (std::find(others.begin(), others.end(), status.node) == others.end()) others.push_back(status.node);
   screen.title("no " + wanted);
   if (others.empty()) {
     screen.say("WRONG", format("no /diagnostics for %.0f s: no simulator runs on the master ", kSilent_s) +
                             view.master_uri + ", or it cannot reach this machine (ROS_IP, ROS_HOSTNAME)");
-    return screen.say("", "start one: roslaunch viscera training.launch");
+    return screen.say("", "start one with roslaunch viscera training.launch");
   }
   std::string names;
   for (const std::string& other : others) names += " " + other;
-  screen.say("WRONG", "those who send /diagnostics are:" + names);
+  screen.say("WRONG", "nodes that send /diagnostics:" + names);
 }
 
 }  // namespace
@@ -191,26 +193,27 @@ std::string meaningOfDrop(const std::string& reason) {
   static const std::map<std::string, std::string> kMeanings = {
       {"stamp_zero", "the device says that its pose is invalid"},
       {"not_finite", "a pose, or the transform to the tissue, is NaN or infinite"},
-      {"bad_quaternion", "its length is not 1: the message is not filled in, or another order of x, y, z, w"},
-      {"no_transform", "tf does not join the frame of the poses to the tissue frame: publish one, or set frame"},
-      {"old_transform", "what tf knows of the frame is old: its broadcaster is dead, or clocks differ"},
-      {"repeated_stamp", "the stamp stands still: the driver hangs"},
+      {"bad_quaternion", "its length is not 1: the message is not filled in, or not in the order x, y, z, w"},
+      {"no_transform",
+       "tf does not connect the frame of the poses to the tissue frame: publish a transform, or set frame"},
+      {"old_transform", "the transform of the frame is old: its broadcaster has died, or clocks differ"},
+      {"repeated_stamp", "the stamp does not change: the driver hangs"},
       {"delayed", "poses are late: the network, or the machine of the driver, is busy"},
       {"outside_workspace", "too far from the tissue: the wrong frame or unit (millimetres?), or workspace_m is small"},
-      {"no_buttons", "the message has no such button or joint as the profile names"},
-      {"button_value", "a button is neither 0, 1 nor 2"},
+      {"no_buttons", "the message lacks the button or joint that the profile names"},
+      {"button_value", "the value of a button is not 0, 1 or 2"},
       {"jaw_angle", "jaws are open by more than half a turn; see gripper.rad_per_unit"}};
   const auto found = kMeanings.find(reason);
   return found == kMeanings.end() ? "" : found->second;
 }
 
-bool isSimulatorTold(const std::vector<ToldStatus>& told, const StatusView& view) {
+bool isSimulatorTold(const std::vector<ReceivedStatus>& told, const StatusView& view) {
   const std::vector<std::string> nodes = simulatorsOf(told, view);
   return std::any_of(nodes.begin(), nodes.end(),
                      [&](const std::string& node) { return partOf(told, node, "simulation")->age_s <= kSilent_s; });
 }
 
-std::string statusScreen(const std::vector<ToldStatus>& told, const StatusView& view) {
+std::string statusScreen(const std::vector<ReceivedStatus>& told, const StatusView& view) {
   Screen screen(view.columns);
   const std::vector<std::string> simulators = simulatorsOf(told, view);
   for (const std::string& node : simulators) saySimulator(screen, told, node);

@@ -8,33 +8,33 @@
 
 namespace viscera::nodes {
 
-/// What /diagnostics has said last of one part of a node.
-struct ToldStatus {
-  std::string node;  ///< as in sim1/simulator
-  std::string part;  ///< as in pace, or a stylus's name
-  int level = 0;     ///< 0 well, 1 a warning, 2 an error
+/// The last diagnostics of one part of a node.
+struct ReceivedStatus {
+  std::string node;  ///< name of the node, as in sim1/simulator
+  std::string part;  ///< name of the part, as in pace, or of a stylus
+  int level = 0;     ///< 0 OK, 1 warning, 2 error
   std::string message;
   std::map<std::string, std::string> values;
-  double age_s = 0;  ///< since it came
+  double age_s = 0;  ///< time since it was received [s]
 };
 
-constexpr double kSilent_s = 3;  ///< of a node that sends once a second: then something is wrong
+constexpr double kSilent_s = 3;  ///< silence after which a node that sends once a second has a problem
 
-/// Where to look for simulators, and how wide the screen is.
+/// Options of the screen.
 struct StatusView {
-  std::string simulator;   ///< of this node alone; empty: of all
-  std::string master_uri;  ///< told where there is none
+  std::string simulator;   ///< name of the only simulator to show; empty: all
+  std::string master_uri;  ///< URI that is shown if there is no master
   size_t columns = 100;
-  double watched_s = 0;  ///< for how long /diagnostics was listened to
+  double watched_s = 0;  ///< time since subscription to /diagnostics [s]
 };
 
-/// Whether a simulator is among those that have told something, not longer than kSilent_s ago.
-bool isSimulatorTold(const std::vector<ToldStatus>& told, const StatusView& view);
+/// Returns whether a simulator has reported within the last kSilent_s.
+bool isSimulatorTold(const std::vector<ReceivedStatus>& told, const StatusView& view);
 
-/// One screen of text: of each simulator its pace, what it sends, its hands, and what is wrong, in words.
-std::string statusScreen(const std::vector<ToldStatus>& told, const StatusView& view);
+/// Returns one screen of text: for each simulator its pace, outputs, styluses and problems.
+std::string statusScreen(const std::vector<ReceivedStatus>& told, const StatusView& view);
 
-/// What a reason of dropping poses (`dropped_<reason>` of the diagnostics) means; empty if it is not known.
+/// Returns the meaning of a reason for dropped poses (`dropped_<reason>` of the diagnostics); empty if it is not known.
 std::string meaningOfDrop(const std::string& reason);
 
 }  // namespace viscera::nodes

@@ -14,9 +14,9 @@
 namespace viscera::nodes {
 namespace {
 
-constexpr std::chrono::milliseconds kLook{100};  ///< how soon the first screen is shown, and a lost master seen
+constexpr std::chrono::milliseconds kLook{100};  ///< time until the first screen is shown and a lost master detected
 constexpr std::chrono::seconds kPeriod{1};
-constexpr const char* kStarting = "Node starting up";  ///< of diagnostic_updater, before there is anything to tell
+constexpr const char* kStarting = "Node starting up";  ///< message of diagnostic_updater before the first report
 constexpr const char* kHomeAndClear = "\033[H\033[J";
 
 size_t columnsOf(int terminal, size_t fallback) {
@@ -61,9 +61,9 @@ void StatusWatch::onDiagnostics(const diagnostic_msgs::DiagnosticArray& message)
   }
 }
 
-std::vector<ToldStatus> StatusWatch::told() const {
+std::vector<ReceivedStatus> StatusWatch::told() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  std::vector<ToldStatus> out;
+  std::vector<ReceivedStatus> out;
   for (const auto& [key, heard] : heard_) {
     out.push_back(heard.status);
     out.back().age_s = std::chrono::duration<double>(Clock::now() - heard.at).count();
@@ -88,7 +88,7 @@ bool StatusWatch::run(EndWatch& end) {
   bool found = false;
   while (!end.waitFor(kLook)) {
     master.require();
-    const std::vector<ToldStatus> said = told();
+    const std::vector<ReceivedStatus> said = told();
     const StatusView now = view();
     found = isSimulatorTold(said, now);
     const bool enough = found || now.watched_s >= kSilent_s;

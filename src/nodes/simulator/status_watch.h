@@ -19,35 +19,35 @@
 namespace viscera::nodes {
 
 struct StatusOptions {
-  bool once = false;      ///< one screen, as soon as a simulator has told something, and the end
+  bool once = false;      ///< whether to end after one screen, as soon as a simulator has reported
   std::string simulator;  ///< name of a node; empty: all
 };
 
-/// @throws ParameterError
+/// Reads the private parameters. @throws ParameterError
 StatusOptions statusOptions(Parameters& parameters);
 
-/// Shows /diagnostics of simulators as a screen of text, once a second.
+/// Prints the /diagnostics of simulators as a screen of text, once a second.
 class StatusWatch {
  public:
   explicit StatusWatch(const StatusOptions& options);
-  /// Until the end begins; with `once` until a simulator was shown, or none was heard for kSilent_s.
-  /// @returns whether the last screen showed a simulator that speaks   @throws MasterLost
+  /// Runs until the end begins; with `once`, until a simulator was shown or none reported for kSilent_s.
+  /// @returns whether the last screen showed a simulator that reports   @throws MasterLost
   bool run(EndWatch& end);
 
  private:
   void onDiagnostics(const diagnostic_msgs::DiagnosticArray& message);
-  std::vector<ToldStatus> told() const;
+  std::vector<ReceivedStatus> told() const;
   StatusView view() const;
 
   using Clock = std::chrono::steady_clock;
   struct Heard {
-    ToldStatus status;
+    ReceivedStatus status;
     Clock::time_point at;
   };
   const StatusOptions options_;
   const Clock::time_point begun_ = Clock::now();
   mutable std::mutex mutex_;
-  std::map<std::pair<std::string, std::string>, Heard> heard_;  ///< by node and part
+  std::map<std::pair<std::string, std::string>, Heard> heard_;  ///< status by node and part
   ros::NodeHandle node_;
   ros::Subscriber diagnostics_;
 };

@@ -3,6 +3,7 @@
 #include "nodes/simulator/task_switch.h"
 
 #include <ros/console.h>
+#include <viscera/StartTask.h>
 
 #include <algorithm>
 #include <ctime>
@@ -35,7 +36,7 @@ std::string reportFolder(const std::string& folder, const std::string& task) {
   return (std::filesystem::absolute(folder) / ("report_" + task + stamp)).string();
 }
 
-void addHand(Metrics& message, const std::string& stylus, const HandMetrics& hand) {
+void addHand(Metrics& message, const std::string& stylus, const ToolMetrics& hand) {
   message.styluses.push_back(stylus);
   message.time_s.push_back(hand.time_s);
   message.path_m.push_back(hand.path_m);
@@ -90,7 +91,7 @@ TaskSwitch::TaskSwitch(ros::NodeHandle node, const Scene& scene, const SceneChoi
   if (!choice.task.empty()) last_ = loadTask(choice.task);
   for (const StylusConfig& stylus : scene.styluses) styluses_.push_back(stylus.name);
   state_.header.frame_id = metrics_.header.frame_id = scene.environment.tissue_frame;
-  tallies_.assign(styluses_.size(), HandTally(1 / tick_s_));
+  tallies_.assign(styluses_.size(), ToolTally(1 / tick_s_));
   timer_ = node.createWallTimer(ros::WallDuration(kTaskPeriod_s), [this](const ros::WallTimerEvent&) { onTimer(); });
 }
 
@@ -102,14 +103,14 @@ TaskSwitch::~TaskSwitch() {
 TaskConfig TaskSwitch::find(const std::string& name) const {
   if (name.empty()) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!last_) throw Error("task: none was chosen before: name one in config/tasks, or give an absolute path");
+    if (!last_) throw Error("task: none was chosen before; name one in config/tasks, or give an absolute path");
     return *last_;
   }
   const std::string file = taskFile("task", name, package_folder_);
   TaskConfig task = loadTask(file);
   if (sceneFile(sceneOfTask(task, file), package_folder_) != sceneFile(choice_.scene, package_folder_))
-    throw Error("task: " + task.name + " is of the scene " + sceneOfTask(task, file) + ", and " + choice_.scene +
-                " runs: load_scene it first");
+    throw Error("task: " + task.name + " needs the scene " + sceneOfTask(task, file) + ", but " + choice_.scene +
+                " runs; " + StartTaskResponse::LOAD_SCENE_FIRST);
   return task;
 }
 
@@ -117,7 +118,7 @@ void TaskSwitch::follow(Session& session) {
   session_ = &session;
   session.addLog(*this);
   watch_ = std::make_unique<TaskWatch>(session, [this](TaskResult&& result) { report(std::move(result)); });
-  if (last_) session.noteTask(last_->name, last_->yaml);
+  if (last_) session.recordTask(last_->name, last_->yaml);
 }
 
 void TaskSwitch::leave() {
@@ -128,7 +129,7 @@ void TaskSwitch::leave() {
 std::string TaskSwitch::start(Session& session, const TaskConfig& task) {
   session.reset();
   for (const std::string& note : taskNotes(task)) ROS_WARN("task %s: %s", task.name.c_str(), note.c_str());
-  session.noteTask(task.name, task.yaml);
+  session.recordTask(task.name, task.yaml);
   const std::lock_guard<std::mutex> lock(mutex_);
   last_ = task;
   state_.report.clear();
@@ -136,13 +137,13 @@ std::string TaskSwitch::start(Session& session, const TaskConfig& task) {
 }
 
 std::string TaskSwitch::end(Session& session) {
-  if (!watch_->task() || watch_->status().state > TaskPhase::kRunning) throw Error("no task runs");
-  session.noteTask("", "");
+  if (!watch_->task() || watch_->status().state > TaskPhase::kRunning) throw Error("no task is running");
+  session.recordTask("", "");
   return watch_->status().step;
 }
 
 void TaskSwitch::clear() {
-  std::fill(tallies_.begin(), tallies_.end(), HandTally(1 / tick_s_));
+  std::fill(tallies_.begin(), tallies_.end(), ToolTally(1 / tick_s_));
   peak_strain_ = 0;
   noticed_ = {};
 }
@@ -193,7 +194,7 @@ Metrics TaskSwitch::metricsOf(const TaskResult& result) const {
   return out;
 }
 
-/// Smoothness, plots and files take their time: on a thread of their own.
+/// Writes the report on a thread of its own, since smoothness, plots and files take time.
 void TaskSwitch::report(TaskResult&& result) {
   if (reporting_.valid()) reporting_.wait();
   const std::string folder = reportFolder(saved_folder_.path(), result.task.name);

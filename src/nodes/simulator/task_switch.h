@@ -16,36 +16,37 @@
 #include "nodes/ros/saved_folder.h"
 #include "nodes/ros/scene_choice.h"
 #include "tasks/task_watch.h"
-#include "tools/hand_metrics.h"
+#include "tools/tool_metrics.h"
 #include "viscera/Metrics.h"
 #include "viscera/TaskState.h"
 #include "viscera/session/session_log.h"
 
 namespace viscera::nodes {
 
-/// The task of a simulator: topics `task_state` and `metrics`, the start and the end of a task, its report. What it is
-/// told by the session's thread costs a copy of some numbers; all else is done on others.
+/// Runs the task of a simulator: topics `task_state` and `metrics`, the start and end of a task, its report. Calls from
+/// the session thread copy a few numbers; other threads do the rest.
 class TaskSwitch : public SessionLog {
  public:
-  /// @param choice  of the scene; its task, if any, waits from the start on   @param saved_folder  of reports
+  /// @param choice  choice of the scene; its task, if any, waits from the start
+  /// @param saved_folder  folder of reports
   TaskSwitch(ros::NodeHandle node, const Scene& scene, const SceneChoice& choice, const std::string& package_folder,
              const SavedFolder& saved_folder);
   ~TaskSwitch() override;
   TaskSwitch(const TaskSwitch&) = delete;
   TaskSwitch& operator=(const TaskSwitch&) = delete;
 
-  /// A task that start_task names. @param name  in config/tasks, or path; empty: the last one
-  /// @throws Error  there is none, it is wrong, or of another scene
+  /// Returns the task for start_task. @param name  name in config/tasks, or path; empty: the last task
+  /// @throws Error  there is none, it is invalid, or it belongs to another scene
   TaskConfig find(const std::string& name) const;
 
-  // On the session's thread:
+  // Called on the session thread:
   void follow(Session& session);
   void leave();
-  /// Everything at rest, and the task begins. @returns its title
+  /// Resets the session and starts a task. @returns the task's title
   std::string start(Session& session, const TaskConfig& task);
-  /// @throws Error  none runs
+  /// Ends the task. @throws Error  no task runs
   std::string end(Session& session);
-  /// Between ticks: what it tells is up to date.
+  /// Updates the published state between ticks.
   void notice();
 
   void stepped(Session& session, const StylusSamples& samples) override;
@@ -63,16 +64,16 @@ class TaskSwitch : public SessionLog {
   const SceneChoice choice_;
   const std::string package_folder_;
   const SavedFolder saved_folder_;
-  Session* session_ = nullptr;        ///< that is followed
-  std::unique_ptr<TaskWatch> watch_;  ///< of the session's thread, as the tallies
-  std::vector<HandTally> tallies_;
+  Session* session_ = nullptr;        ///< session that is followed
+  std::unique_ptr<TaskWatch> watch_;  ///< used on the session thread, like the tallies
+  std::vector<ToolTally> tallies_;
   std::vector<std::string> styluses_;
   double tick_s_, peak_strain_ = 0;
   uint64_t measured_tick_ = 0;
   uint32_t springs_cut_ = 0;
   mutable std::mutex mutex_;
-  std::optional<TaskConfig> last_;  ///< that was chosen
-  TaskState state_;                 ///< as it is told next
+  std::optional<TaskConfig> last_;  ///< task that was chosen last
+  TaskState state_;                 ///< state that is published next
   Metrics metrics_;
   bool changed_ = true;
   std::future<void> reporting_;

@@ -10,20 +10,20 @@
 
 namespace viscera::nodes {
 
-/// Cameras that tf frames carry: looks their frames up before every tick, and in pauses.
+/// Cameras that tf frames carry. Their frames are looked up before every tick, and while paused.
 class CameraFrames {
  public:
-  /// @param frames  must outlive this
-  /// @param max_transform_age_s  of what tf knows of a frame that moves [s]
+  /// @param frames  must outlive this object
+  /// @param max_transform_age_s  largest age of a moving frame's transform [s]
   CameraFrames(const Scene& scene, const tf2_ros::Buffer& frames, double max_transform_age_s);
 
-  /// Tells the session where the frames are now. A camera whose frame tf does not know stays where it was.
+  /// Sets the cameras' poses in the session. A camera stays where it is if tf does not know its frame.
   /// @returns whether one has moved
   bool apply(Session& session);
-  /// Has the camera's place ever been known? Until then it has no pictures. For the simulation's thread.
+  /// Returns whether the camera's pose was ever known; until then it makes no images. Called on the simulation thread.
   bool isPlaced(size_t camera) const { return placed_[camera]; }
   bool empty() const { return carried_.empty(); }
-  /// @name Lookups since the start, for the diagnostics; from any thread
+  /// @name Number of lookups since the start, for the diagnostics; thread-safe
   /// @{
   uint64_t found() const { return carried_.found(); }
   uint64_t missed() const { return carried_.missed(); }
@@ -32,7 +32,7 @@ class CameraFrames {
  private:
   CarriedFrames carried_;
   std::vector<bool> placed_;  ///< [cameras]
-  std::vector<Pose> poses_;   ///< [cameras] the last ones
+  std::vector<Pose> poses_;   ///< [cameras] last poses
 };
 
 }  // namespace viscera::nodes

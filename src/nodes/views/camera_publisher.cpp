@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/views/camera_publisher.h"
 #include "nodes/ros/conversions.h"
-#include "nodes/views/shown_messages.h"
+#include "nodes/views/surface_messages.h"
 
 #include <algorithm>
 #include <utility>
@@ -11,7 +11,7 @@ namespace viscera::nodes {
 
 namespace {
 constexpr uint32_t kTicksWaiting =
-    100;  // more than pictures: a message is small, and one that is lost leaves a picture without
+    100;  // longer than for images: the messages are small, and a lost one leaves an image without a tick
 }
 
 CameraPublisher::Plain::Plain(ros::NodeHandle& node, const std::string& name, const std::vector<std::string>& images)
@@ -64,7 +64,7 @@ bool CameraPublisher::isWanted() const {
   return false;
 }
 
-/// A topic beside, as roscpp overwrites header.seq of what is published. One for all kinds of pictures of a tick.
+/// Publishes the tick on a separate topic, since roscpp overwrites header.seq. One message serves all images of a tick.
 void CameraPublisher::tellTick(uint64_t tick, const ros::Time& stamp) {
   if (tick_.getNumSubscribers() == 0 || told_stamp_ == stamp) return;
   told_stamp_ = stamp;

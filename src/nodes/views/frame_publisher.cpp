@@ -7,7 +7,7 @@
 
 #include "nodes/ros/conversions.h"
 #include "nodes/ros/thread_name.h"
-#include "nodes/views/shown_messages.h"
+#include "nodes/views/surface_messages.h"
 #include "render/renderer.h"
 
 namespace viscera::nodes {
@@ -18,7 +18,7 @@ FramePublisher::FramePublisher(ros::NodeHandle node, const Scene& scene, const P
       tick_hz_(scene.solver.tick_hz),
       surface_throttle_(options.surface_rate_hz, scene.solver.tick_hz),
       scene_markers_(node, scene, options),
-      threads_(node, scene),
+      sutures_(node, scene),
       needles_(node, scene),
       failed_(std::move(failed)),
       image_viewers_(kPictureKinds * scene.cameras.size(), 0) {
@@ -60,7 +60,7 @@ void FramePublisher::broadcastStaticFrames(const Scene& scene, const std::string
   static_frames_.sendTransform(frames);
 }
 
-void FramePublisher::start(const std::shared_ptr<const ShownTopology>& skin) {
+void FramePublisher::start(const std::shared_ptr<const VisibleTopology>& skin) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     slots_.skin = {ros::Time::now(), skin};
@@ -69,9 +69,9 @@ void FramePublisher::start(const std::shared_ptr<const ShownTopology>& skin) {
   filled_.notify_one();
 }
 
-Wants FramePublisher::beginTick() {
+FrameRequest FramePublisher::beginTick() {
   tick_stamp_ = ros::Time::now();
-  Wants wants;
+  FrameRequest wants;
   wants.surface = surface_.isWanted() && surface_throttle_.pick();
   wants.strain = wants.surface && surface_.isStrainWanted();
   for (const auto& camera : cameras_) {
@@ -94,9 +94,9 @@ ros::Time FramePublisher::stampOf(uint64_t tick) const {
   return entry.value == tick ? entry.stamp : ros::Time::now();
 }
 
-Wants FramePublisher::stills(bool changed, bool aimed) {
+FrameRequest FramePublisher::stills(bool changed, bool aimed) {
   tick_stamp_ = ros::Time::now();
-  Wants wants;
+  FrameRequest wants;
   const uint32_t before = std::exchange(surface_viewers_, surface_.viewers());
   wants.surface = surface_viewers_ > (changed ? 0 : before);
   wants.strain = wants.surface && surface_.isStrainWanted();
@@ -118,12 +118,12 @@ void FramePublisher::look(const Session& session, Frame& frame) {
 void FramePublisher::deliver(Frame&& frame, const StylusSamples& samples) {
   stamps_[frame.tick % stamps_.size()] = {tick_stamp_, frame.tick};
   putCameraFrames(frame);
-  const bool scene_due = scene_markers_.isDue(), threads_due = threads_.isWanted(), needles_due = needles_.isWanted();
-  if (!scene_due && !threads_due && !needles_due && !frame.surface && frame.images.empty()) return;
+  const bool scene_due = scene_markers_.isDue(), sutures_due = sutures_.isWanted(), needles_due = needles_.isWanted();
+  if (!scene_due && !sutures_due && !needles_due && !frame.surface && frame.images.empty()) return;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (scene_due) slots_.scene = {stampOf(frame.tick), lookOf(frame, samples)};
-    if (threads_due) slots_.threads = threads_.messageOf(frame, stampOf(frame.tick));
+    if (sutures_due) slots_.sutures = sutures_.messageOf(frame, stampOf(frame.tick));
     if (needles_due) slots_.needles = needles_.messageOf(frame, stampOf(frame.tick));
     if (frame.surface) {
       const ros::Time stamp = stampOf(frame.surface->tick);
@@ -138,8 +138,8 @@ void FramePublisher::deliver(Frame&& frame, const StylusSamples& samples) {
   filled_.notify_one();
 }
 
-/// One a tick, so that there is one at the stamp of every picture; the same stamp twice, as while /clock stands still,
-/// would make every tf2 listener warn.
+/// Queues one transform per tick, so there is one at the stamp of every image. Sending the same stamp twice, as while
+/// /clock is stopped, would make every tf2 listener warn.
 void FramePublisher::putCameraFrames(const Frame& frame) {
   if (carried_.empty() || tick_stamp_ == frames_stamp_) return;
   frames_stamp_ = tick_stamp_;
@@ -192,7 +192,7 @@ void FramePublisher::send(Slots&& slots) {
   }
   surface_.publishDue();
   if (slots.scene) scene_markers_.publish(slots.scene->value, slots.scene->stamp);
-  if (slots.threads) threads_.publish(*slots.threads);
+  if (slots.sutures) sutures_.publish(*slots.sutures);
   if (slots.needles) needles_.publish(*slots.needles);
   for (size_t i = 0; i < slots.images.size(); ++i) {
     if (!slots.images[i]) continue;
@@ -206,7 +206,7 @@ void FramePublisher::send(Slots&& slots) {
 
 bool FramePublisher::isViewed() const {
   const auto watched = [](const auto& camera) { return camera->isWanted(); };
-  return surface_.isWanted() || scene_markers_.isWanted() || threads_.isWanted() || needles_.isWanted() ||
+  return surface_.isWanted() || scene_markers_.isWanted() || sutures_.isWanted() || needles_.isWanted() ||
          std::any_of(cameras_.begin(), cameras_.end(), watched);
 }
 

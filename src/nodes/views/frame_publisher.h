@@ -27,50 +27,52 @@
 #include "nodes/views/needle_publisher.h"
 #include "nodes/views/scene_marker_publisher.h"
 #include "nodes/views/surface_publisher.h"
-#include "nodes/views/thread_publisher.h"
+#include "nodes/views/suture_publisher.h"
 
 namespace viscera::nodes {
 
-/// Sends what the simulation made, on a thread of its own. Every topic has one slot: what a slow subscriber has not let
-/// go in time is overtaken by newer data, and the simulation never waits.
+/// Publishes frames of the simulation on a thread of its own. Every topic has one slot: newer data replaces data that a
+/// slow subscriber has not received, and the simulation never waits.
 class FramePublisher {
  public:
-  /// @param failed  called on the thread of this, once, with what ended it; from then on nothing is sent
+  /// @param failed  called once with the error that ends the publishing thread, on that thread; nothing is sent
+  /// afterwards
   FramePublisher(ros::NodeHandle node, const Scene& scene, const PublishOptions& options,
                  std::function<void(std::exception_ptr)> failed);
   ~FramePublisher();
   FramePublisher(const FramePublisher&) = delete;
   FramePublisher& operator=(const FramePublisher&) = delete;
 
-  /// From the arrival of a pose to the sending of what answers it, since they were last taken.
+  /// Latencies from the arrival of a pose to the sending of the answer, since the last call.
   struct Latencies {
     LatencyMeter::Reading surface;
     std::vector<LatencyMeter::Reading> images;  ///< [cameras]
-    double surface_rate_hz = 0;                 ///< that they were sent, `surface_marker` and `surface` as one
-    std::vector<double> image_rates_hz;         ///< [cameras], of image_raw
-    std::vector<double> images_wanted_hz;       ///< [cameras] the same as it should be; 0: no subscriber
+    double surface_rate_hz = 0;                 ///< rate of `surface_marker` and `surface` as one [Hz]
+    std::vector<double> image_rates_hz;         ///< [cameras] rates of image_raw [Hz]
+    std::vector<double> images_wanted_hz;       ///< [cameras] desired rates [Hz]; 0: no subscriber
   };
   Latencies takeLatencies();
-  /// There are subscribers to the surface, to markers or to an image. From any thread.
+  /// Returns whether the surface, markers or an image have subscribers. Thread-safe.
   bool isViewed() const;
 
-  /// Says it in the place of the tissue, for rviz, until there are markers of a tick. Before start().
+  /// Shows a text in place of the tissue in rviz, until there are markers of a tick. Call it before start().
   void tell(const std::string& text) { scene_markers_.tell(text); }
 
-  // For the simulation's thread:
-  void start(const std::shared_ptr<const ShownTopology>& skin);
-  /// What subscribers want of the tick that begins now; the tick's stamp is taken here.
-  Wants beginTick();
-  /// What is wanted of a state that stands still: what those want who subscribe since the last call, and the others too
-  /// if it has changed. @param aimed  a camera has moved: its viewers have not seen that
-  Wants stills(bool changed, bool aimed);
-  /// How often from now on, at most.
+  // Called on the simulation thread:
+  void start(const std::shared_ptr<const VisibleTopology>& skin);
+  /// Returns the outputs that subscribers need from the tick that begins, and takes the tick's stamp.
+  FrameRequest beginTick();
+  /// Returns the outputs that are needed of a state that does not advance: those of subscribers since the last call,
+  /// and of all subscribers if it has changed.
+  /// @param aimed  a camera has moved since its images were sent
+  FrameRequest stills(bool changed, bool aimed);
+  /// Sets the largest rate of the surface.
   void setSurfaceRate(double rate_hz);
   void setImageRate(size_t camera, double rate_hz) { cameras_[camera]->setRate(rate_hz); }
   ros::Time tickStamp() const { return tick_stamp_; }
-  /// Before deliver(): what of the session's state is shown too.
+  /// Adds data of the session's state to the frame. Call it before deliver().
   void look(const Session& session, Frame& frame);
-  /// @param samples  as the frames of the tools in tf have them
+  /// Publishes a frame. @param samples  samples that determine the tool frames in tf
   void deliver(Frame&& frame, const StylusSamples& samples);
 
  private:
@@ -80,12 +82,12 @@ class FramePublisher {
     T value{};
   };
   struct Slots {
-    std::optional<Stamped<std::shared_ptr<const ShownTopology>>> skin;
+    std::optional<Stamped<std::shared_ptr<const VisibleTopology>>> skin;
     std::optional<Stamped<std::unique_ptr<SurfaceFrame>>> surface;
     std::vector<std::optional<Stamped<ImageFrame>>> images;  ///< [cameras * kPictureKinds]
-    std::vector<geometry_msgs::TransformStamped> frames;     ///< of cameras that are carried; none is overtaken
-    std::optional<Stamped<SceneLook>> scene;
-    std::optional<Threads> threads;
+    std::vector<geometry_msgs::TransformStamped> frames;     ///< frames of carried cameras; none is dropped
+    std::optional<Stamped<SceneStyle>> scene;
+    std::optional<Sutures> sutures;
     std::optional<Needles> needles;
   };
 
@@ -105,24 +107,24 @@ class FramePublisher {
     size_t camera;
     std::string optical_frame;
   };
-  std::vector<Carried> carried_;  ///< cameras whose optical frame is ours and moves
+  std::vector<Carried> carried_;  ///< cameras with a moving optical frame that this node broadcasts
   SurfacePublisher surface_;
   const double tick_hz_;
   Throttle surface_throttle_;
   SceneMarkerPublisher scene_markers_;
-  ThreadPublisher threads_;
+  SuturePublisher sutures_;
   NeedlePublisher needles_;
   std::vector<std::unique_ptr<CameraPublisher>> cameras_;
   const std::function<void(std::exception_ptr)> failed_;
 
-  // Of the simulation's thread: when the last ticks began, since images and surfaces come back late.
+  // Used on the simulation thread: stamps of the last ticks, since images and surfaces arrive late.
   static constexpr size_t kStampedTicks = 4096;
   ros::Time tick_stamp_;
   std::array<Stamped<uint64_t>, kStampedTicks> stamps_;
   HeldNodes held_;
-  uint32_t surface_viewers_ = 0;         ///< when stills() was asked last
+  uint32_t surface_viewers_ = 0;         ///< number of viewers at the last call of stills()
   std::vector<uint32_t> image_viewers_;  ///< [cameras * kPictureKinds]
-  ros::Time frames_stamp_;               ///< of the camera frames put last
+  ros::Time frames_stamp_;               ///< stamp of the last camera frames
 
   std::mutex latency_mutex_;
   std::vector<LatencyMeter> image_latency_;

@@ -10,11 +10,11 @@
 
 namespace viscera::nodes {
 
-/// Where the nodes are that styluses hold. They go along with their tools, so that the state, which a GPU must be
-/// waited for, is read only when another number of them is held, and every half second, as what slides in jaws.
+/// Positions of the nodes that styluses hold. They move with their tools. The state is read only when the number of
+/// held nodes changes, and every half second because nodes slide in jaws: reading it waits for the GPU.
 class HeldNodes {
  public:
-  /// @param frame  of the session's last step; gets Frame::held_m
+  /// Sets Frame::held_m. @param frame  frame of the session's last step
   void addTo(Frame& frame, const Session& session);
 
  private:

@@ -12,8 +12,8 @@ Needles toNeedles(const Frame& frame, const Scene& scene, const ros::Time& stamp
   Needles out;
   out.header = toHeader(scene.environment.tissue_frame, stamp);
   out.tick = frame.tick;
-  for (const SeenNeedle& needle : frame.needles) {
-    out.threads.push_back(scene.threads[needle.thread].name);
+  for (const NeedleState& needle : frame.needles) {
+    out.sutures.push_back(scene.sutures[needle.suture].name);
     out.poses.push_back(toMessage(needle.pose));
     out.radii_m.push_back(needle.radius_m);
     out.arcs_rad.push_back(needle.arc_rad);
@@ -25,8 +25,8 @@ Needles toNeedles(const Frame& frame, const Scene& scene, const ros::Time& stamp
 }
 
 NeedlePublisher::NeedlePublisher(ros::NodeHandle& node, const Scene& scene) : scene_(scene) {
-  const auto has = [](const ThreadConfig& thread) { return thread.needle.arc != NeedleArc::kNone; };
-  if (std::any_of(scene.threads.begin(), scene.threads.end(), has))
+  const auto has = [](const SutureConfig& suture) { return suture.needle.arc != NeedleArc::kNone; };
+  if (std::any_of(scene.sutures.begin(), scene.sutures.end(), has))
     publisher_ = node.advertise<Needles>("needles", 1, true);
 }
 

@@ -13,14 +13,14 @@
 
 namespace viscera::nodes {
 
-/// @param scene  whose frame, threads and styluses are named
+/// Converts the needles of a frame. @param scene  scene that names the frame, sutures and styluses
 Needles toNeedles(const Frame& frame, const Scene& scene, const ros::Time& stamp);
 
-/// Topic `needles`, of scenes that have any: after every tick, latched.
+/// Publishes topic `needles` after every tick, latched, for scenes that have needles.
 class NeedlePublisher {
  public:
   NeedlePublisher(ros::NodeHandle& node, const Scene& scene);
-  /// There are needles, and subscribers. From any thread of the process.
+  /// Returns whether there are needles and subscribers. Thread-safe.
   bool isWanted() const { return publisher_ && publisher_.getNumSubscribers() > 0; }
   Needles messageOf(const Frame& frame, const ros::Time& stamp) const { return toNeedles(frame, scene_, stamp); }
   void publish(const Needles& message) { publisher_.publish(message); }

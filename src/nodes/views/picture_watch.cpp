@@ -3,7 +3,7 @@
 #include "nodes/views/picture_watch.h"
 
 #include "math/number_text.h"
-#include "render/seen_target.h"
+#include "render/g_buffer.h"
 #include "viscera/render/camera.h"
 
 namespace viscera::nodes {
@@ -22,11 +22,11 @@ std::vector<std::string> PictureWatch::note(const std::vector<double>& wanted_hz
     TextOut text;
     text.precision(2);
     text << "camera '" << camera.name << "': " << sent_hz[c] << " pictures per second of " << wanted_hz[c]
-         << " wanted, for " << kReadings << " s. Ways out: fewer pixels (cameras[].width_px " << camera.width_px
-         << ", height_px " << camera.height_px
+         << " wanted, for " << kReadings << " s. Possible remedies: fewer pixels (cameras[].width_px "
+         << camera.width_px << ", height_px " << camera.height_px
          << "), cameras[].supersampling 1, a lower cameras[].rate_hz, fewer cameras with subscribers; a coarser "
-            "bodies[].spacing_m, or 'auto', which leaves pictures a share of the processors; other programs that leave "
-            "the processors; a GPU";
+            "bodies[].spacing_m, or 'auto', which reserves CPU time for pictures; fewer other "
+            "programs; a GPU";
     out.push_back(text.str());
   }
   return out;
@@ -39,9 +39,9 @@ std::vector<std::string> PictureWatch::ways(bool software) const {
     TextOut text;
     text << "camera '" << camera.name << "': " << camera.width_px << " x " << camera.height_px << " pixels, ";
     if (camera.supersampling == 1) {
-      text << "1 sample each: edges are not smooth";
-    } else if (camera.supersampling == 0 && software && drawn.width_px * drawn.height_px <= SeenTarget::kMostPixels) {
-      text << "4 samples each, of which the processor, as there is no GPU, lights one, at edges all "
+      text << "1 sample each; edges are not smooth";
+    } else if (camera.supersampling == 0 && software && drawn.width_px * drawn.height_px <= GBuffer::kMostPixels) {
+      text << "4 samples each; without a GPU only one is lit, and all at edges "
               "(cameras[].supersampling: 2 lights all)";
     } else {
       text << "4 samples each";

@@ -10,21 +10,22 @@
 
 namespace viscera::nodes {
 
-/// Says how a camera's pictures are drawn, once, and which cameras' pictures come far less often than they are wanted.
+/// Reports how a camera's images are drawn, once, and which cameras' images come much more rarely than desired.
 class PictureWatch {
  public:
   explicit PictureWatch(const std::vector<CameraConfig>& cameras);
 
-  /// A reading of a second. @param wanted_hz  [cameras] 0: not wanted   @param sent_hz  [cameras]
-  /// @return  what is to be said now, a line each
+  /// Adds a reading of one second. @param wanted_hz  [cameras] 0: no subscriber   @param sent_hz  [cameras]
+  /// @return  lines to log now
   std::vector<std::string> note(const std::vector<double>& wanted_hz, const std::vector<double>& sent_hz);
-  /// Whether any camera's pictures fell behind in the last reading.
+  /// Returns whether any camera's images were behind in the last reading.
   bool areBehind() const { return behind_; }
-  /// How each camera's pixels are made, a line each. @param software  the renderer is
+  /// Returns a line per camera that says how its pixels are drawn.
+  /// @param software  whether the renderer runs in software
   std::vector<std::string> ways(bool software) const;
 
-  static constexpr double kShare = 1.0 / 3;  ///< of the wanted rate, below which pictures are behind
-  static constexpr int kReadings = 4;        ///< in a row before it is said
+  static constexpr double kShare = 1.0 / 3;  ///< share of the desired rate below which images are behind
+  static constexpr int kReadings = 4;        ///< number of readings in a row before a warning
 
  private:
   std::vector<CameraConfig> cameras_;

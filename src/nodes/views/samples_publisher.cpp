@@ -9,7 +9,7 @@ namespace viscera::nodes {
 namespace {
 
 constexpr uint32_t kQueue =
-    10000;  ///< ten seconds of the most ticks there are, some MB; a recorder that is slower is told
+    10000;  ///< ten seconds at the highest tick rate, a few MB; a slower recorder reports lost ticks
 
 ToolMode modeInScene(const StylusConfig& config, const StylusSample& sample) {
   if (sample.button2) return config.button2;
@@ -27,20 +27,21 @@ SamplesPublisher::SamplesPublisher(ros::NodeHandle& node, const Scene& scene, co
   }
   message_.tick_hz = scene.solver.tick_hz;
   for (const ObstacleConfig& obstacle : scene.obstacles)
-    if (!obstacle.frame.empty()) carried_ = "obstacle '" + obstacle.name + "', which tf carries";
+    if (!obstacle.frame.empty()) carried_ = "obstacle '" + obstacle.name + "', which follows tf";
 }
 
-void SamplesPublisher::publish(uint64_t tick, const StylusSamples& samples, const ToolMotions& tools, bool hands_anew) {
+void SamplesPublisher::publish(uint64_t tick, const StylusSamples& samples, const ToolMotions& tools,
+                               bool input_reset) {
   if (publisher_.getNumSubscribers() == 0) return;
   message_.header.stamp = ros::Time::now();
   message_.tick = tick;
-  message_.hands_anew = hands_anew;
+  message_.input_reset = input_reset;
   message_.besides = carried_;
   message_.styluses.clear();
   for (size_t s = 0; s < styluses_.size(); ++s) {
     if (!samples[s].valid) continue;
     if (tools[s].mode != modeInScene(styluses_[s], samples[s]))
-      message_.besides = "the mode of stylus '" + styluses_[s].name + "', which is not the scene's (set_tool_mode)";
+      message_.besides = "the mode of stylus '" + styluses_[s].name + "', which differs from the scene (set_tool_mode)";
     StylusState& state = message_.styluses.emplace_back();
     state.stylus = styluses_[s].name;
     state.pose = toMessage(samples[s].pose);

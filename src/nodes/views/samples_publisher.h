@@ -17,20 +17,20 @@ struct Scene;
 
 namespace viscera::nodes {
 
-/// Topic `samples`, from which `stylus_record` makes a strokes file.
+/// Publishes topic `samples`, from which `stylus_record` makes a strokes file.
 class SamplesPublisher {
  public:
-  /// @param choice  what the scene was made of
+  /// @param choice  parameters that chose the scene
   SamplesPublisher(ros::NodeHandle& node, const Scene& scene, const SceneChoice& choice);
-  /// After every tick, by the thread that steps.
-  /// @param tools       what the styluses did in the tick
-  /// @param hands_anew  hands were forgotten since the tick before
-  void publish(uint64_t tick, const StylusSamples& samples, const ToolMotions& tools, bool hands_anew);
+  /// Publishes the samples of a tick. Called on the stepping thread.
+  /// @param tools       motions of the tools in the tick
+  /// @param input_reset  whether input was discarded since the previous tick
+  void publish(uint64_t tick, const StylusSamples& samples, const ToolMotions& tools, bool input_reset);
 
  private:
   const std::vector<StylusConfig> styluses_;
-  std::string carried_;  ///< what moves the tissue besides, always
-  Samples message_;      ///< the last that was sent
+  std::string carried_;  ///< other objects that move the tissue all the time
+  Samples message_;      ///< last message that was sent
   ros::Publisher publisher_;
 };
 

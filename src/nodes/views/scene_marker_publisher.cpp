@@ -15,7 +15,7 @@ using visualization_msgs::MarkerArray;
 
 namespace {
 
-/// But for the stamp.
+/// Returns whether two markers are equal except for the stamp.
 bool looksTheSame(const Marker& a, const Marker& b) {
   return a.action == b.action && a.header.frame_id == b.header.frame_id && a.frame_locked == b.frame_locked &&
          a.pose == b.pose && a.color == b.color && a.points == b.points;
@@ -65,7 +65,7 @@ void SceneMarkerPublisher::keep(const MarkerArray& whole) {
   whole_ = whole;
 }
 
-void SceneMarkerPublisher::publish(const SceneLook& look, const ros::Time& stamp) {
+void SceneMarkerPublisher::publish(const SceneStyle& look, const ros::Time& stamp) {
   const MarkerArray whole = markers_.at(look, stamp);
   keep(whole);
   publisher_.publish(sent_.newsOf(whole, Clock::now()));

@@ -18,36 +18,37 @@ struct Scene;
 
 namespace viscera::nodes {
 
-/// Leaves out meshes that viewers have: a viewer keeps a marker until it is told another one of that name and number.
+/// Leaves out meshes that viewers already have: a viewer keeps a marker until it receives another one of the same name
+/// and id.
 class SentMeshes {
  public:
-  /// What of an array is not a mesh, is another one than before, or was not sent for `every_s`.
+  /// Returns the markers that are not meshes, have changed, or were not sent for kEvery_s.
   visualization_msgs::MarkerArray newsOf(const visualization_msgs::MarkerArray& whole, SteadyTime now);
-  /// Viewers have nothing.
+  /// Forgets what viewers have.
   void clear() { sent_.clear(); }
 
-  static constexpr double kEvery_s = 5;  ///< so that each part of a bag that is split has them all
+  static constexpr double kEvery_s = 5;  ///< every part of a bag that is split then has all of them
 
  private:
   std::map<std::pair<std::string, int32_t>, visualization_msgs::Marker> sent_;
   SteadyTime all_sent_{};
 };
 
-/// Topic `scene_markers`, for rviz. A viewer who comes has all at once, also while the scene is made, or paused; from
-/// then on meshes only as they change, and every 5 s.
+/// Publishes topic `scene_markers` for rviz. A new viewer receives everything at once, also while the scene is created
+/// or paused. Later, meshes are sent only when they change, and every 5 s.
 class SceneMarkerPublisher {
  public:
   SceneMarkerPublisher(ros::NodeHandle& node, const Scene& scene, const PublishOptions& options);
 
-  /// There are subscribers. From any thread.
+  /// Returns whether there are subscribers. Thread-safe.
   bool isWanted() const { return publisher_.getNumSubscribers() > 0; }
-  /// There are subscribers, and it is time for the next, by the steady clock: it comes while paused too.
+  /// Returns whether there are subscribers and the next message is due by the steady clock, also while paused.
   bool isDue();
-  /// How often from now on, at most. For the thread that asks isDue().
+  /// Sets the largest rate. Called on the thread that calls isDue().
   void setRate(double rate_hz) { period_ = period(rate_hz); }
-  /// From any one thread.
-  void publish(const SceneLook& look, const ros::Time& stamp);
-  /// A text alone, in the place of all else, where it is not the last one again.
+  /// Publishes the markers. Any one thread may call it.
+  void publish(const SceneStyle& look, const ros::Time& stamp);
+  /// Publishes a text in place of everything else, unless it is the same as before.
   void tell(const std::string& text);
 
  private:
@@ -62,7 +63,7 @@ class SceneMarkerPublisher {
   std::string told_;
   SentMeshes sent_;
   std::mutex mutex_;
-  visualization_msgs::MarkerArray whole_;  ///< what viewers have by now
+  visualization_msgs::MarkerArray whole_;  ///< markers that viewers have
   ros::Publisher publisher_;
 };
 

@@ -8,7 +8,7 @@
 #include "model/scene/tool_kinds.h"
 #include "nodes/ros/conversions.h"
 #include "render/shapes/obstacle_shape.h"
-#include "session/thread_looks.h"
+#include "session/tube_styles.h"
 #include "solver/processes/suture/needle_shape.h"
 #include "viscera/model/scene/scene.h"
 #include "viscera/render/camera.h"
@@ -19,16 +19,16 @@ namespace {
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
-constexpr size_t kMostParts = 4;        ///< colours of a tool or obstacle: ids of the next one follow
-constexpr double kLetterShare = 0.025;  ///< of the distance from which the first camera looks
+constexpr size_t kMostParts = 4;        ///< most colours of a tool or obstacle; the ids of the next one follow
+constexpr double kLetterShare = 0.025;  ///< height of a letter over the first camera's distance from its target
 constexpr double kLetterWithoutCamera_m = 0.01;
-constexpr double kLetterWidth = 0.65;  ///< of its height, the gap to the next with it
-constexpr double kLineHeight = 1.6;    ///< of a letter: rviz looks down at some 30 degrees
+constexpr double kLetterWidth = 0.65;  ///< width of a letter with its gap, relative to its height
+constexpr double kLineHeight = 1.6;    ///< line height relative to a letter's: rviz looks down at about 30 degrees
 constexpr double kLeastArrow_m = 1e-4;
-constexpr double kLeastThread_m = 5e-4;  ///< rviz loses lines that are thinner than a pixel
-constexpr double kArrowWidth = 2.5;      ///< in radii of the shaft: a tool is mostly pushed back along it
+constexpr double kLeastSuture_m = 5e-4;  ///< least width of a line [m]; rviz loses lines that are thinner than a pixel
+constexpr double kArrowWidth = 2.5;      ///< width in radii of the shaft: forces are mostly along it
 constexpr double kHeldPoint_m = 1.5e-3;
-constexpr double kSceneMarkersHead = 2;  ///< width and length of an arrow's head, of its width
+constexpr double kSceneMarkersHead = 2;  ///< width and length of an arrow's head, relative to its width
 
 geometry_msgs::Point toPoint(const Vector3d& p_m) {
   geometry_msgs::Point out;
@@ -55,7 +55,7 @@ bool inTheWay(const Label& a, const Label& b, double height_m) {
   return std::abs(apart_m.z()) < kLineHeight * height_m && apart_m.head<2>().norm() < widths_m;
 }
 
-/// But for rounding.
+/// Returns whether two poses are equal except for rounding.
 bool isSame(const Pose& a, const Pose& b) {
   constexpr double kApart_m = 1e-9, kApart_rad = 1e-6;
   return (a.position_m - b.position_m).norm() < kApart_m && a.orientation.angularDistance(b.orientation) < kApart_rad;
@@ -70,17 +70,17 @@ std::vector<Vector3d> pointsOf(const ToolShape& shape) {
 
 }  // namespace
 
-SceneLook lookOf(const Frame& frame, const StylusSamples& samples) {
-  SceneLook look{frame.tools, frame.obstacles, frame.reactions, frame.threads, frame.held_m, frame.needles};
+SceneStyle lookOf(const Frame& frame, const StylusSamples& samples) {
+  SceneStyle look{frame.tools, frame.obstacles, frame.reactions, frame.sutures, frame.held_m, frame.needles};
   for (size_t s = 0; s < samples.size(); ++s)
     look.in_tf[s] = samples[s].valid && frame.tools[s].present && isSame(samples[s].pose, frame.tools[s].to);
   return look;
 }
 
 void partLabels(std::vector<Label>& labels, double height_m) {
-  constexpr double kPast = 1 + 1e-9;  // rounding must not leave two just within reach
+  constexpr double kPast = 1 + 1e-9;  // rounding must not leave two labels in contact
   for (size_t i = 1; i < labels.size(); ++i) {
-    // Each move passes one of the earlier labels, and none is met again.
+    // Each move passes one of the earlier labels, and none is met twice.
     for (size_t j = 0; j < i;) {
       if (!inTheWay(labels[i], labels[j], height_m)) {
         ++j;
@@ -96,7 +96,7 @@ SceneMarkers::SceneMarkers(const Scene& scene, const PublishOptions& options)
     : frame_(scene.environment.tissue_frame),
       arrow_m_per_n_(options.force_arrow_m_per_n),
       letter_m_(letterHeight(scene)),
-      threads_(looksOf(scene)) {
+      sutures_(stylesOf(scene)) {
   for (const StylusConfig& stylus : scene.styluses) {
     styluses_.push_back(stylus);
     tool_frames_.push_back(toolFrame(stylus, options.frame_prefix));
@@ -124,7 +124,7 @@ SceneMarkers::Parts SceneMarkers::partsOf(const ToolShape& shape) {
   return parts;
 }
 
-MarkerArray SceneMarkers::at(const SceneLook& look, const ros::Time& stamp) const {
+MarkerArray SceneMarkers::at(const SceneStyle& look, const ros::Time& stamp) const {
   MarkerArray out;
   for (size_t s = 0; s < styluses_.size(); ++s) {
     addTool(s, look, stamp, out);
@@ -133,7 +133,7 @@ MarkerArray SceneMarkers::at(const SceneLook& look, const ros::Time& stamp) cons
   }
   for (size_t i = 0; i < std::min(obstacles_.size(), look.obstacles.size()); ++i)
     addParts("obstacles", kMostParts * i, obstacles_[i].parts, look.obstacles[i], "", stamp, out);
-  addThreads(look, stamp, out);
+  addTubes(look, stamp, out);
   addNeedles(look, stamp, out);
   addNames(look, stamp, out);
   addText("", stamp, out);
@@ -159,7 +159,7 @@ Marker SceneMarkers::marker(const char* names, size_t id, const ros::Time& stamp
   return out;
 }
 
-/// Ids that no part has are deleted.
+/// Adds the parts of a mesh and deletes the remaining ids.
 void SceneMarkers::addParts(const char* names, size_t first_id, const Parts& parts, const Pose& pose,
                             const std::string& frame, const ros::Time& stamp, MarkerArray& out) const {
   for (size_t i = 0; i < kMostParts; ++i) {
@@ -171,7 +171,7 @@ void SceneMarkers::addParts(const char* names, size_t first_id, const Parts& par
       marker.pose = toMessage(pose);
     } else {
       marker.header.frame_id = frame;
-      marker.header.stamp = ros::Time();  // the newest
+      marker.header.stamp = ros::Time();  // the newest transform
       marker.frame_locked = true;
     }
     paint(parts[i].color, marker);
@@ -179,7 +179,7 @@ void SceneMarkers::addParts(const char* names, size_t first_id, const Parts& par
   }
 }
 
-void SceneMarkers::addTool(size_t stylus, const SceneLook& look, const ros::Time& stamp, MarkerArray& out) const {
+void SceneMarkers::addTool(size_t stylus, const SceneStyle& look, const ros::Time& stamp, MarkerArray& out) const {
   static const Parts kNothing;
   const StylusMotion& motion = look.tools[stylus];
   const auto shape = tools_[stylus].find(motion.mode);
@@ -193,9 +193,9 @@ void SceneMarkers::addTool(size_t stylus, const SceneLook& look, const ros::Time
            motion.to, look.in_tf[stylus] ? tool_frames_[stylus] : "", stamp, out);
 }
 
-/// From the tip, to where the hand is pushed.
-void SceneMarkers::addForce(size_t stylus, const SceneLook& look, const ros::Time& stamp, MarkerArray& out) const {
-  constexpr std::array<uint8_t, 4> kYellow = {250, 210, 40, 200};  // the tool is seen through it
+/// Adds the force as an arrow from the tip, in the direction of the force on the stylus.
+void SceneMarkers::addForce(size_t stylus, const SceneStyle& look, const ros::Time& stamp, MarkerArray& out) const {
+  constexpr std::array<uint8_t, 4> kYellow = {250, 210, 40, 200};  // transparent, since it hides the tool
   const Vector3d arrow_m = arrow_m_per_n_ * look.reactions[stylus].force_n;
   Marker& marker = out.markers.emplace_back(this->marker("forces", stylus, stamp));
   marker.type = Marker::ARROW;
@@ -211,8 +211,8 @@ void SceneMarkers::addForce(size_t stylus, const SceneLook& look, const ros::Tim
   paint(kYellow, marker);
 }
 
-void SceneMarkers::addHeld(size_t stylus, const SceneLook& look, const ros::Time& stamp, MarkerArray& out) const {
-  constexpr std::array<uint8_t, 4> kBlue = {120, 220, 255, 255};  // unlike tissue, tools and arrows
+void SceneMarkers::addHeld(size_t stylus, const SceneStyle& look, const ros::Time& stamp, MarkerArray& out) const {
+  constexpr std::array<uint8_t, 4> kBlue = {120, 220, 255, 255};  // differs from tissue, tools and arrows
   Marker& marker = out.markers.emplace_back(this->marker("held", stylus, stamp));
   marker.type = Marker::POINTS;
   marker.action = look.tools[stylus].present && !look.held_m[stylus].empty() ? Marker::ADD : Marker::DELETE;
@@ -223,47 +223,47 @@ void SceneMarkers::addHeld(size_t stylus, const SceneLook& look, const ros::Time
   for (const Vector3d& place_m : look.held_m[stylus]) marker.points.push_back(toPoint(place_m));
 }
 
-/// A tube would be tens of points for each of its. @param places_m  fewer than two: there is none
-void SceneMarkers::addLine(const char* names, size_t id, const ThreadLook& how, const std::vector<Vector3d>& places_m,
+/// Adds a polyline: a tube would need tens of points for each of its points. @param places_m  fewer than two: no line
+void SceneMarkers::addLine(const char* names, size_t id, const TubeStyle& how, const std::vector<Vector3d>& places_m,
                            const ros::Time& stamp, MarkerArray& out) const {
   Marker& marker = out.markers.emplace_back(this->marker(names, id, stamp));
   marker.type = Marker::LINE_STRIP;
   marker.action = places_m.size() > 1 ? Marker::ADD : Marker::DELETE;
   if (marker.action == Marker::DELETE) return;
-  marker.scale.x = std::max(2 * how.radius_m, kLeastThread_m);
+  marker.scale.x = std::max(2 * how.radius_m, kLeastSuture_m);
   paint(how.color, marker);
   for (const Vector3d& place_m : places_m) marker.points.push_back(toPoint(place_m));
 }
 
-void SceneMarkers::addNeedles(const SceneLook& look, const ros::Time& stamp, MarkerArray& out) const {
-  for (size_t i = 0, id = 0; i < threads_.size(); ++i) {
-    const ThreadLook& how = threads_[i];
-    if (how.part != ThreadPart::kNeedle) continue;
+void SceneMarkers::addNeedles(const SceneStyle& look, const ros::Time& stamp, MarkerArray& out) const {
+  for (size_t i = 0, id = 0; i < sutures_.size(); ++i) {
+    const TubeStyle& how = sutures_[i];
+    if (how.part != TubeKind::kNeedle) continue;
     std::vector<Vector3d> places_m;
-    for (const SeenNeedle& needle : look.needles)
-      if (needle.thread == how.thread)
+    for (const NeedleState& needle : look.needles)
+      if (needle.suture == how.suture)
         places_m = NeedleShape(needle.radius_m, needle.arc_rad, needle.wire_radius_m).places(needle.pose);
     addLine("needles", id++, how, places_m, stamp, out);
   }
 }
 
-void SceneMarkers::addThreads(const SceneLook& look, const ros::Time& stamp, MarkerArray& out) const {
-  size_t threads = 0, clips = 0;
-  for (const ThreadLook& look : threads_) {
-    threads += look.part == ThreadPart::kThread;
-    if (look.part == ThreadPart::kClip) clips = look.most;
+void SceneMarkers::addTubes(const SceneStyle& look, const ros::Time& stamp, MarkerArray& out) const {
+  size_t sutures = 0, clips = 0;
+  for (const TubeStyle& look : sutures_) {
+    sutures += look.part == TubeKind::kSuture;
+    if (look.part == TubeKind::kClip) clips = look.most;
   }
-  const ThreadLook* const clip = clips > 0 ? &threads_.back() : nullptr;
-  for (size_t i = 0; i < (threads > 0 ? threads + kMostParted : 0) + clips; ++i) {
+  const TubeStyle* const clip = clips > 0 ? &sutures_.back() : nullptr;
+  for (size_t i = 0; i < (sutures > 0 ? sutures + kMostParted : 0) + clips; ++i) {
     static const std::vector<Vector3d> kNone;
-    const bool there = i < look.threads.size();
-    const bool is_clip = there && clip && look.threads[i].part == ThreadPart::kClip;
-    const ThreadLook& how = is_clip ? *clip : threads_[there ? look.threads[i].thread : 0];
-    addLine("threads", i, how, there ? look.threads[i].places_m : kNone, stamp, out);
+    const bool there = i < look.sutures.size();
+    const bool is_clip = there && clip && look.sutures[i].part == TubeKind::kClip;
+    const TubeStyle& how = is_clip ? *clip : sutures_[there ? look.sutures[i].suture : 0];
+    addLine("sutures", i, how, there ? look.sutures[i].places_m : kNone, stamp, out);
   }
 }
 
-/// @param text  empty: none
+/// Adds a text. @param text  empty: none
 void SceneMarkers::addText(const std::string& text, const ros::Time& stamp, MarkerArray& out) const {
   constexpr std::array<uint8_t, 4> kWhite = {255, 255, 255, 255};
   Marker& marker = out.markers.emplace_back(this->marker("preparing", 0, stamp));
@@ -275,7 +275,7 @@ void SceneMarkers::addText(const std::string& text, const ros::Time& stamp, Mark
   paint(kWhite, marker);
 }
 
-void SceneMarkers::addNames(const SceneLook& look, const ros::Time& stamp, MarkerArray& out) const {
+void SceneMarkers::addNames(const SceneStyle& look, const ros::Time& stamp, MarkerArray& out) const {
   constexpr std::array<uint8_t, 4> kWhite = {255, 255, 255, 255};
   std::vector<Label> labels = cameras_;
   for (size_t s = 0; s < styluses_.size(); ++s) {

@@ -11,7 +11,7 @@
 
 #include "nodes/ros/publish_options.h"
 #include "render/shapes/tool_shape.h"
-#include "render/thread_painter.h"
+#include "render/tube_painter.h"
 #include "viscera/layout/limits.h"
 #include "viscera/model/scene/stylus_config.h"
 #include "viscera/session/frame.h"
@@ -23,39 +23,40 @@ struct Scene;
 
 namespace viscera::nodes {
 
-/// Where tools, obstacles and threads are, and what the hands feel.
-struct SceneLook {
+/// Poses of tools, obstacles and sutures, and the forces on the styluses.
+struct SceneStyle {
   ToolMotions tools;
   std::vector<Pose> obstacles;
   std::array<Reaction, layout::kMaxStyluses> reactions;
-  ShownThreads threads = {};                                            ///< without needles
+  VisibleTubes sutures = {};                                            ///< sutures without needles
   std::array<std::vector<Vector3d>, layout::kMaxStyluses> held_m = {};  ///< see Frame
-  std::vector<SeenNeedle> needles = {};
-  std::array<bool, layout::kMaxStyluses> in_tf = {};  ///< the tool is where its frame in tf is
+  std::vector<NeedleState> needles = {};
+  std::array<bool, layout::kMaxStyluses> in_tf = {};  ///< whether the tool's pose is that of its frame in tf
 };
-/// @param samples  as the frames of the tools in tf have them
-SceneLook lookOf(const Frame& frame, const StylusSamples& samples);
+/// Returns the contents of a frame. @param samples  samples that determine the tool frames in tf
+SceneStyle lookOf(const Frame& frame, const StylusSamples& samples);
 
-/// A name that stands upright in space.
+/// A name that is drawn upright in space.
 struct Label {
   std::string text;
-  Vector3d position_m;  ///< of its middle
+  Vector3d position_m;  ///< position of its centre [m]
 };
 
-/// Moves labels upwards until none stands in another's place.
-/// @param height_m  of a letter
+/// Moves labels upwards until none overlaps another.
+/// @param height_m  height of a letter [m]
 void partLabels(std::vector<Label>& labels, double height_m);
 
-/// What the camera shows beside the tissue, as markers for rviz: tools and obstacles as meshes, threads and needles
-/// as lines, forces as arrows, nodes that are held as points, names; or, as long as there is no tissue, what is done
-/// for it. Namespaces `tools`, `obstacles`, `threads`, `needles`, `forces`, `held`, `names`, `preparing`. What is not
-/// there is told as DELETE, so that any array is the whole truth. A mesh of a tool that is where its frame in tf is
-/// stands in that frame, and goes with it.
+/// Everything that the camera shows in addition to the tissue, as markers for rviz: tools and obstacles as meshes,
+/// sutures and needles as lines, forces as arrows, held nodes as points, names. While there is no tissue, a text shows
+/// the progress instead. The namespaces are `tools`, `obstacles`, `sutures`, `needles`, `forces`, `held`, `names` and
+/// `preparing`.
+/// Absent objects are sent as DELETE, so any array is complete. The mesh of a tool is in the tool's tf frame if the
+/// tool's pose is that of the frame, and moves with it.
 class SceneMarkers {
  public:
   SceneMarkers(const Scene& scene, const PublishOptions& options);
-  visualization_msgs::MarkerArray at(const SceneLook& look, const ros::Time& stamp) const;
-  /// A text where the first camera looks, and nothing else.
+  visualization_msgs::MarkerArray at(const SceneStyle& look, const ros::Time& stamp) const;
+  /// Returns markers with a text where the first camera looks, and nothing else.
   visualization_msgs::MarkerArray telling(const std::string& text, const ros::Time& stamp) const;
 
  private:
@@ -68,25 +69,25 @@ class SceneMarkers {
   struct Obstacle {
     std::string name;
     Parts parts;
-    std::vector<Vector3d> points_m;  ///< of its shape
+    std::vector<Vector3d> points_m;  ///< points of its shape [m]
   };
   static Parts partsOf(const ToolShape& shape);
   visualization_msgs::Marker marker(const char* names, size_t id, const ros::Time& stamp) const;
-  /// @param frame  in tf that the parts are locked to; empty: they are in the tissue frame
+  /// @param frame  tf frame to which the parts are locked; empty: the tissue frame
   void addParts(const char* names, size_t first_id, const Parts& parts, const Pose& pose, const std::string& frame,
                 const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
-  void addTool(size_t stylus, const SceneLook& look, const ros::Time& stamp,
+  void addTool(size_t stylus, const SceneStyle& look, const ros::Time& stamp,
                visualization_msgs::MarkerArray& out) const;
-  void addForce(size_t stylus, const SceneLook& look, const ros::Time& stamp,
+  void addForce(size_t stylus, const SceneStyle& look, const ros::Time& stamp,
                 visualization_msgs::MarkerArray& out) const;
-  void addHeld(size_t stylus, const SceneLook& look, const ros::Time& stamp,
+  void addHeld(size_t stylus, const SceneStyle& look, const ros::Time& stamp,
                visualization_msgs::MarkerArray& out) const;
-  void addLine(const char* names, size_t id, const ThreadLook& how, const std::vector<Vector3d>& places_m,
+  void addLine(const char* names, size_t id, const TubeStyle& how, const std::vector<Vector3d>& places_m,
                const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
-  void addNeedles(const SceneLook& look, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
-  void addThreads(const SceneLook& look, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
+  void addNeedles(const SceneStyle& look, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
+  void addTubes(const SceneStyle& look, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
   void addText(const std::string& text, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
-  void addNames(const SceneLook& look, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
+  void addNames(const SceneStyle& look, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
 
   const std::string frame_;
   const double arrow_m_per_n_, letter_m_;
@@ -94,9 +95,9 @@ class SceneMarkers {
   std::vector<std::string> tool_frames_;          ///< [styluses]
   std::vector<std::map<ToolMode, Parts>> tools_;  ///< [styluses]
   std::vector<Obstacle> obstacles_;
-  std::vector<ThreadLook> threads_;
+  std::vector<TubeStyle> sutures_;
   std::vector<Label> cameras_;
-  Vector3d middle_m_ = Vector3d::Zero();  ///< of the view
+  Vector3d middle_m_ = Vector3d::Zero();  ///< centre of the view [m]
 };
 
 }  // namespace viscera::nodes

@@ -11,19 +11,19 @@ constexpr uint32_t kNotSent = UINT32_MAX;
 
 }  // namespace
 
-SentVertices::SentVertices(const ShownTopology& whole) : numbers_(whole.vertices, kNotSent) {
+SentVertices::SentVertices(const VisibleTopology& whole) : numbers_(whole.vertices, kNotSent) {
   append(whole.triangles);
   whole_ = vertices_.size();
 }
 
-void SentVertices::follow(const ShownTopology& topology) {
+void SentVertices::follow(const VisibleTopology& topology) {
   for (size_t i = whole_; i < vertices_.size(); ++i) numbers_[vertices_[i]] = kNotSent;
   vertices_.resize(whole_);
   numbers_.resize(std::max(numbers_.size(), topology.vertices), kNotSent);
   append(topology.triangles);
 }
 
-/// Those that are not sent yet, in the order of the mesh.
+/// Appends the vertices that are not sent yet, in the order of the mesh.
 void SentVertices::append(const std::vector<uint32_t>& triangles) {
   const size_t first = vertices_.size();
   for (const uint32_t vertex : triangles) {

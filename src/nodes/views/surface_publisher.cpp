@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/views/surface_publisher.h"
-#include "nodes/views/shown_messages.h"
+#include "nodes/views/surface_messages.h"
 
 #include <ros/console.h>
 
@@ -11,8 +11,8 @@
 namespace viscera::nodes {
 namespace {
 
-constexpr uint32_t kMarkerQueue = 32;             ///< two messages per body and frame: skin and wounds
-constexpr uint32_t kChangeQueue = 100;            ///< seconds of a cut: one that is lost makes the next ones useless
+constexpr uint32_t kMarkerQueue = 32;             ///< two messages per body and frame: surface and cut walls
+constexpr uint32_t kChangeQueue = 100;            ///< seconds of a cut; a lost change makes the following ones useless
 constexpr size_t kMaxMarkerTriangles = 10000000;  ///< TCPROS refuses messages of 1 GB; a triangle takes 72 bytes
 
 }  // namespace
@@ -32,7 +32,7 @@ uint32_t SurfacePublisher::viewers() const {
   return viewers;
 }
 
-void SurfacePublisher::start(const std::shared_ptr<const ShownTopology>& skin, const ros::Time& stamp) {
+void SurfacePublisher::start(const std::shared_ptr<const VisibleTopology>& skin, const ros::Time& stamp) {
   sent_ = SentVertices(*skin);
   sent_.follow(*skin);
   revision_ = skin->revision;
@@ -40,7 +40,7 @@ void SurfacePublisher::start(const std::shared_ptr<const ShownTopology>& skin, c
   sendTopology();
 }
 
-void SurfacePublisher::changeTopology(const ShownTopology& topology, const ros::Time& stamp) {
+void SurfacePublisher::changeTopology(const VisibleTopology& topology, const ros::Time& stamp) {
   revision_ = topology.revision;
   sent_.follow(topology);
   SurfaceTopology next = toTopology(topology, sent_, whole_.version + 1, frame_, stamp);
@@ -68,7 +68,7 @@ void SurfacePublisher::publishDue() {
   const auto now = std::chrono::steady_clock::now();
   if (!due() || now < *due()) return;
   if (is_sent_ && topology_.getNumSubscribers() == 0)
-    again_ = now + kAgain_s;  // those who come have the last one
+    again_ = now + kAgain_s;  // new subscribers receive the latched message
   else
     sendTopology();
 }
@@ -85,14 +85,13 @@ void SurfacePublisher::publish(const SurfaceFrame& frame, const ros::Time& stamp
 
 void SurfacePublisher::publishMarkers(const SurfaceFrame& frame, const ros::Time& stamp) {
   if (frame.topology->triangleCount() > kMaxMarkerTriangles) {
-    ROS_WARN_ONCE("surface_marker: more than %zu triangles do not fit in a message; use `surface`",
-                  kMaxMarkerTriangles);
+    ROS_WARN_ONCE("surface_marker: a message cannot hold more than %zu triangles; use `surface`", kMaxMarkerTriangles);
     return;
   }
   const std::vector<visualization_msgs::Marker> markers = toMarkers(frame, frame_, stamp);
   const size_t bodies = markers.size() / 2;
   wounds_sent_.resize(bodies);
-  for (size_t b = 0; b < bodies; ++b) {  // of wounds only what has to be: who keeps the last message has a skin
+  for (size_t b = 0; b < bodies; ++b) {  // only if necessary: the last message of a client then has a surface
     const visualization_msgs::Marker& wounds = markers[bodies + b];
     const bool any = wounds.action != visualization_msgs::Marker::DELETE;
     if (any || wounds_sent_[b]) marker_.publish(wounds);

@@ -14,17 +14,18 @@ struct Scene;
 
 namespace viscera::nodes {
 
-/// Topic `tick`, by which others keep pace with the simulation. Sent at once, behind no picture.
+/// Publishes topic `tick`, with which other nodes follow simulated time. It is sent at once and does not wait for
+/// images.
 class TickPublisher {
  public:
-  /// @param viewed  someone looks at what the simulator shows
+  /// @param viewed  returns whether the simulator's output has a viewer
   TickPublisher(ros::NodeHandle& node, const Scene& scene, std::function<bool()> viewed);
-  /// After every tick, and while paused. @param tick  since the start or the last reset
+  /// Publishes a tick. Called after every tick, and while paused. @param tick  since the start or the last reset
   void publish(uint64_t tick);
 
  private:
   const std::function<bool()> viewed_;
-  Tick tick_;  ///< the last that was sent
+  Tick tick_;  ///< last tick that was sent
   ros::Publisher publisher_;
 };
 

@@ -49,7 +49,7 @@ void ToolFramePublisher::main() {
 }
 
 void ToolFramePublisher::send(const StylusSamples& samples, const ros::Time& stamp) {
-  // The same stamp twice, as while /clock stands still, would make every tf2 listener warn.
+  // The same stamp twice, as while /clock is stopped, would make every tf2 listener warn.
   if (stamp == last_sent_) return;
   std::vector<geometry_msgs::TransformStamped> frames;
   for (size_t s = 0; s < children_.size(); ++s) {

@@ -14,13 +14,13 @@
 
 namespace viscera::nodes {
 
-/// The frames `<stylus>_tool` on /tf, from a thread of its own: at most 60 times a second, which is as often as anybody
-/// looks, and only where a stylus is tracked.
+/// Publishes the frames `<stylus>_tool` on /tf from a thread of its own, at most 60 times a second, and only for
+/// tracked styluses.
 class ToolFramePublisher {
  public:
   static constexpr double kRate_hz = 60;
 
-  /// @param children  names of the frames, [styluses]
+  /// @param children  [styluses] names of the frames
   ToolFramePublisher(const std::string& tissue_frame, const std::vector<std::string>& children);
   ~ToolFramePublisher();
   ToolFramePublisher(const ToolFramePublisher&) = delete;

@@ -9,9 +9,9 @@
 namespace viscera::nodes {
 namespace {
 
-constexpr size_t kAhead = 96;  // triangles: a blade changes some tens side by side in a tick
+constexpr size_t kAhead = 96;  // triangles; a blade changes some tens of neighbouring ones per tick
 
-/// Two lists that are walked side by side.
+/// Two lists that are traversed together.
 class Walk {
  public:
   Walk(const std::vector<uint32_t>& before, const std::vector<uint32_t>& after) : before_(before), after_(after) {}
@@ -38,7 +38,7 @@ class Walk {
   struct Ahead {
     size_t removed, added;
   };
-  /// To the nearest triangle that both have.
+  /// Returns the distance to the nearest triangle that both lists have.
   std::optional<Ahead> near() const {
     for (size_t sum = 1; sum <= kAhead; ++sum) {
       for (size_t a = 0; a <= sum; ++a) {
@@ -47,10 +47,10 @@ class Walk {
     }
     return std::nullopt;
   }
-  /// To the next triangle of the old list that the new one has still, wherever; or to the ends.
+  /// Returns the distance to the next triangle of the old list that the new one has anywhere, or to both ends.
   Ahead far() const {
     const auto key = [](const std::vector<uint32_t>& list, size_t t) {
-      return static_cast<uint64_t>(list[3 * t]) << 32U | list[3 * t + 1];  // a directed edge is of one triangle
+      return static_cast<uint64_t>(list[3 * t]) << 32U | list[3 * t + 1];  // a directed edge belongs to one triangle
     };
     std::unordered_map<uint64_t, size_t> there;
     for (size_t j = j_; j < count(after_); ++j) there.emplace(key(after_, j), j);

@@ -7,21 +7,22 @@
 
 namespace viscera::nodes {
 
-/// What turns one list of triangles into another: in the order of the old list, places where some go and others come.
-/// Arrays are [places] but for `triangles`.
+/// Changes between two lists of triangles: in the order of the old list, positions at which triangles are removed and
+/// added. Arrays have one entry per position, except `triangles`.
 struct TriangleEdits {
-  std::vector<uint32_t> kept;       ///< triangles of the old list before this place and after the last one
-  std::vector<uint32_t> removed;    ///< of the old list that follow
-  std::vector<uint32_t> added;      ///< of `triangles` that come in their place
+  std::vector<uint32_t> kept;       ///< number of triangles of the old list between the previous position and this one
+  std::vector<uint32_t> removed;    ///< number of triangles of the old list that are removed here
+  std::vector<uint32_t> added;      ///< number of triangles of `triangles` that replace them
   std::vector<uint32_t> triangles;  ///< [3 * sum of added] vertex indices
 };
 
-/// Edits of lists that are made in one order, as those of a skin before and after a cut are: looks for what stays a
-/// short way ahead only, in time that grows with the lists and not with their product. Right for any two lists.
+/// Returns the edits between two lists in similar order, such as those of a surface before and after a cut. It searches
+/// for common triangles only a short distance ahead, so the time is linear in the lengths. The result is correct for
+/// any two lists.
 /// @param before, after  [3 * n] vertex indices
 TriangleEdits editsBetween(const std::vector<uint32_t>& before, const std::vector<uint32_t>& after);
 
-/// The second list. @param before  the first one of editsBetween()
+/// Returns the second list. @param before  first list of editsBetween()
 std::vector<uint32_t> edited(const std::vector<uint32_t>& before, const TriangleEdits& edits);
 
 }  // namespace viscera::nodes

@@ -1,6 +1,6 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the package viscera shows of its own, over the compiled half."""
+"""The Python part of the package viscera, on top of the compiled part."""
 import json
 import os
 
@@ -9,11 +9,11 @@ from . import _libraries
 _libraries.load_missing()
 
 from ._viscera import (Error, GpuError, LatticeError, MeshError, SceneBase, SceneError, Session, Skin, Stylus,
-                       VectorSession, __version__)  # noqa: E402  once its libraries are there
+                       VectorSession, __version__)  # noqa: E402  after its libraries are loaded
 
 
 def _shipped(name):
-    """The file of a shipped scene: below share/ of this package or an installed prefix, or of a build's sources."""
+    """Returns the file of a shipped scene: below share/ of this package or an installed prefix, or in a build's sources."""
     up = os.path.abspath(__file__)
     while os.path.dirname(up) != up:
         up = os.path.dirname(up)
@@ -30,11 +30,11 @@ def _shipped(name):
 
 
 class Scene(SceneBase):
-    """A scene, read and checked.
+    """A validated scene.
 
     source     a file, the name of a shipped scene, YAML text (of several lines), or a dict of the same keys
-    overrides  as --set of the command line: strings "key=value", or a dict of key to value
-    mesh       a mesh file that is the tissue of the first body; for scenes from files
+    overrides  in the syntax of --set on the command line: strings "key=value", or a dict from key to value
+    mesh       mesh file for the first body; for scenes from files
     Raises SceneError with file, line, key and accepted range.
     """
 
@@ -50,7 +50,7 @@ class Scene(SceneBase):
         else:
             file = os.fspath(source)
             if not isinstance(file, str):
-                raise TypeError("source: wanted a file, a name, text or a dict")
+                raise TypeError("source: must be a file, a name, text or a dict")
             if not os.path.exists(file) and "/" not in file:
                 file = _shipped(file)
         if mesh and not file:
@@ -67,4 +67,4 @@ class Scene(SceneBase):
 
 
 for _public in (Error, GpuError, LatticeError, MeshError, Scene, SceneError, Session, Skin, Stylus, VectorSession):
-    _public.__module__ = __package__  # where users find it, pickle and tracebacks too
+    _public.__module__ = __package__  # the public name, also for pickle and tracebacks

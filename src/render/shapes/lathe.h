@@ -8,13 +8,13 @@
 
 namespace viscera {
 
-/// Outline of a surface of revolution about z, from its lowest z to its highest. Parts that meet with different
+/// Outline of a surface of revolution about z, from its lowest z to its highest. Pieces that meet with different
 /// normals make a sharp edge.
 class Profile {
  public:
-  /// Straight part. Radii and heights in metres.
+  /// Adds a straight piece. Radii and heights in metres.
   Profile& line(float radius_from, float z_from, float radius_to, float z_to);
-  /// Part of a circle about (0, z_center); angles from the equator [rad], -pi/2 is the lowest point.
+  /// Adds a piece of a circle about (0, z_center); angles from the equator [rad], -pi/2 is the lowest point.
   Profile& arc(float radius, float z_center, float angle_from, float angle_to);
 
   struct Point {

@@ -10,10 +10,10 @@ namespace viscera {
 
 namespace {
 
-constexpr std::array<uint8_t, 4> kObstacleColor = {104, 118, 132, 255};  // slate: neither tissue nor a tool
+constexpr std::array<uint8_t, 4> kObstacleColor = {104, 118, 132, 255};  // slate, unlike tissue and tools
 constexpr float kObstacleQuarterTurn = static_cast<float>(M_PI / 2);
 
-/// A rectangle around `middle`, counter-clockwise seen from where u x v points.
+/// Adds a rectangle around `middle`, counter-clockwise seen from where u x v points.
 void addRectangle(const Vector3f& middle, const Vector3f& u, const Vector3f& v, ToolShape& shape) {
   const Vector3f normal = u.cross(v).normalized();
   const uint32_t first = static_cast<uint32_t>(shape.vertices.size());

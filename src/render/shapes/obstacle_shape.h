@@ -7,10 +7,10 @@
 
 namespace viscera {
 
-/// A plane is drawn as a square of this edge around its origin.
+/// Edge of the square around its origin as which a plane is drawn.
 constexpr double kDrawnPlane_m = 1;
 
-/// What a person sees of an obstacle, in its own frame: what nodes do not enter, in its true size.
+/// Returns the drawn shape of an obstacle in its own frame, in the true size of the volume that nodes do not enter.
 ToolShape obstacleShape(const ObstacleConfig& obstacle);
 
 }  // namespace viscera

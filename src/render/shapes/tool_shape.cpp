@@ -19,7 +19,7 @@ constexpr uint8_t kOutlineAlpha = 150;
 // Shares of the shaft's length.
 constexpr float kShaftRadius = 0.025f, kTipRadius = 0.005f, kTaperEnd = 0.25f;
 constexpr float kCollarGap = 1.0f / 30, kCollarLength = 2.0f / 30, kCollarRadius = 0.03f, kCollarEdge = 1.0f / 120;
-constexpr float kShortestShaft = 0.25f;                                  // of what is held, behind a blade however long
+constexpr float kShortestShaft = 0.25f;                                  // of the handle, behind a blade of any length
 constexpr float kFingerHalf = 0.7f / 120, kFingerHalfWide = 1.4f / 120;  // of a finger, along x and y
 constexpr float kToolQuarterTurn = static_cast<float>(M_PI / 2);
 
@@ -27,7 +27,7 @@ Color colorOf(const ToolKind& kind, uint8_t alpha = 255) {
   return {kind.color[0], kind.color[1], kind.color[2], alpha};
 }
 
-/// @param from  where it begins, in lengths of the shaft
+/// Adds a shaft. @param from  its start, in lengths of the shaft
 void addShaft(float length_m, float from, const Color& collar, ToolShape& shape) {
   constexpr float kBevel = 1.0f / 1200;
   const Eigen::Affine3f scale(Eigen::Scaling(length_m));
@@ -47,7 +47,7 @@ void addShaft(float length_m, float from, const Color& collar, ToolShape& shape)
   addLathe(ring, scale, collar, shape);
 }
 
-/// A blade is a lathe pressed flat: wide along y, its point at the low end.
+/// Adds a blade: a lathe pressed flat, wide along y, its point at the low end.
 void addBlade(const BladeSpan& span, const Color& color, ToolShape& shape) {
   constexpr float kFlatness = 0.12f;
   const float length = static_cast<float>(span.high_m - span.low_m);
@@ -71,7 +71,7 @@ void addCapsule(float radius, const BladeSpan& span, const Color& color, ToolSha
   addLathe(capsule, Eigen::Affine3f::Identity(), color, shape);
 }
 
-/// A bell that opens towards -z, its rim around the tip.
+/// Adds a bell that opens towards -z, its rim around the tip.
 void addCup(float radius, const Color& color, ToolShape& shape) {
   const Profile bell = Profile()
                            .line(0, 0.5f * radius, radius, 0)
@@ -80,14 +80,14 @@ void addCup(float radius, const Color& color, ToolShape& shape) {
   addLathe(bell, Eigen::Affine3f::Identity(), color, shape);
 }
 
-/// Where the shaft begins, in its lengths: behind what acts.
+/// Returns where the shaft starts, behind the tip, in lengths of the shaft.
 float shaftStart(const StylusConfig& stylus, const ToolKind& kind) {
   const bool is_blade = kind.tip == ToolTip::kBlade;
   const double acts_m = kind.jaws ? kind.jaws(stylus).length_m : is_blade ? bladeSpan(stylus.cut).high_m : 0;
   return std::min(static_cast<float>(acts_m / stylus.shaft_length_m), 1 - kShortestShaft);
 }
 
-/// What acts on tissue, in its true size.
+/// Adds the tip that acts on tissue, in its true size.
 void addTip(const StylusConfig& stylus, const ToolKind& kind, ToolShape& shape) {
   const float reach = static_cast<float>(kind.reach_m(stylus));
   const Color color = colorOf(kind);

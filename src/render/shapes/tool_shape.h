@@ -13,7 +13,7 @@ namespace viscera {
 
 struct StylusConfig;
 
-/// Radius of the shaft that is drawn of a stylus [m].
+/// Returns the radius of the drawn shaft of a stylus [m].
 double shaftRadius(const StylusConfig& stylus);
 
 /// Vertex of a drawn tool, as the GPU takes it.
@@ -30,17 +30,17 @@ struct ToolShape {
   size_t solid_indices = 0;
 };
 
-/// What a person sees of a stylus in a mode: a shaft from the tip backwards (+z), a collar in the mode's colour, and
-/// what acts on tissue in its true size: the probe's sphere, jaws, the blade, the capsule of the particle eraser;
-/// around the tip of a tool that holds, the sphere of its reach. kNone is the shaft alone. See kToolKinds.
-/// @param opening_rad  from finger to finger, of tools with jaws: StylusMotion::opens_to_rad
+/// Returns the drawn shape of a stylus in a mode: a shaft from the tip backwards (+z), a collar in the mode's colour,
+/// and the tip in its true size: the probe's sphere, jaws, the blade, the capsule of the particle eraser. Around the
+/// tip of a tool that holds it adds the sphere of its reach. kNone is the shaft alone. See kToolKinds.
+/// @param opening_rad  angle between the fingers of tools with jaws: StylusMotion::opens_to_rad
 ToolShape toolShape(const StylusConfig& stylus, ToolMode mode, double opening_rad = 0);
 
-/// The same without its fingers, which move; and one finger, that towards +x, as it lies along the axis when they are
-/// closed.
+/// Returns the same without its fingers, which move; the next function returns one finger, that towards +x, along the
+/// axis as when closed.
 ToolShape toolWithoutFingers(const StylusConfig& stylus, ToolMode mode);
 ToolShape fingerShape(const StylusConfig& stylus, ToolMode mode);
-/// Where the two fingers are, in the stylus frame.
+/// Returns the poses of the two fingers in the stylus frame.
 std::array<Pose, 2> fingerPoses(const StylusConfig& stylus, ToolMode mode, double opening_rad);
 
 }  // namespace viscera

@@ -10,7 +10,7 @@ namespace viscera {
 
 namespace {
 
-/// Directions of the sides, as cosine and sine.
+/// Returns the directions of the sides, as cosine and sine.
 std::array<Eigen::Vector2f, kTubeSides> turns() {
   std::array<Eigen::Vector2f, kTubeSides> out;
   for (size_t j = 0; j < kTubeSides; ++j) {
@@ -44,7 +44,7 @@ void addTube(const std::vector<Vector3f>& points_m, const std::vector<float>& ra
   for (size_t i = 0; i <= last; ++i) {
     const Vector3f way = points_m[std::min(i + 1, last)] - points_m[i == 0 ? 0 : i - 1];
     if (way.squaredNorm() > 0) along = way.normalized();
-    // The side goes on as it was, as far as the bend lets it: no twist.
+    // Transports the direction of the side along the bend, without twist.
     side -= along.dot(side) * along;
     side = side.squaredNorm() > 1e-6f ? Vector3f(side.normalized()) : along.unitOrthogonal();
     if (i == 0) addRing(i, true);

@@ -11,7 +11,7 @@ namespace viscera {
 
 namespace {
 
-/// A cell is larger than the reach by this factor: quotients of coordinates and cell are rounded.
+/// Factor by which a cell is larger than the reach, as quotients of coordinates and cell are rounded.
 constexpr double kCellMargin = 1.01;
 
 uint32_t powerOf2(size_t least) {
@@ -20,7 +20,7 @@ uint32_t powerOf2(size_t least) {
   return out;
 }
 
-/// [slots] cells around each node of a lattice.
+/// Returns [slots] the number of cells around each node of a lattice.
 std::vector<uint8_t> cellsAround(const Lattice& lattice) {
   std::vector<uint8_t> out(lattice.nodes.size());
   for (const uint32_t lowest : lattice.active_slots) {
@@ -30,17 +30,17 @@ std::vector<uint8_t> cellsAround(const Lattice& lattice) {
   return out;
 }
 
-constexpr double kRounded = 0.02;  ///< of a cell: nodes that are no farther outside lie on the surface
+constexpr double kRounded = 0.02;  ///< share of a cell: nodes that are no farther outside count as on the surface
 
 bool isWithin(const Lattice& lattice, uint32_t slot) {
   return lattice.depth_m[slot] >= -kRounded * lattice.spacing_m;
 }
 
-/// How far above the surface nearest to a node outside of it nodes within stop what comes down there [m]; less than 0
-/// where they do not. @param distance_m  that it keeps
+/// Returns how far above the surface point nearest to an outside node the inner nodes stop a node that approaches it
+/// [m]; negative where they do not. @param distance_m  distance that nodes keep [m]
 double stopsAbove(const Lattice& lattice, uint32_t slot, double distance_m) {
   constexpr int kAside = 2, kWide = 2 * kAside + 1;
-  const Vector3d way_m = lattice.way_to_surface_m[slot].cast<double>();
+  const Vector3d way_m = lattice.offset_to_surface_m[slot].cast<double>();
   const Vector3d outwards = -way_m.normalized();
   const Vector3i at = lattice.nodeAt(slot);
   double out_m = -distance_m;
@@ -48,7 +48,7 @@ double stopsAbove(const Lattice& lattice, uint32_t slot, double distance_m) {
     const Vector3i aside(i % kWide - kAside, i / kWide % kWide - kAside, i / (kWide * kWide) - kAside);
     const int64_t other = lattice.slotAt(at + aside);
     if (other < 0 || !isWithin(lattice, static_cast<uint32_t>(other))) continue;
-    const Vector3d apart_m = lattice.spacing_m * aside.cast<double>() - way_m;  // from the surface
+    const Vector3d apart_m = lattice.spacing_m * aside.cast<double>() - way_m;  // from the surface point
     const double above_m = apart_m.dot(outwards), aside2 = apart_m.squaredNorm() - above_m * above_m;
     const double reach_m = distance_m + lattice.depth_m[static_cast<size_t>(other)];
     if (aside2 < reach_m * reach_m) out_m = std::max(out_m, above_m + std::sqrt(reach_m * reach_m - aside2));
@@ -56,24 +56,24 @@ double stopsAbove(const Lattice& lattice, uint32_t slot, double distance_m) {
   return out_m;
 }
 
-/// Is there no tissue any more a cell below the surface that is nearest to a node outside of it?
+/// Returns whether there is no tissue a cell below the surface point nearest to an outside node.
 bool isThinBeside(const Lattice& lattice, uint32_t slot) {
-  const Vector3d way = lattice.way_to_surface_m[slot].cast<double>() / lattice.spacing_m;
+  const Vector3d way = lattice.offset_to_surface_m[slot].cast<double>() / lattice.spacing_m;
   const Vector3d below = way + way.normalized();
   const int64_t node = lattice.slotAt(lattice.nodeAt(slot) + below.array().round().matrix().cast<int>());
   return node < 0 || !isWithin(lattice, static_cast<uint32_t>(node));
 }
 
-/// Do nodes within leave the surface bare that is nearest to a node outside of it?
+/// Returns whether inner nodes leave the surface point nearest to an outside node uncovered.
 bool isBareBeside(const Lattice& lattice, uint32_t slot, double distance_m) {
-  constexpr double kFlat = 0.7, kEdge = 0.25;  // of the distance: in a square of nodes, and above a sharp edge
+  constexpr double kFlat = 0.7, kEdge = 0.25;  // shares of the distance: in a square of nodes, and above a sharp edge
   const double stops_m = stopsAbove(lattice, slot, distance_m);
   return stops_m < (isThinBeside(lattice, slot) ? kFlat : kEdge) * distance_m;
 }
 
-/// [slots of a lattice with cells that are tissue in part] touchDepths() @param distance_m  collisionDistance()
+/// Returns touchDepths() of a lattice with partially filled cells, [slots]. @param distance_m  collisionDistance()
 std::vector<float> depthsAtSurface(const Lattice& lattice, double distance_m) {
-  constexpr double kNear = -0.7;    // of a cell: one of any row of nodes through a wall is as near
+  constexpr double kNear = -0.7;    // of a cell: every row of nodes through a wall has a node as near
   constexpr double kLeast = -0.25;  // of the distance that nodes keep, and of a cell: smaller spheres leave holes
   const double deepest_m = (1 - kRounded) * lattice.spacing_m;
   const auto least_m = static_cast<float>(kLeast * std::min(distance_m, lattice.spacing_m));
@@ -91,7 +91,7 @@ std::vector<float> depthsAtSurface(const Lattice& lattice, double distance_m) {
   return out;
 }
 
-/// How much farther than its distance a body's nodes touch [m].
+/// Returns by how much more than its distance a body's nodes touch [m].
 double deepestTouch(const Body& body) {
   return body.hasCells() && !body.lattice.depth_m.empty() ? body.lattice.spacing_m : 0;
 }

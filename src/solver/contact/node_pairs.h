@@ -9,20 +9,21 @@ namespace viscera {
 
 struct Scene;
 
-// Contacts between nodes in the solution of an implicit substep (shaders/solver/implicit/implicit_pairs.glsl), any
+// Contacts between nodes in the solution of an implicit substep (shaders/solver/implicit/implicit_pairs.glsl), on any
 // backend.
 
-/// Are contacts between nodes part of the solution of a substep?
+/// Returns whether contacts between nodes are part of the solution of a substep.
 bool solvesContacts(const Scene& scene);
 
-/// Of D_ij: how near two nodes are, where the first iterate leads, that may touch in the substep. What lies on
-/// something is found though the iterate does not bring it nearer.
+/// Largest distance, over D_ij, of two nodes at the first iterate that may touch in the substep. It exceeds 1 so that
+/// resting contacts are found although the iterate does not bring the nodes nearer.
 constexpr float kPairReach = 1.1f;
-/// Of D_ij: how near two nodes are after an implicit substep that contacts act on: its solution's keep D_ij.
+/// Distance, over D_ij, below which a pair is missed after an implicit substep, and contacts act: pairs of its solution
+/// keep D_ij.
 constexpr float kMissedReach = 0.999f;
-/// Ends of pairs for which there is room, per node that may touch others: what lies on something has one to four.
+/// Capacity in ends of pairs per node that may touch others: a resting node has one to four.
 constexpr size_t kPairEndsPerNode = 16;
-/// Rounds in which forces are mended in each sweep.
+/// Rounds of correction of forces in each sweep.
 constexpr int kPairRounds = 2;
 
 inline size_t mostPairEnds(size_t active_nodes) {

@@ -15,7 +15,7 @@ namespace {
 
 /// One stylus in one tick.
 struct Hand {
-  ToolTarget& target;
+  ToolPort& target;
   uint32_t stylus;
   const StylusMotion& motion;
   const StylusConfig& config;
@@ -23,7 +23,7 @@ struct Hand {
   bool resisted;
 };
 
-/// What the kinds with an effect do at the moments of a tick; null where nothing.
+/// Actions of an effect at the moments of a tick; null where there is none.
 struct ToolAct {
   uint32_t effects;
   void (*begin_tick)(const Hand&);
@@ -31,7 +31,7 @@ struct ToolAct {
   void (*end_tick)(const Hand&);
 };
 
-/// A hold that has ended goes before one that begins, maybe of another kind.
+/// Ends the previous hold before a new one begins, possibly of another kind.
 void changeGrip(const Hand& hand) {
   const ToolKind& before = kindOf(hand.motion.hold_ended);
   if (before.grip) hand.target.letGo(hand.stylus, {before.grip(hand.config).release_speed_m_per_s});
@@ -39,7 +39,7 @@ void changeGrip(const Hand& hand) {
   hand.target.takeHold(hand.stylus, hand.motion.from, kindOf(hand.motion.mode).reach_m(hand.config));
 }
 
-/// Nothing is held again until a new hold begins.
+/// Releases nodes above the force limit. Nothing is held again until a new hold begins.
 void letGoAboveLimit(const Hand& hand) {
   const ToolKind& kind = kindOf(hand.motion.mode);
   if (!kind.grip || kind.grips) return;
@@ -58,8 +58,8 @@ constexpr ToolAct kToolActs[] = {
     {kCuts | kErases, nullptr, cut, nullptr},
 };
 
-/// Runs a moment of all acts, for each stylus that has something of them in this tick.
-void run(void (*ToolAct::*moment)(const Hand&), ToolTarget& target, const ToolMotions& motions,
+/// Runs one moment of all acts, for each stylus of a kind that has the effect in this tick.
+void run(void (*ToolAct::*moment)(const Hand&), ToolPort& target, const ToolMotions& motions,
          const std::vector<StylusConfig>& styluses, double tick_s, bool resisted) {
   for (const ToolAct& act : kToolActs) {
     if (!(act.*moment)) continue;
@@ -85,15 +85,15 @@ bool ToolActs::sever(const ToolMotions& motions) const {
                      [](const StylusMotion& motion) { return effectsOf(motion) & (kCuts | kErases); });
 }
 
-void ToolActs::beginTick(ToolTarget& target, const ToolMotions& motions) const {
+void ToolActs::beginTick(ToolPort& target, const ToolMotions& motions) const {
   run(&ToolAct::begin_tick, target, motions, styluses_, tick_s_, resisted_);
 }
 
-void ToolActs::beforeSubstep(ToolTarget& target, const ToolMotions& motions) const {
+void ToolActs::beforeSubstep(ToolPort& target, const ToolMotions& motions) const {
   run(&ToolAct::before_substep, target, motions, styluses_, tick_s_, resisted_);
 }
 
-void ToolActs::endTick(ToolTarget& target, const ToolMotions& motions) const {
+void ToolActs::endTick(ToolPort& target, const ToolMotions& motions) const {
   run(&ToolAct::end_tick, target, motions, styluses_, tick_s_, resisted_);
 }
 

@@ -12,12 +12,12 @@
 
 namespace viscera {
 
-/// A box in the tissue frame [m].
+/// An axis-aligned box in the tissue frame [m].
 struct ToolBox {
   Vector3f low, high;
 };
 
-/// At most one per stylus; nothing is allocated, as every tick asks.
+/// List of at most one box per stylus. It allocates nothing, as it is made in every tick.
 class ToolBoxes {
  public:
   void add(const ToolBox& box) { boxes_[count_++] = box; }
@@ -29,9 +29,9 @@ class ToolBoxes {
   size_t count_ = 0;
 };
 
-/// Where the tools may reach in a tick, whose motions are substep by substep those of kMaxStyluses: one box per tool
-/// that acts. @param spacing_m  the largest of the bodies': the ends of springs that are cut lie up to a spring beside
-/// the blade
+/// Returns the regions that the tools may reach in a tick, one box per tool that acts.
+/// @param motions  those of kMaxStyluses, substep by substep   @param spacing_m  the largest of the bodies': the ends
+/// of cut springs are up to a spring away from the blade
 ToolBoxes toolBoxes(const std::vector<layout::ToolMotion>& motions, float spacing_m);
 
 }  // namespace viscera

@@ -10,9 +10,9 @@
 #include "math/float_bits.h"
 #include "model/fracture/toughness.h"
 #include "solver/contact/tool_boxes.h"
+#include "solver/cpu/kernels/node_pairs.h"
+#include "solver/cpu/state/lattice_arrays.h"
 #include "solver/cpu/steps/network.h"
-#include "solver/cpu/store/lattice_arrays.h"
-#include "solver/cpu/text/node_pairs.h"
 #include "solver/tissue/slowing.h"
 #include "viscera/math/error.h"
 #include "viscera/model/scene/scene.h"
@@ -30,15 +30,16 @@ simd::Kernels kernelsOrThrow(const std::string& target) {
   const std::optional<simd::Kernels> kernels = simd::kernelsFor(target);
   if (kernels) return *kernels;
   if (simd::targets().empty())
-    throw SceneError("the CPU kernels of this build are not for this processor: build with VISCERA_KERNEL_TARGETS=all");
+    throw SceneError(
+        "the CPU kernels of this build do not run on this processor; build with VISCERA_KERNEL_TARGETS=all");
   std::string known;
   for (const std::string& name : simd::targets()) known += (known.empty() ? "" : ", ") + name;
-  throw SceneError("no instruction set '" + target + "' on this processor: " + known);
+  throw SceneError("unknown instruction set '" + target + "' on this processor: " + known);
 }
 
 struct CpuBackend::Work {
   std::vector<simd::BrickStats> stats;  ///< [bricks]
-  std::vector<uint32_t> changed;        ///< bricks to be measured
+  std::vector<uint32_t> changed;        ///< bricks to measure
 };
 
 std::vector<std::string> simdTargets() {
@@ -59,7 +60,7 @@ CpuBackend::CpuBackend(const Model& model, const Scene& scene, const TickPlan& p
       work_(std::make_unique<Work>()),
       good_(plan.governed() ? kGoodStates : 0) {
   if (features_.network) network_ = std::make_unique<CpuNetwork>(lattice_, pool_, features_, kernels_);
-  if (plan.surroundings) surroundings_.emplace(model, scene, lattice_, pool_);
+  if (plan.environment) environment_.emplace(model, scene, lattice_, pool_);
   if (solvesContacts(scene)) pairs_ = std::make_unique<CpuNodePairs>(model, scene, lattice_, pool_);
   stepper_ = makeCpuStepper(config_.integrator, config_.iterations, lattice_,
                             {pool_, sleep_, network_.get(), features_, kernels_, pairs_.get()});
@@ -113,7 +114,7 @@ void CpuBackend::letGo(uint32_t stylus, const Release& release) {
   noteHeld();
 }
 
-/// Bricks with held nodes are awake, and looked at node by node.
+/// Marks and wakes the bricks with held nodes; their nodes are processed one by one.
 void CpuBackend::noteHeld() {
   std::fill(lattice_.hands.held.begin(), lattice_.hands.held.end(), uint8_t{0});
   stats_.grabbed[0] = stats_.grabbed[1] = 0;
@@ -132,7 +133,7 @@ void CpuBackend::writeMotions(const std::vector<layout::ToolMotion>& motions) {
   wakeForTools(motions);
 }
 
-/// Wakes what the tools may reach in this tick.
+/// Wakes bricks within reach of the tools in this tick.
 void CpuBackend::wakeForTools(const std::vector<layout::ToolMotion>& motions) {
   float spacing_m = 0;
   for (const layout::BodyParams& body : lattice_.store.bodies) spacing_m = std::max(spacing_m, body.origin_spacing.w);
@@ -147,7 +148,7 @@ void CpuBackend::cut(uint32_t stylus, bool particles) {
   cutWith(motion_[stylus], particles, particles || resists_.empty() ? nullptr : resists_.data(), false);
 }
 
-/// What a kernel of cuts sees of the state is exchanged for one without displacements.
+/// Cuts with a state without displacements in place of the current one.
 void CpuBackend::cutAtRest(const layout::ToolMotion& sweep, bool particles) {
   const auto exchange = [this] {
     lattice_.state.displacement[lattice_.state.current].swap(still_[0]);
@@ -161,7 +162,8 @@ void CpuBackend::cutAtRest(const layout::ToolMotion& sweep, bool particles) {
   exchange();
 }
 
-/// @param spared, at_rest  as of CpuCut::run()
+/// Cuts springs.
+/// @param spared, at_rest  as for CpuCut::run()
 void CpuBackend::cutWith(const layout::ToolMotion& motion, bool particles, const uint8_t* spared, bool at_rest) {
   uint32_t springs = cut_->run(lattice_, motion, particles, spared, at_rest);
   if (network_) springs += network_->cut(lattice_, motion, particles, spared);
@@ -179,7 +181,7 @@ void CpuBackend::advance(const Substep& step, bool recovery) {
   if (tearing_ && !recovery) tear();
 }
 
-/// After a substep of a recovery without pd (slowing.h). Bricks that sleep have no velocity.
+/// Slows nodes after a substep of a recovery without pd (slowing.h). Sleeping bricks have no velocity.
 void CpuBackend::slow(const Substep& step) {
   CpuState& state = lattice_.state;
   float* const u = state.displacement[state.current].data();
@@ -206,15 +208,15 @@ void CpuBackend::tear() {
   for (const uint32_t brick : tearing_->bricks()) sleep_.wake(brick);
 }
 
-void CpuBackend::blow(const Substep& step, const Surroundings& surroundings) {
-  surroundings_->blow(lattice_, step, surroundings);
+void CpuBackend::blow(const Substep& step, const Environment& environment) {
+  environment_->blow(lattice_, step, environment);
 }
 
-void CpuBackend::surround(const Substep& step, const Surroundings& surroundings) {
-  surroundings_->run(lattice_, step, surroundings);
+void CpuBackend::surround(const Substep& step, const Environment& environment) {
+  environment_->run(lattice_, step, environment);
 }
 
-/// Adds cells in thin walls to what was measured of bricks.
+/// Adds cells in thin walls to the measurements of bricks.
 void CpuBackend::measureWalls(const std::vector<uint32_t>& bricks) {
   CpuWalls& walls = lattice_.strengths.walls;
   const std::vector<uint32_t> groups = walls.acting(bricks), seen = walls.seen(groups);
@@ -262,7 +264,7 @@ void CpuBackend::measure() {
   out.max_stretch_bits = bitsOfFloat(stretch);
   out.max_speed_bits = bitsOfFloat(speed);
   out.max_stiffening_bits = bitsOfFloat(stiffening);
-  if (surroundings_) out.crowded = surroundings_->crowded();
+  if (environment_) out.crowded = environment_->crowded();
   const bool known = !network_ && stats_.max_rate_bits != 0 && springs_cut_ == rate_springs_cut_;
   out.max_rate_bits = known ? stats_.max_rate_bits : bitsOfFloat(largestRate());
   rate_springs_cut_ = springs_cut_;
@@ -270,7 +272,7 @@ void CpuBackend::measure() {
   stats_ = out;
 }
 
-/// Largest (2 sum k + 1.5/h^2 sum of bulks) / m of a node that is not fixed [1/s2] (physics.md 2;
+/// Returns the largest (2 sum k + 1.5/h^2 sum of bulks) / m of a node that is not fixed [1/s2] (physics.md 2;
 /// shaders/solver/step/measure.comp).
 float CpuBackend::largestRate() const {
   float largest = 0;
@@ -311,8 +313,8 @@ bool CpuBackend::takeStats(layout::TickStats& stats, bool) {
 
 // ---- state as a whole ----
 
-/// After the state was written from outside: both states the same and without velocity where nothing moves, everything
-/// awake and measured again.
+/// Updates everything after an external write to the state: both states become equal, without velocity where nothing
+/// moves, and all bricks awake and measured again.
 void CpuBackend::changeAll() {
   AlignedVector<float>& velocity = lattice_.state.velocity[lattice_.state.current];
   for (uint32_t slot : lattice_.store.active) {
@@ -322,7 +324,7 @@ void CpuBackend::changeAll() {
   lattice_.state.velocity[1 - lattice_.state.current] = lattice_.state.velocity[lattice_.state.current];
   stepper_->restart();
   if (network_) network_->restart(lattice_);
-  if (surroundings_) surroundings_->restart();
+  if (environment_) environment_->restart();
   if (pairs_) pairs_->restart();
   lattice_.visitState([](const StateField& field, auto& values) {
     if (field.roll_back == FieldRollBack::kClear) setToRest(field, values);
@@ -364,7 +366,7 @@ void CpuBackend::clearGood() {
 void CpuBackend::persist(Archive& archive) {
   archive.section("integrator");
   stepper_->persist(archive, lattice_);
-  if (surroundings_) surroundings_->persist(archive);
+  if (environment_) environment_->persist(archive);
   if (pairs_) pairs_->persist(archive);
   lattice_.persist(archive);
   if (network_ && archive.reads()) network_->restart(lattice_);

@@ -8,14 +8,14 @@
 #include <utility>
 #include <vector>
 
-#include "solver/cpu/steps/surroundings.h"
-#include "solver/cpu/store/cpu_lattice.h"
-#include "solver/cpu/store/cpu_stepper.h"
-#include "solver/cpu/store/good_states.h"
-#include "solver/cpu/store/sleep.h"
-#include "solver/cpu/store/thread_pool.h"
-#include "solver/cpu/text/tearing.h"
-#include "solver/cpu/text/tool_passes.h"
+#include "solver/cpu/kernels/tearing.h"
+#include "solver/cpu/kernels/tool_passes.h"
+#include "solver/cpu/state/cpu_lattice.h"
+#include "solver/cpu/state/cpu_stepper.h"
+#include "solver/cpu/state/good_states.h"
+#include "solver/cpu/state/sleep.h"
+#include "solver/cpu/state/thread_pool.h"
+#include "solver/cpu/steps/environment.h"
 #include "solver/ticks/solver_backend.h"
 #include "solver/ticks/tick_plan.h"
 
@@ -26,21 +26,23 @@ struct Scene;
 class CpuNetwork;
 
 struct CpuSolverOptions : SolverOptions {
-  std::string simd;  ///< one of simdTargets(); empty: the best that this processor has
+  std::string simd;  ///< one of simdTargets(); empty: the best of this processor
 };
 
-/// Instruction sets that the kernels were compiled for and this processor has, best first, such as AVX3, AVX2, SSE4.
+/// Returns the instruction sets for which kernels were compiled and that this processor has, best first, such as AVX3,
+/// AVX2, SSE4.
 std::vector<std::string> simdTargets();
 
-/// The kernels of an instruction set; empty: of the best there is.
+/// Returns the kernels of an instruction set; if empty, of the best one.
 /// @throws SceneError  this processor or this build has none of that name
 simd::Kernels kernelsOrThrow(const std::string& target);
 
 /// The tissue in host memory, stepped by SIMD threads. Bricks at rest sleep.
 class CpuBackend : public SolverBackend {
  public:
-  /// @param model  must outlive the backend   @param plan  of model and scene; looked at here only
-  /// @throws SceneError  parts (strengths), simd of another name
+  /// @param model  must outlive the backend
+  /// @param plan  of model and scene; used only during construction
+  /// @throws SceneError  parts (strengths), unknown simd
   CpuBackend(const Model& model, const Scene& scene, const TickPlan& plan, const CpuSolverOptions& options = {});
   ~CpuBackend() override;
 
@@ -64,13 +66,13 @@ class CpuBackend : public SolverBackend {
   void selectBody(size_t body) override { selected_body_ = body; }
   void cutAtRest(const layout::ToolMotion& sweep, bool particles) override;
   void advance(const Substep& step, bool recovery) override;
-  void beginSurroundings(const Surroundings& /*surroundings*/) override {}
-  void blow(const Substep& step, const Surroundings& surroundings) override;
-  void surround(const Substep& step, const Surroundings& surroundings) override;
+  void beginEnvironment(const Environment& /*environment*/) override {}
+  void blow(const Substep& step, const Environment& environment) override;
+  void surround(const Substep& step, const Environment& environment) override;
   void sumObstacles(const std::vector<Vector3f>& places) override;
   void measure() override;
   void sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& tips) override;
-  void guard(const Governor::Bounds& /*bounds*/, const ToolMotions& /*motions*/, double /*tick_s*/) override {}
+  void guard(const StabilityMonitor::Bounds& /*bounds*/, const ToolMotions& /*motions*/, double /*tick_s*/) override {}
   bool takeTorn() override { return std::exchange(torn_, false); }
   int lag() const override { return 0; }
   bool requestStats() override;
@@ -81,13 +83,13 @@ class CpuBackend : public SolverBackend {
   std::optional<StateView> stateOnGpu(uint64_t /*cut_revision*/) const override { return std::nullopt; }
   void resetState() override;
   void loadState(const HostState& state) override;
-  void saveGood() final;  // construction saves the first
+  void saveGood() final;  // final, as construction saves the first state
   void restoreGood(int back) override;
   void clearGood() override;
   void persist(Archive& archive) override;
 
  private:
-  struct Work;  // what only src/solver/cpu knows: the kernels' jobs
+  struct Work;  // jobs of the kernels, known only in src/solver/cpu
   void cutWith(const layout::ToolMotion& motion, bool particles, const uint8_t* spared, bool at_rest);
   void sumPushes();
   void wakeForTools(const std::vector<layout::ToolMotion>& motions);
@@ -107,18 +109,18 @@ class CpuBackend : public SolverBackend {
   const ThreadPool& pool_;
   Sleep sleep_;
   std::unique_ptr<Work> work_;
-  std::optional<CpuSurroundings> surroundings_;
-  std::unique_ptr<CpuNodePairs> pairs_;  ///< null where contacts between nodes are not solved for
+  std::optional<CpuEnvironment> environment_;
+  std::unique_ptr<CpuNodePairs> pairs_;  ///< null if contacts between nodes are not part of the solution
   std::unique_ptr<CpuStepper> stepper_;
-  std::unique_ptr<CpuStepper> recovery_;     ///< pd; only with a governor, where no body obeys a law
+  std::unique_ptr<CpuStepper> recovery_;     ///< pd; only with a stability monitor and without bodies with a law
   std::vector<layout::ToolMotion> motions_;  ///< of this tick
   const layout::ToolMotion* motion_ = nullptr;
   std::optional<CpuCut> cut_;
   AlignedVector<float> still_[2];  ///< [3 * slots] 0; empty until a blade has cut at rest
-  std::vector<uint8_t> resists_;   ///< [bodies] 1: blades part it by work; empty where none does
+  std::vector<uint8_t> resists_;   ///< [bodies] 1: resists blades (cuts take work); empty if none does
   std::vector<uint8_t> others_;    ///< [bodies] 0: the selected one
-  std::array<AlignedVector<float>, layout::kMaxStyluses> pushed_;  ///< [3 * slots] N s, by blades in this tick
-  std::vector<uint8_t> pushed_bricks_;                             ///< [bricks] by the last push
+  std::array<AlignedVector<float>, layout::kMaxStyluses> pushed_;  ///< [3 * slots] N s, impulses of blades in this tick
+  std::vector<uint8_t> pushed_bricks_;                             ///< [bricks] 1: pushed by the last push
   size_t selected_body_ = 0;
   std::optional<CpuTearing> tearing_;
   bool torn_ = false;                    ///< since takeTorn()

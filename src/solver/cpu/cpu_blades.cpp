@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What blades that tissue resists, threads and needles see and change of the nodes.
+// Access of resisted blades, sutures and needles to the nodes.
 #include <algorithm>
 
 #include "solver/cpu/cpu_backend.h"
@@ -69,7 +69,7 @@ void CpuBackend::pushRuns(uint32_t stylus, float dt_s, const std::vector<uint32_
   }
 }
 
-/// What blades gave goes to the impulses of styluses.
+/// Adds the impulses of blades to those of styluses.
 void CpuBackend::sumPushes() {
   for (size_t s = 0; s < pushed_.size(); ++s) {
     for (const uint32_t slot : lattice_.store.active) {

@@ -10,6 +10,6 @@ CpuSolver::CpuSolver(const Model& model, const Scene& scene, const CpuSolverOpti
     : CpuSolver(model, scene, planTicks(model, scene, options), options) {}
 
 CpuSolver::CpuSolver(const Model& model, const Scene& scene, const TickPlan& plan, const CpuSolverOptions& options)
-    : Ticks(model, scene, plan, std::make_unique<CpuBackend>(model, scene, plan, options)) {}
+    : TissueStepper(model, scene, plan, std::make_unique<CpuBackend>(model, scene, plan, options)) {}
 
 }  // namespace viscera

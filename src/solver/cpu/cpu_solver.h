@@ -3,17 +3,17 @@
 #pragma once
 
 #include "solver/cpu/cpu_backend.h"
-#include "solver/ticks/ticks.h"
+#include "solver/ticks/tissue_stepper.h"
 
 namespace viscera {
 
 struct Scene;
 
-/// The solver whose state lives in host memory: ticks on a CpuBackend.
-class CpuSolver final : public Ticks {
+/// The solver with its state in host memory: TissueStepper on a CpuBackend.
+class CpuSolver final : public TissueStepper {
  public:
   /// @param model  must outlive the solver
-  /// @throws SceneError  substeps (planSubsteps), parts (strengths), simd of another name
+  /// @throws SceneError  substeps (planSubsteps), parts (strengths), unknown simd
   CpuSolver(const Model& model, const Scene& scene, const CpuSolverOptions& options = {});
 
   size_t awakeBricks() const { return cpu().awakeBricks(); }    ///< in the last substep

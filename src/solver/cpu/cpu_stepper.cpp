@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/cpu/store/cpu_stepper.h"
+#include "solver/cpu/state/cpu_stepper.h"
 
 #include "model/scene/integrators.h"
 #include "solver/cpu/steps/cpu_device.h"

@@ -10,7 +10,7 @@
 #include "math/number_text.h"
 #include "math/union_find.h"
 #include "model/body/body_nodes.h"
-#include "solver/contact/surroundings.h"
+#include "solver/contact/environment.h"
 #include "solver/cpu/cpu_backend.h"
 #include "solver/cpu/steps/network.h"
 #include "solver/processes/burn/heat_graph.h"
@@ -23,16 +23,16 @@ namespace viscera {
 
 namespace {
 
-/// Substep over the longest stable one of tissue at rest: over the proven bound, and over what was measured of
-/// lattices. Strained tissue has faster motions (docs/stability.md); a relaxation that diverges starts again.
+/// Substep over the longest stable one of tissue at rest: over the proven bound, and over the measured one for
+/// lattices. Strained tissue has faster motions (docs/verification.md); a relaxation that diverges is restarted.
 constexpr double kOfSafe = 0.75, kOfMeasured = 0.68;
 constexpr double kShorter = 0.6;  ///< substep of the next attempt over that of the last
 constexpr int kAttempts = 5;
 constexpr double kDiverged = 1e3;  ///< residual over the load
 constexpr int kMostSubsteps = 100000;
-constexpr int kWindow = 32;   ///< substeps over which the slowest motion is looked at
+constexpr int kWindow = 32;   ///< substeps over which the slowest motion is measured
 constexpr size_t kRates = 8;  ///< windows in which the slowest motion shows at least once
-/// Substeps in a row that must be settled: what swings is slow at its turning points.
+/// Consecutive substeps that must be settled, since oscillations are slow at their turning points.
 constexpr int kCalm = 8;
 /// `left` where rounding leaves more than kSettled of the forces.
 constexpr double kLeftAtMost = kLeft / 3;
@@ -43,9 +43,10 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// @throws SceneError  a piece of tissue is held nowhere, so that it falls for ever; names its body and where it is
+/// Requires that all tissue is held.
+/// @throws SceneError  a piece of tissue has no fixed node and would fall; names its body and position
 void requireHeld(const Model& model) {
-  UnionFind pieces(model.slots());  // of tissue that hangs together by springs
+  UnionFind pieces(model.slots());  // pieces of tissue connected by springs
   for (const BurntSpring& spring : springsOf(model)) pieces.unite(spring.a, spring.b);
   std::vector<uint8_t> is_held(model.slots(), 0);
   std::vector<uint32_t> sizes(model.slots(), 0);
@@ -64,12 +65,12 @@ void requireHeld(const Model& model) {
       const Vector3d at_m = restPosition(body, local);
       throw SceneError("body '" + body.name + "': a piece of " + std::to_string(sizes[root]) + " nodes at " +
                        numberText(at_m.x(), 3) + " " + numberText(at_m.y(), 3) + " " + numberText(at_m.z(), 3) +
-                       " m is held nowhere: it has no equilibrium. Give it 'fixed' nodes");
+                       " m is not held anywhere, so it has no equilibrium. Give it 'fixed' nodes");
     }
   }
 }
 
-/// The scene with its tissue and its load alone.
+/// Returns the scene with only its tissue and its load.
 Scene tissueOf(const Scene& scene) {
   Scene out = scene;
   out.styluses.clear();
@@ -77,7 +78,7 @@ Scene tissueOf(const Scene& scene) {
   out.environment.wind = {};
   out.collision.enabled = false;
   out.solver.integrator = Integrator::kLeapfrog;
-  out.solver.governor = false;
+  out.solver.stability_monitor = false;
   return out;
 }
 
@@ -92,9 +93,9 @@ double substepOf_s(const Model& model, const Scene& tissue, const std::shared_pt
   return std::max(proven_s, kOfMeasured * measureLimit_s(backend, model));
 }
 
-/// Bodies without drag and dashpots: the drag of a relaxation is another in every substep.
+/// Returns bodies without drag and dashpots: a relaxation changes the drag in every substep.
 std::vector<layout::BodyParams> undamped(std::vector<layout::BodyParams> bodies) {
-  for (layout::BodyParams& body : bodies) body.drag_per_s = body.dashpot_s = 0;
+  for (layout::BodyParams& body : bodies) body.mass_damping_per_s = body.dashpot_s = 0;
   return bodies;
 }
 
@@ -110,16 +111,16 @@ double meanSpacing_m(const Model& model) {
   return sum / static_cast<double>(model.bodies.size());
 }
 
-/// Sums over nodes, of mass times ...
+/// Sums over nodes of mass times these terms.
 struct Sums {
   double speed2 = 0;  ///< squared velocity [kg m2/s2]
   double size2 = 0;   ///< squared displacement [kg m2]
   double way2 = 0;    ///< squared displacement since the reference [kg m2]
-  double pull = 0;    ///< -that . acceleration since the reference [kg m2/s2]
-  double force2 = 0;  ///< squared force [N2]; without the mass
+  double pull = 0;    ///< that displacement . -(change of acceleration) since the reference [kg m2/s2]
+  double force2 = 0;  ///< squared force [N2], without the mass
 };
 
-/// Leapfrog with the drag that dampens critically what moves slowest.
+/// Leapfrog with a drag that is critical for the slowest motion.
 class Relaxation {
  public:
   Relaxation(const Model& model, const Scene& tissue, double dt_s, const ThreadPool& pool)
@@ -147,7 +148,8 @@ class Relaxation {
     unresolved2_ = mass_kg_ * std::pow(kUnresolved * meanSpacing_m(model), 2);
   }
 
-  /// @returns false if the substep proved too long
+  /// Runs the relaxation.
+  /// @return false if the substep proved too long
   bool run(SettleReport& report) {
     int calm = 0, next = 1;
     for (int s = 0; s < kMostSubsteps && calm < kCalm; ++s, ++report.substeps) {
@@ -165,7 +167,7 @@ class Relaxation {
     return true;
   }
 
-  /// @returns displacements of the nodes, velocities 0
+  /// Returns the displacements of the nodes, with zero velocities.
   HostState state() const {
     HostState out = lattice_.read();
     std::fill(out.velocity_m_per_s.begin(), out.velocity_m_per_s.end(), layout::vec4{0, 0, 0, 0});
@@ -185,14 +187,14 @@ class Relaxation {
     const double slowest2 = *std::min_element(rates2_.begin(), rates2_.end());
     if (sums.speed2 == 0 || slowest2 == 0) return sums.speed2 == 0;
     const double way2 =
-        sums.speed2 / slowest2;  // what is left of a critically damped motion, mass times squared length
+        sums.speed2 / slowest2;  // remaining distance of a critically damped motion: mass times squared length
     report.left = sums.size2 > 0 ? std::sqrt(way2 / sums.size2) : 1;
     if (way2 <= unresolved2_) return true;
     return report.left <= kLeft && (report.residual <= kSettled || report.left <= kLeftAtMost) &&
            report.residual <= kLargestResidual;
   }
 
-  /// Something that moves fast in one place hides what moves slowly elsewhere: the least of the last windows counts.
+  /// Records a rate. Fast motion in one place hides slow motion elsewhere, so the least of the last windows counts.
   void noteRate(double rate2) {
     rate2_ = rate2;
     rates2_[windows_++ % rates2_.size()] = rate2;
@@ -203,25 +205,26 @@ class Relaxation {
     return {a.x, a.y, a.z};
   }
 
+  /// Makes one substep.
   /// @param renews  the substep begins at the next reference
   Sums substep(bool first, bool renews) {
     // Leapfrog: v' = ((1 - g) v + kick a) / (1 + g), g = drag kick / 2; the drag is 2 omega of the slowest motion.
-    const auto drag_per_s = static_cast<float>(2 * std::sqrt(rate2_));
-    for (layout::BodyParams& body : lattice_.store.bodies) body.drag_per_s = drag_per_s;
+    const auto mass_damping_per_s = static_cast<float>(2 * std::sqrt(rate2_));
+    for (layout::BodyParams& body : lattice_.store.bodies) body.mass_damping_per_s = mass_damping_per_s;
     Substep step;
     step.dt_s = static_cast<float>(dt_s_);
     step.kick_s = first ? 0.5F * step.dt_s : step.dt_s;
     step.gravity = gravity_;
     step.sleep_distance_m = std::numeric_limits<float>::max();
     step.restarted = first;
-    const float g = 0.5F * drag_per_s * step.kick_s;
+    const float g = 0.5F * mass_damping_per_s * step.kick_s;
     stepper_->run(lattice_, step, nullptr);
     lattice_.swap();
     if (pushed_) push(step, g);
     return sum(step.kick_s, g, renews);
   }
 
-  /// Adds what the forces on bodies give in a substep.
+  /// Adds the effect of forces on bodies in a substep.
   void push(const Substep& step, float g) {
     float* u = lattice_.state.displacement[lattice_.state.current].data();
     float* v = lattice_.state.velocity[lattice_.state.current].data();
@@ -249,7 +252,7 @@ class Relaxation {
     return out;
   }
 
-  /// Accelerations are those at the beginning of the substep, and so are displacements.
+  /// Sums over a brick. Accelerations and displacements are those at the beginning of the substep.
   Sums sumBrick(size_t brick, float kick_s, float g, bool renews) {
     const CpuState& state = lattice_.state;
     const float* mass = &lattice_.strengths.mass[brick * layout::kBrickSlots];
@@ -281,8 +284,8 @@ class Relaxation {
   const Parallel& parallel_;
   Vector3f gravity_;
   std::vector<layout::vec4> influences_;
-  /// [3 * slots] displacement [m] and acceleration [m/s2] of a substep before, from which the stiffness is seen that
-  /// the motion meets: over many substeps, since rounding is as large as what changes in one.
+  /// [3 * slots] displacement [m] and acceleration [m/s2] of an earlier substep, from which the stiffness along the
+  /// motion is estimated. Many substeps are between, since rounding errors are as large as the change in one.
   AlignedVector<float> reference_u_, reference_a_;
   std::vector<Sums> parts_;  ///< [bricks]
   std::unique_ptr<CpuNetwork> network_;
@@ -291,7 +294,7 @@ class Relaxation {
   double mass_kg_ = 0, load_n_ = 0, unresolved2_ = 0;
   std::array<double, kRates> rates2_{};  ///< of the last windows
   size_t windows_ = 0;
-  double rate2_ = 0;  ///< squared angular frequency of what moves slowest [1/s2], by Rayleigh's quotient
+  double rate2_ = 0;  ///< squared angular frequency of the slowest motion [1/s2], by Rayleigh's quotient
 };
 
 }  // namespace
@@ -313,7 +316,7 @@ HostState equilibriumOf(const Model& model, const Scene& scene, SettleReport& re
     return relaxation.state();
   }
   throw Error("no equilibrium was found after " + std::to_string(report.substeps) +
-              " substeps: what is not balanced is " + numberText(report.residual, 3) + " of the load");
+              " substeps: the unbalanced force is " + numberText(report.residual, 3) + " of the load");
 }
 
 }  // namespace viscera

@@ -7,18 +7,18 @@
 
 namespace viscera {
 
-// Drivers of kernels are written once, as templates over the device that runs them: CpuDevice (solver/cpu/steps) has
-// the kernels' text as C++, one class per choice of features, by the list in kernels.txt; GpuDevice (solver/gpu/steps)
-// compiles them with OpenGL. A device has fields, which know how many they are, binds them by their numbers in
-// layout/bindings.h, and runs passes over what it holds.
+// Drivers of kernels are written once, as templates over the device that runs them. CpuDevice (solver/cpu/steps) has
+// the kernels' text as C++, one class per choice of features, by the list in kernels.txt. GpuDevice (solver/gpu/steps)
+// compiles them with OpenGL. A device has fields, which know their length, binds them by their numbers in
+// layout/bindings.h, and runs passes over its nodes.
 
-/// What a pass goes through.
-enum class Over { kNodes, kPairs };  ///< active nodes; of these at least those that may touch others
+/// What a pass iterates over.
+enum class Over { kNodes, kPairs };  ///< active nodes; at least those of them that may touch others
 
-/// What a pass is told beside its uniforms. Bits.
-constexpr uint32_t kInSubstep = 1;  ///< the substep; probes and obstacles, compiled in where some may be about
-constexpr uint32_t kWithPairs = 2;  ///< contacts between nodes
-constexpr uint32_t kOfRates = 4;    ///< its feature RATE
+/// Options of a pass in addition to its uniforms, as bits.
+constexpr uint32_t kInSubstep = 1;  ///< uses the substep, and probes and obstacles, compiled in if there may be any
+constexpr uint32_t kWithPairs = 2;  ///< handles contacts between nodes
+constexpr uint32_t kOfRates = 4;    ///< compiled with its feature RATE
 
 /// A uniform's value, by its name.
 struct Uniform {

@@ -11,12 +11,12 @@
 
 namespace viscera {
 
-/// Start and end of a substep of implicit Euler and the increments du = u+ - u in between, which pd iterates
-/// (shaders/solver/implicit/implicit.glsl has the equations), on any device. Owner of shaders/solver/implicit/*.comp
+/// Start and end of a substep of implicit Euler, and the increments du = u+ - u in between, which pd iterates, on any
+/// device. The equations are in shaders/solver/implicit/implicit.glsl. Owner of shaders/solver/implicit/*.comp
 template <class Device>
 class ImplicitSubstep {
  public:
-  /// @param iterations  at most, in a substep
+  /// @param iterations  largest number in a substep
   ImplicitSubstep(Device on, int iterations)
       : device(std::move(on)),
         guard(1 + 2 * static_cast<size_t>(iterations)),
@@ -27,15 +27,16 @@ class ImplicitSubstep {
         increments_{Vectors(device.slots(), "increments", true), Vectors(device.slots(), "increments", true)},
         contacts_(size_t{3} * device.contactRows() * device.slots(), "contacts of nodes"),
         energies_(2 * device.sumSize(), "energies") {
-    bindIncrements();  // what is too large for the driver is said now
+    bindIncrements();  // reports now what is too large for the driver
     if (!device.pairs) return;
     pull_ = device.pass("implicit_pull.comp", kInSubstep | kWithPairs);
     meet_ = device.pass("implicit_meet.comp", kWithPairs);
     place_ = device.pass("implicit_place.comp", kInSubstep | kWithPairs);
   }
 
-  /// First iterate: held nodes are where their tools have them, none is in a probe or an obstacle; the others at the
-  /// best share of the motion without forces, that of 0, 1/2, 3/4, 1 with the lowest incremental potential.
+  /// Sets the first iterate. Held nodes are at their prescribed positions, and no node is in a probe or an obstacle.
+  /// The others move by the best share of the motion without forces: that of 0, 1/2, 3/4, 1 with the lowest incremental
+  /// potential.
   void begin(const Substep& step) {
     guard.clear();
     device.bind(layout::kBindGuard, guard);
@@ -45,23 +46,23 @@ class ImplicitSubstep {
     keepBestShare(step, false);
   }
 
-  /// State = displacement + last iterate, v = du/dt; tools, sleep. The last iterate is taken in the largest share of 0,
-  /// 1/2, 3/4, 1 that does not end with more kinetic + elastic energy than there was before the substep and gravity
-  /// added, so energy cannot grow, whatever the state, dt and the number of iterations. Where tools act, which may
-  /// bring energy in, only the incremental potential must not be above that of no motion. Who holds or touches nodes
-  /// gives them what their balance of forces at the end of the substep lacks.
+  /// Sets state = displacement + last iterate, v = du/dt; applies tools and sleep. The last iterate is scaled by the
+  /// largest share of 0, 1/2, 3/4, 1 with which kinetic + elastic energy does not exceed that before the substep plus
+  /// the work of gravity. So energy cannot grow, whatever the state, dt and the number of iterations. Where tools act,
+  /// which may add energy, only the incremental potential must not exceed that of no motion. Tools and obstacles that
+  /// hold or touch nodes receive the residual of their balance of forces at the end of the substep.
   void end(const Substep& step) {
     keepBestShare(step, !step.tools);
     device.run(end_, step, Over::kNodes);
   }
 
-  /// The next iterate is where the last but one was; swap() makes it the current one.
+  /// Makes the next iterate the current one. It is stored in place of the iterate before the last.
   void swap() {
     current_ = 1 - current_;
     bindIncrements();
   }
 
-  /// The part of a sweep that moves nodes which may touch others: all of them together. After the rest of it.
+  /// Moves the nodes that may touch others, all together. Call after the rest of a sweep.
   void movePairs(const Substep& step, int iteration) {
     if (!device.mayHavePairs()) return;
     device.run(pull_, step, Over::kPairs, {{"first_sweep", iteration == 0 ? 1u : 0u}});
@@ -90,7 +91,7 @@ class ImplicitSubstep {
 
   using Vectors = typename Device::template Field<typename Device::vec4>;
   typename Device::Pass begin_, guess_, scale_, end_;
-  typename Device::Pass pull_, meet_, place_;  ///< of pairs, where there are any
+  typename Device::Pass pull_, meet_, place_;  ///< passes of pairs, where there are any
   Vectors increments_[2];  ///< [slots] xyz m; w 1 where prescribed, below 0 where in contact; this iterate and the last
   Vectors contacts_;       ///< [3 * rows * slots], see shaders/solver/implicit/implicit_contact.glsl
   Vectors energies_;       ///< [2 * device.sumSize()] J

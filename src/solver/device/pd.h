@@ -9,8 +9,8 @@
 
 namespace viscera {
 
-/// PD-Jacobi in majorise-minimise form on implicit Euler (physics.md 2), with Chebyshev acceleration on request: where
-/// that goes wrong the rest of the substep starts again without it, which the device decides.
+/// PD-Jacobi in majorise-minimise form on implicit Euler (physics.md 2), with optional Chebyshev acceleration. If
+/// acceleration diverges, which the device decides, the rest of the substep restarts without it.
 /// Owner of shaders/solver/implicit/pd.comp.
 template <class Device>
 class PdStepper : public Device::Stepper {
@@ -22,7 +22,7 @@ class PdStepper : public Device::Stepper {
     if (options_.accelerated && options_.spectral_radius == 0) findRates();
   }
 
-  /// Of the device's lattice.
+  /// Advances the device's lattice by a substep.
   void run(typename Device::Lattice&, const Substep& step) override {
     implicit_.device.begin(*this);
     implicit_.begin(step);
@@ -38,13 +38,14 @@ class PdStepper : public Device::Stepper {
     implicit_.end(step);
   }
 
-  /// Bound on the spectral radius of the plain iteration (jacobiRadius).
+  /// Returns a bound on the spectral radius of the plain iteration (jacobiRadius).
   double spectralRadius(double dt_s) const {
     if (options_.spectral_radius > 0) return options_.spectral_radius;
     return jacobiRadius(stiffness_rate_per_s2_, damping_rate_per_s_, dt_s);
   }
 
-  /// Largest step of a node per iteration of the last substep, before acceleration [m]. Waits for the device.
+  /// Returns the largest step of a node per iteration of the last substep, before acceleration [m]. Waits for the
+  /// device.
   std::vector<float> changes() const {
     const std::vector<uint32_t> words = implicit_.guard.read();
     std::vector<float> out;
@@ -52,7 +53,7 @@ class PdStepper : public Device::Stepper {
     return out;
   }
 
-  /// Did the last substep give its acceleration up? Waits for the device.
+  /// Returns whether the last substep abandoned its acceleration. Waits for the device.
   bool gaveUp() const { return implicit_.guard.read().back() != 0; }
 
  private:

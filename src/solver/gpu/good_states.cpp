@@ -64,7 +64,8 @@ void GoodStates::persist(Archive& archive) {
   int next = next_, kept = kept_;
   archive.value(next);
   archive.value(kept);
-  archive.require(next >= 0 && next < states && kept >= 0 && kept <= states, "there is no such good state");
+  archive.require(next >= 0 && next < states && kept >= 0 && kept <= states,
+                  "there is no state to roll back to at this index");
   next_ = next;
   kept_ = kept;
   same_ = 0;

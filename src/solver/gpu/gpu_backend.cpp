@@ -15,7 +15,7 @@
 #include "model/fracture/toughness.h"
 #include "model/scene/integrators.h"
 #include "model/scene/tool_kinds.h"
-#include "solver/cpu/store/sleep.h"
+#include "solver/cpu/state/sleep.h"
 #include "solver/ticks/registry.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
@@ -27,9 +27,9 @@ namespace viscera {
 namespace {
 
 constexpr int kStatsInFlight = 3;
-const float kFarthestCut = layout::kLongest * 1.41421357f;  // spacings beside a blade that it may cut in
+const float kFarthestCut = layout::kLongest * 1.41421357f;  // spacings from a blade in which it may cut
 
-/// Null where nothing may sleep: by another integrator, or with surroundings that move what is at rest.
+/// Returns null if nothing may sleep: with other integrators, or with an environment that moves tissue at rest.
 std::unique_ptr<AwakeBricks> makeAwakeBricks(const Model& model, const Scene& scene, const TickPlan& plan,
                                              const FeatureSet& features, const LatticeBuffers& buffers) {
   const double speed_m_per_s = scene.solver.sleep_speed_m_per_s;
@@ -59,7 +59,7 @@ GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& p
     if (!plan.recovers_by_pd) recovery_->slow.emplace(features_);
     recovery_->good.save(buffers_);
   }
-  if (plan.surroundings) surroundings_.emplace(model, scene, features_, buffers_);
+  if (plan.environment) environment_.emplace(model, scene, features_, buffers_);
   if (features_.obstacles > 0) obstacle_reaction_.emplace(features_, buffers_.store.active_count, true);
   for (const Body& body : model.bodies)
     largest_spacing_m_ = std::max(largest_spacing_m_, static_cast<float>(body.lattice.spacing_m));
@@ -96,7 +96,7 @@ void GpuBackend::beginTick() {
   if (!rest_.resting()) bind();
 }
 
-/// Something is about to happen to the tissue that may wake it.
+/// Prepares the GPU for something that may wake the tissue.
 void GpuBackend::disturb() {
   if (rest_.resting()) bind();
   rest_.disturb();
@@ -115,8 +115,8 @@ void GpuBackend::takeHold(uint32_t stylus, const Pose& pose, double radius_m) {
   if (awake_) awake_->wakeHeld();
 }
 
-/// At the end of a tick in which nothing moved no force was too large. What is still held is seen in the measurements
-/// of this tick, not to be a disturbance of the next.
+/// Releases nodes. After a tick without motion no force can be above the limit, so a release by force is skipped. What
+/// is still held shows in the measurements of this tick, so this is no disturbance of the next.
 void GpuBackend::letGo(uint32_t stylus, const Release& release) {
   const bool in_any_case = release.above_n_s < 0;
   if (rest_.resting() && !in_any_case) return;
@@ -125,7 +125,7 @@ void GpuBackend::letGo(uint32_t stylus, const Release& release) {
   if (awake_) awake_->wakeHeld();
 }
 
-/// Where the tools may reach in this tick, as the CPU backend has it.
+/// Uploads the motions of a tick and wakes bricks within reach of the tools, as the CPU backend does.
 void GpuBackend::writeMotions(const std::vector<layout::ToolMotion>& motions) {
   const bool rested = rest_.resting();
   const bool cuts =
@@ -134,7 +134,7 @@ void GpuBackend::writeMotions(const std::vector<layout::ToolMotion>& motions) {
   const ToolBoxes reached = toolBoxes(motions, largest_spacing_m_);
   boxes_.assign(reached.begin(), reached.end());
   std::vector<ToolBox> disturbed = boxes_;
-  if (blade_ && std::exchange(blade_->looked, false)) disturb();  // its fronts may be elsewhere
+  if (blade_ && std::exchange(blade_->looked, false)) disturb();  // the fronts of blades may have moved
   const float beside_m = std::max(kFarthestCut * largest_spacing_m_, blade_ ? blade_->kernel_m : 0);
   for (ToolBox& box : disturbed) {
     const Vector3f more = Vector3f::Constant(cuts ? beside_m : 0);
@@ -157,6 +157,7 @@ void GpuBackend::cut(uint32_t stylus, bool particles) {
   cutBut(blade_ && !particles ? blade_->resists : 0, stylus, particles);
 }
 
+/// Cuts bodies.
 /// @param spared  bodies that are not cut, a bit each
 void GpuBackend::cutBut(uint32_t spared, uint32_t stylus, bool particles) {
   const gpu::TimedStage timed(gpu::Stage::kCut);
@@ -177,7 +178,7 @@ void GpuBackend::pushNodes(uint32_t stylus, float dt_s, const std::vector<uint32
   blade_->window.push(buffers_, stylus, dt_s, slots, dv_m_per_s);
 }
 
-/// The cut sees tissue that is where it is at rest. It may come in a tick without blades, in which all rests.
+/// Cuts tissue at its rest position. This may happen in a tick without blades, in which everything rests.
 void GpuBackend::cutAtRest(const layout::ToolMotion& sweep, bool particles) {
   disturb();
   blade_->sweep.write(&sweep, 1);
@@ -198,19 +199,19 @@ void GpuBackend::advance(const Substep& step, bool recovery) {
   const gpu::TimedStage timed(gpu::Stage::kStep);
   const bool by_pd = recovery && recovery_->stepper;
   Stepper& stepper = by_pd ? *recovery_->stepper : *stepper_;
-  if (surroundings_ && step.implicit) surroundings_->bindObstacles(step);
+  if (environment_ && step.implicit) environment_->bindObstacles(step);
   stepper.run(buffers_, step);
   buffers_.swap();
   if (recovery && !by_pd) recovery_->slow->run(buffers_, step);
 }
 
-void GpuBackend::beginSurroundings(const Surroundings& surroundings) {
-  surroundings_->beginTick(surroundings);
+void GpuBackend::beginEnvironment(const Environment& environment) {
+  environment_->beginTick(environment);
 }
 
-void GpuBackend::blow(const Substep& step, const Surroundings& surroundings) {
+void GpuBackend::blow(const Substep& step, const Environment& environment) {
   const gpu::TimedStage timed(gpu::Stage::kStep);
-  surroundings_->blow(buffers_, step, surroundings);
+  environment_->blow(buffers_, step, environment);
 }
 
 void GpuBackend::sumObstacles(const std::vector<Vector3f>& places) {
@@ -218,16 +219,16 @@ void GpuBackend::sumObstacles(const std::vector<Vector3f>& places) {
   obstacle_reaction_->runObstacles(buffers_, places);
 }
 
-void GpuBackend::surround(const Substep& step, const Surroundings& surroundings) {
+void GpuBackend::surround(const Substep& step, const Environment& environment) {
   const gpu::TimedStage timed(gpu::Stage::kStep);
-  surroundings_->run(buffers_, step, surroundings);
+  environment_->run(buffers_, step, environment);
 }
 
 void GpuBackend::measure() {
   if (rest_.resting()) return;
   const gpu::TimedStage timed(gpu::Stage::kMeasure);
   measure_.run(buffers_);
-  if (surroundings_) surroundings_->noteCrowded(buffers_.stats);
+  if (environment_) environment_->noteCrowded(buffers_.stats);
 }
 
 void GpuBackend::sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& tips) {
@@ -236,14 +237,15 @@ void GpuBackend::sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& 
   tools_->reaction.run(buffers_, tips);
 }
 
-void GpuBackend::guard(const Governor::Bounds& bounds, const ToolMotions& motions, double tick_s) {
+void GpuBackend::guard(const StabilityMonitor::Bounds& bounds, const ToolMotions& motions, double tick_s) {
   if (rest_.resting()) return;
   const gpu::TimedStage timed(gpu::Stage::kMeasure);
   recovery_->good.bindLast();
   recovery_->guard.run(buffers_, bounds, motions, tick_s);
 }
 
-/// The end of a tick. Here OpenGL's errors come to light: to ask after each call would cost.
+/// Requests the measurements at the end of a tick. OpenGL's errors are checked here, as a check after each call would
+/// be slow.
 bool GpuBackend::requestStats() {
   gpu::checkErrors("a tick of the solver");
   if (stats_ring_.inFlight() == kStatsInFlight) return false;
@@ -271,7 +273,7 @@ bool GpuBackend::takeStats(layout::TickStats& stats, bool wait) {
 void requireSignOfLife(const layout::TickStats& stats) {
   if (stats.max_rate_bits != 0 || stats.springs_cut != 0 || stats.nonfinite != 0) return;
   throw GpuError(
-      "the GPU does not step the tissue: its measurements are empty (out of memory, or a driver that gave up; last "
+      "the GPU does not step the tissue: its measurements are empty (out of memory, or the driver failed; last "
       "kernel '" +
       gpu::lastKernel() + "')");
 }
@@ -317,7 +319,7 @@ void GpuBackend::resetState() {
   stepper_->restart();
   wakeAll();
   if (awake_) awake_->restart();
-  if (surroundings_) surroundings_->restart();
+  if (environment_) environment_->restart();
   if (pairs_) pairs_->restart();
 }
 
@@ -330,7 +332,7 @@ void GpuBackend::loadState(const HostState& state) {
   buffers_.writeSpringCut(state.spring_cut);
   buffers_.writeAxialCut(state.axial_cut);
   if (buffers_.state.compensation.size()) buffers_.state.compensation.clear();
-  if (surroundings_) surroundings_->restart();
+  if (environment_) environment_->restart();
   if (pairs_) pairs_->restart();
   wakeAll();
   bind();
@@ -346,16 +348,16 @@ void GpuBackend::restoreGood(int back) {
   recovery_->good.restore(buffers_, back);
   buffers_.clearRolledBack();
   stepper_->restart();
-  if (surroundings_) surroundings_->restart();
+  if (environment_) environment_->restart();
   if (pairs_) pairs_->restart();
 }
 
-/// What RestWatch knows is not kept: it changes no result. Nor is it taken to be at rest.
+/// RestWatch is not saved, as it changes no result. After loading, tissue is not assumed to be at rest.
 void GpuBackend::persist(Archive& archive) {
   disturb();
   archive.section("integrator");
   stepper_->persist(archive);
-  if (surroundings_) surroundings_->persist(archive);
+  if (environment_) environment_->persist(archive);
   if (pairs_) pairs_->persist(archive);
   buffers_.persist(archive);
   archive.section("gpu");

@@ -9,7 +9,7 @@ namespace viscera {
 
 namespace {
 
-/// With kernels that the driver has compiled.
+/// Returns a backend after the driver has compiled its kernels.
 std::unique_ptr<GpuBackend> backendOf(const Model& model, const Scene& scene, const TickPlan& plan,
                                       const GpuSolverOptions& options) {
   const gpu::MadePrograms made;
@@ -24,7 +24,7 @@ GpuSolver::GpuSolver(const Model& model, const Scene& scene, const GpuSolverOpti
     : GpuSolver(model, scene, planTicks(model, scene, options), options) {}
 
 GpuSolver::GpuSolver(const Model& model, const Scene& scene, const TickPlan& plan, const GpuSolverOptions& options)
-    : Ticks(model, scene, plan, backendOf(model, scene, plan, options)) {}
+    : TissueStepper(model, scene, plan, backendOf(model, scene, plan, options)) {}
 
 size_t GpuSolver::awakeBricks() const {
   size_t count = 0;

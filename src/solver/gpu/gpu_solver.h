@@ -3,28 +3,28 @@
 #pragma once
 
 #include "solver/gpu/gpu_backend.h"
-#include "solver/ticks/ticks.h"
+#include "solver/ticks/tissue_stepper.h"
 
 namespace viscera {
 
 struct Scene;
 
-/// The solver whose state lives on the GPU: ticks on a GpuBackend.
-class GpuSolver final : public Ticks {
+/// The solver with its state on the GPU: TissueStepper on a GpuBackend.
+class GpuSolver final : public TissueStepper {
  public:
   /// @param model  must outlive the solver
   /// @throws GpuError  shaders, memory;  SceneError  substeps (planSubsteps), parts (strengths)
   GpuSolver(const Model& model, const Scene& scene, const GpuSolverOptions& options = {});
 
   StateView state() const { return *stateOnGpu(); }
-  /// Times that the host had to wait for measurements: of the tick before, where a governor judges it, or where none
-  /// governs and the GPU is more than three ticks behind.
+  /// Returns how often the host had to wait for measurements: for those of the last tick, if there is a stability
+  /// monitor; without one, only if the GPU is more than three ticks behind.
   uint64_t waits() const { return gpu().waits(); }
-  /// [bricks] 1 where awake, for the next substep; waits.
+  /// Returns [bricks] 1 where awake, for the next substep. Waits for the GPU.
   std::vector<uint8_t> awake() const { return gpu().awake(); }
-  size_t awakeBricks() const;  ///< how many of them
+  size_t awakeBricks() const;  ///< number of awake bricks; waits for the GPU
   size_t bricks() const { return gpu().bricks(); }
-  bool resting() const { return gpu().resting(); }  ///< the last tick was known to change nothing, and not carried out
+  bool resting() const { return gpu().resting(); }  ///< the last tick was skipped, as it would have changed nothing
 
  private:
   GpuSolver(const Model& model, const Scene& scene, const TickPlan& plan, const GpuSolverOptions& options);

@@ -7,13 +7,13 @@ namespace viscera {
 GuardPass::GuardPass(const FeatureSet& features)
     : guard_(gpu::Program::compute("guard.comp", features.defines())), group_size_(features.group_size) {}
 
-void GuardPass::run(const LatticeBuffers& buffers, const Governor::Bounds& bounds, const ToolMotions& motions,
+void GuardPass::run(const LatticeBuffers& buffers, const StabilityMonitor::Bounds& bounds, const ToolMotions& motions,
                     double tick_s) const {
   guard_.use();
   guard_.set("active_count", static_cast<uint32_t>(buffers.store.active_count));
   guard_.set("most_speed", static_cast<float>(bounds.speed_m_per_s));
   guard_.set("most_energy_j", static_cast<float>(bounds.energy_j));
-  guard_.set("energy_margin", static_cast<float>(Governor::kEnergyMargin));
+  guard_.set("energy_margin", static_cast<float>(StabilityMonitor::kEnergyMargin));
   std::array<Vector3f, layout::kMaxStyluses> tip_speed;
   for (size_t s = 0; s < motions.size(); ++s) {
     tip_speed[s] = ((motions[s].to.position_m - motions[s].from.position_m) / tick_s).cast<float>();

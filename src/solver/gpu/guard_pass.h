@@ -5,18 +5,21 @@
 #include "gpu/program.h"
 #include "solver/gpu/buffers/lattice_buffers.h"
 #include "solver/tissue/features.h"
-#include "viscera/solver/governor.h"
+#include "viscera/solver/stability_monitor.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {
 
-/// Puts a good state in the place of a bad one before anybody sees it, without asking the host: the governor, which
-/// judges a tick later, then only says how to go on (physics.md 3). Owner of shaders/solver/step/guard.comp.
+/// Kernel that replaces a bad state by a good one on the GPU before anything reads it. The stability monitor, which
+/// judges a tick later, then only decides how to continue (physics.md 3).
+/// Owner of shaders/solver/step/guard.comp.
 class GuardPass {
  public:
   explicit GuardPass(const FeatureSet& features);
-  /// Reads the stats and GoodStates::bindLast(). @param motions  of the tick   @param tick_s  its length
-  void run(const LatticeBuffers& buffers, const Governor::Bounds& bounds, const ToolMotions& motions,
+  /// Reads the stats and GoodStates::bindLast(), and replaces the state if it exceeds the bounds.
+  /// @param motions  of the tick
+  /// @param tick_s  its length
+  void run(const LatticeBuffers& buffers, const StabilityMonitor::Bounds& bounds, const ToolMotions& motions,
            double tick_s) const;
 
  private:

@@ -15,7 +15,7 @@ MeasurePass::MeasurePass(const FeatureSet& features, size_t active_count)
   std::vector<std::string> defines = features.defines();
   measure_ = gpu::Program::compute("measure.comp", defines);
   if (features.walls) {
-    FeatureSet in_place = features;  // energy is of where nodes are, not of where they will be
+    FeatureSet in_place = features;  // energy is that of the current, not the predicted, positions
     in_place.dashpot = false;
     rows_.emplace(RowPass::differences(in_place, false));
   }

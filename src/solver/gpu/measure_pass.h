@@ -12,12 +12,12 @@
 
 namespace viscera {
 
-/// Non-finite nodes, largest stretch and speed, energies, held nodes, once a tick.
+/// Kernel that measures, once per tick: non-finite nodes, largest stretch and speed, energies, held nodes.
 /// Owner of shaders/solver/step/measure.comp.
 class MeasurePass {
  public:
   MeasurePass(const FeatureSet& features, size_t active_count);
-  /// Clears what belongs to one tick (all but springs_cut), then measures the current state.
+  /// Clears the values of one tick (all but springs_cut), then measures the current state.
   void run(const LatticeBuffers& buffers) const;
 
  private:

@@ -11,7 +11,7 @@ namespace viscera {
 
 namespace {
 
-// What the tissue gave to tools in the first of them may have been measured before it slept.
+// The reaction of tools in the first of these ticks may have been measured before the tissue slept.
 constexpr int kTicksToBeSure = 2;
 
 bool meet(const ToolBox& a, const ToolBox& b, float margin) {
@@ -35,7 +35,7 @@ RestWatch::RestWatch(const Model& model, bool may_rest) : may_rest_(may_rest) {
 
 bool RestWatch::mayWake(const std::vector<ToolBox>& boxes) const {
   return std::any_of(boxes.begin(), boxes.end(), [this](const ToolBox& box) {
-    // Written so that a box that is nowhere wakes everything.
+    // A box that is not finite wakes everything.
     if (!box.low.allFinite() || !box.high.allFinite()) return true;
     return meet(all_, box, farthest_m_) && std::any_of(bricks_.begin(), bricks_.end(), [&](const ToolBox& brick) {
              return meet(brick, box, farthest_m_);

@@ -10,23 +10,25 @@
 
 namespace viscera {
 
-/// Whether the host knows that all tissue sleeps, from what comes back late: then it need not tell the GPU anything.
-/// What is left out would change nothing, so that no result depends on how late that is. Ticks are numbered by the
-/// measurements that they send back.
+/// Detector that determines, from late read-back data, whether all tissue sleeps, so that the host need not send
+/// anything to the GPU. Skipped work would change nothing, so no result depends on the delay. Ticks are numbered by the
+/// measurements that they return.
 class RestWatch {
  public:
-  /// @param may_rest  all tissue may sleep, and none falls asleep in the tick in which it is woken
+  /// @param may_rest  all tissue may sleep, and none falls asleep in the tick that wakes it
   RestWatch(const Model& model, bool may_rest);
 
   void beginTick();
   bool resting() const { return resting_; }
-  /// Something is done now that may wake tissue anywhere.
+  /// Records that something may wake tissue anywhere.
   void disturb();
-  /// Tools do something within boxes. @return whether that may wake anything
+  /// Records that tools act within boxes.
+  /// @return whether this may wake anything
   bool disturbNear(const std::vector<ToolBox>& boxes);
-  /// The measurements of a tick are on their way. @return its number
+  /// Records that the measurements of a tick were requested.
+  /// @return its number
   uint64_t send() { return tick_++; }
-  /// They have come.
+  /// Records that these measurements have arrived.
   void receive(uint64_t tick, const layout::AwakeList& awake);
 
  private:
@@ -36,13 +38,13 @@ class RestWatch {
   };
   bool mayWake(const std::vector<ToolBox>& boxes) const;
 
-  std::vector<ToolBox> bricks_;  ///< at rest
-  ToolBox all_;                  ///< around them
+  std::vector<ToolBox> bricks_;  ///< boxes of the bricks at rest
+  ToolBox all_;                  ///< box around them
   bool may_rest_, resting_ = false;
-  uint64_t tick_ = 0;     ///< of the measurements that come next
-  int asleep_ticks_ = 0;  ///< at the ends of so many ticks, the last of which is known, nothing was awake
-  float farthest_m_ = 0;  ///< from its place at rest is a node asleep
-  std::vector<Disturbance> disturbances_;  ///< since the last tick that is known
+  uint64_t tick_ = 0;                      ///< number of the next measurements
+  int asleep_ticks_ = 0;                   ///< ticks in a row, up to the last known one, that ended with nothing awake
+  float farthest_m_ = 0;                   ///< largest distance of a sleeping node from its rest position
+  std::vector<Disturbance> disturbances_;  ///< since the last known tick
 };
 
 }  // namespace viscera

@@ -9,7 +9,8 @@
 
 namespace viscera {
 
-/// Slows the nodes of the current state after a substep (solver/tissue/slowing.h). Owner of shaders/solver/step/slow.comp.
+/// Kernel that slows the nodes of the current state after a substep (solver/tissue/slowing.h).
+/// Owner of shaders/solver/step/slow.comp.
 class SlowPass {
  public:
   explicit SlowPass(const FeatureSet& features);

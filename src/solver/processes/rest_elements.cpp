@@ -15,12 +15,12 @@ namespace viscera {
 
 namespace {
 
-constexpr double kBeyond = 0.05;      // of the spacing: so far outside of elements is still tissue
+constexpr double kBeyond = 0.05;      // of the spacing: still tissue if no farther outside the elements
 constexpr double kBesideSheet = 0.5;  // of the spacing: to both sides of a sheet
-constexpr int kBesideCut = 2;         // rings of cubes in which a whole element is looked for
+constexpr int kBesideCut = 2;         // rings of cubes in which a whole element is searched for
 constexpr int kNearestRings = 3;
 constexpr double kWholeSpring = -1;
-constexpr double kUnknownShare = 0.5;  // of a cut spring whose place was not noted
+constexpr double kUnknownShare = 0.5;  // of a cut spring without a recorded position of the cut
 
 double spacingOf_m(const Body& body) {
   return body.hasCells() ? body.lattice.spacing_m : body.network->meanLength();
@@ -111,7 +111,7 @@ void RestElements::sortIntoCubes() {
   for (uint32_t e = 0; e < boxes.size(); ++e) forEachCube(boxes[e], [&](size_t cube) { sorted_[next[cube]++] = e; });
 }
 
-/// The nearest that there is.
+/// Returns the nearest cube.
 Vector3i RestElements::cubeOf(const Vector3d& at_m) const {
   const Vector3d most = cubes_.count.cast<double>() - Vector3d::Ones();
   return floored(((at_m - cubes_.origin_m) / cubes_.spacing_m).cwiseMax(0).cwiseMin(most));
@@ -131,7 +131,7 @@ void RestElements::forEachAround(const Vector3d& at_m, int rings, const Visit& v
   }
 }
 
-/// @param takes  may this element be it?
+/// @param takes  returns whether an element is acceptable
 template <class Takes>
 std::optional<RestElements::Fit> RestElements::nearestFit(const Vector3d& at_m, int rings, const Takes& takes) const {
   std::optional<Fit> best;
@@ -141,7 +141,8 @@ std::optional<RestElements::Fit> RestElements::nearestFit(const Vector3d& at_m, 
     const Fit here = fit(element, at_m);
     if (!best || here.isNearerThan(*best)) best = here;
   });
-  if (best && count_ == 8) best->weights = weights(corners_[best->element], at_m);  // which fit() needs of others only
+  if (best && count_ == 8)
+    best->weights = weights(corners_[best->element], at_m);  // fit() needs the weights only of other elements
   return best;
 }
 
@@ -215,7 +216,7 @@ std::optional<TissuePoint> RestElements::embed(const Vector3d& rest_m, const Cut
   const std::optional<Fit> best =
       nearestFit(rest_m, kBesideCut, [&](uint32_t element) { return isBeside(element) && isWhole(element, cuts); });
   if (best) return pointOf(*best, rest_m);
-  Fit corner = *around;  // a flap of less than an element: its nearest node
+  Fit corner = *around;  // a flap smaller than an element: use its nearest node
   uint32_t nearest = side;
   for (uint32_t c = 0; c < count_; ++c) {
     if (sides[c] == side && around->weights[c] > around->weights[nearest]) nearest = c;
@@ -229,14 +230,14 @@ std::optional<TissuePoint> RestElements::nearest(const Vector3d& rest_m, const C
   if (std::optional<TissuePoint> inside = embed(rest_m, cuts)) return inside;
   for (int rings = 1; rings <= kNearestRings; ++rings) {
     const std::optional<Fit> found = nearestFit(rest_m, rings, anyElement);
-    // Cells that were not looked at are at least so many rings away.
+    // Cells not visited yet are at least this many rings away.
     const bool last = rings == kNearestRings, nearer = found && count_ == 8 && found->outside_m < rings * spacing_m();
     if (found && (last || nearer)) return pointOf(*found, rest_m);
   }
   return std::nullopt;
 }
 
-/// @returns where on the way from a to b, 0 to 1; kWholeSpring: it is not cut, or there is none
+/// @returns the position of the cut between a and b, 0 to 1; kWholeSpring: it is not cut, or there is no spring
 double RestElements::cutAt(uint32_t a, uint32_t b, const CutSprings& cuts) const {
   if (a > b) {
     const double share = cutAt(b, a, cuts);
@@ -292,7 +293,8 @@ RestElements::Sides RestElements::sidesOf(uint32_t element, const CutSprings& cu
   return sides;
 }
 
-/// By the plane through where its edges are cut; where that parts it into more than two, by the nearest corner.
+/// Finds the side by the plane through the cuts of its edges; if that separates it into more than two, by the nearest
+/// corner.
 uint32_t RestElements::sideOf(uint32_t element, const Sides& sides, const Vector3d& at_m,
                               const CutSprings& cuts) const {
   std::vector<Vector3d> crossings;
@@ -303,7 +305,8 @@ uint32_t RestElements::sideOf(uint32_t element, const Sides& sides, const Vector
     if (sides[a] != sides[0]) other = other == 0 || other == sides[a] ? sides[a] : TissuePoint::kMost;
     for (uint32_t b = a + 1; b < count_; ++b) {
       const uint32_t differs = a ^ b;
-      if (count_ == 8 && (differs & (differs - 1)) != 0) continue;  // where diagonals are cut is not noted
+      if (count_ == 8 && (differs & (differs - 1)) != 0)
+        continue;  // the positions of cuts of diagonals are not recorded
       const double share = cutAt(corners_[element][a], corners_[element][b], cuts);
       if (share == kWholeSpring || sides[a] == sides[b]) continue;
       const Vector3d way = corner_m(element, b) - corner_m(element, a);
@@ -333,7 +336,8 @@ Eigen::Matrix<double, Eigen::Dynamic, 3> RestElements::slopes(const TissuePoint&
   for (int a = 0; a < 3; ++a) {
     const Vector3d by = step_m * Vector3d::Unit(a);
     const Weights high = weights(corners, point.rest_m + by), low = weights(corners, point.rest_m - by);
-    for (uint32_t c = 0; c < point.count; ++c) out(c, a) = (high[c] - low[c]) / (2 * step_m);  // they are linear in it
+    for (uint32_t c = 0; c < point.count; ++c)
+      out(c, a) = (high[c] - low[c]) / (2 * step_m);  // the weights are linear in it
   }
   return out;
 }

@@ -12,7 +12,7 @@ namespace viscera {
 /// A regular grid of nodes in the tissue frame at rest.
 struct RestGrid {
   double spacing_m = 1;
-  Vector3d origin_m = Vector3d::Zero();  ///< of node (0, 0, 0)
+  Vector3d origin_m = Vector3d::Zero();  ///< position of node (0, 0, 0)
   Vector3i count = Vector3i::Zero();     ///< nodes per axis
 
   size_t places() const {

@@ -10,23 +10,23 @@
 
 namespace viscera {
 
-/// What the tissue around a needle can do to it: across it all, along it no more than its limits.
+/// What the tissue around a needle can exert on it: any force across it, along it only forces within limits.
 struct NeedleHold {
-  Vector3d along = Vector3d::Zero();  ///< where the needle heads, mean of what is in tissue; 0: nothing is
-  double ahead_n = 0;                 ///< so much more along, and it goes on: puncture or cutting, and friction
-  double back_n = 0;                  ///< so much less, and it comes back: friction
-  double stiffness_n_per_m = 0;       ///< of the tissue, across
+  Vector3d along = Vector3d::Zero();  ///< mean direction of motion of the part in tissue; 0: no part is in tissue
+  double ahead_n = 0;            ///< additional force along at which it advances: puncture or cutting, and friction
+  double back_n = 0;             ///< reduction of force at which it retreats: friction
+  double stiffness_n_per_m = 0;  ///< stiffness of the tissue across
 };
 
-/// What a stylus gave threads and needles in a tick.
+/// Impulses that a stylus gave sutures and needles in a tick.
 struct StylusPull {
   Vector3d impulse_ns = Vector3d::Zero();
   Vector3d moment_nms = Vector3d::Zero();  ///< about its tip at the end of the tick
-  uint32_t nodes = 0;                      ///< that it holds
-  NeedleHold needle;                       ///< at its end; forces are means of the tick
+  uint32_t nodes = 0;                      ///< number of nodes that it holds
+  NeedleHold needle;                       ///< state at its end; forces are means over the tick
 };
 using StylusPulls = std::array<StylusPull, layout::kMaxStyluses>;
-/// As if these nodes were of the tissue.
+/// Adds the pulls as if these nodes were nodes of the tissue.
 void addTo(layout::TickStats& stats, const StylusPulls& pulls);
 
 }  // namespace viscera

@@ -13,14 +13,14 @@ namespace viscera {
 
 namespace {
 
-constexpr size_t kSparse = 256;  // nodes of a body
-constexpr size_t kStarts = 4;    // nearest of them
+constexpr size_t kSparse = 256;  // nodes of a body that are read first
+constexpr size_t kStarts = 4;    // nearest of them from which a walk starts
 constexpr int kWalkSteps = 24;
-constexpr double kMostWalked = 4;      // spacings in a step
-constexpr double kArrived = 1e-4;      // of a spacing
-constexpr double kSamePlace = 0.1;     // of a spacing: where a point must be of the place that was asked for
-constexpr double kBesideIt = 0.5;      // the same of a sheet
-constexpr double kFoldedPoint = 0.01;  // of a volume
+constexpr double kMostWalked = 4;      // spacings per step
+constexpr double kArrived = 1e-4;      // of a spacing: convergence of a walk
+constexpr double kSamePlace = 0.1;     // of a spacing: largest distance of the found point from the requested position
+constexpr double kBesideIt = 0.5;      // the same for a sheet
+constexpr double kFoldedPoint = 0.01;  // volume ratio below which tissue counts as folded
 
 std::vector<uint32_t> sparseOf(const Body& body, uint32_t offset) {
   const std::vector<uint32_t>& slots = body.lattice.active_slots;
@@ -90,7 +90,7 @@ std::optional<TissuePoint> TissuePoints::find(TissuePort& target, const Vector3d
   return std::nullopt;
 }
 
-/// Newton's method in the elements that it comes through.
+/// Newton's method in the elements along the path.
 std::optional<TissuePoint> TissuePoints::walk(TissuePort& target, uint32_t body, Vector3d rest_m,
                                               const Vector3d& place_m) const {
   const RestElements& elements = elements_[body];
@@ -121,7 +121,7 @@ std::optional<TissuePoint> TissuePoints::walk(TissuePort& target, uint32_t body,
   return point;
 }
 
-/// Of the places now by those at rest; across a sheet, that of its normal.
+/// Returns the derivative of the current positions by those at rest; across a sheet, that of its normal.
 Eigen::Matrix3d TissuePoints::gradient(const TissuePoint& point, const std::vector<Vector3d>& nodes) const {
   const RestElements& elements = elements_[point.body];
   const Eigen::Matrix<double, Eigen::Dynamic, 3> slopes = elements.slopes(point);

@@ -13,41 +13,43 @@
 
 namespace viscera {
 
-/// Points of tissue in a substep that was just made (TissuePort): where they are, and what impulses do to them. Reads
-/// the nodes of all of them once, and writes once.
+/// Points of tissue after a substep (TissuePort): their positions, and their response to impulses. Reads the nodes of
+/// all points once, and writes once.
 class TissuePoints {
  public:
   /// @param model  must outlive it
   explicit TissuePoints(const Model& model);
-  /// Springs that are cut, for what is embedded from now on.
+  /// Sets the cut springs, for following calls of embed().
   void setCuts(CutSprings cuts) { cuts_ = std::move(cuts); }
-  /// Carried by the cell around a place at rest; where that is cut, by the nearest whole cell on the place's side.
+  /// Returns the point at a rest position, carried by the cell around it; if that is cut, by the nearest whole cell on
+  /// the position's side.
   /// @returns nothing where there is no tissue
   std::optional<TissuePoint> embed(uint32_t body, const Vector3d& rest_m) const;
-  /// Around a place as the tissue is now: in whichever body and cell. Slow beside embed(), for what begins to touch: it
-  /// reads up to 256 nodes of each body, and then goes through the tissue from the nearest of them with up to 24 reads
-  /// of a cell's nodes each. In the gap of a wound there is nothing.
+  /// Returns the point at a current position, in any body and cell. It is slow compared to embed() and meant for new
+  /// contacts. It reads up to 256 nodes of each body, then walks through the tissue from the nearest of them, with up
+  /// to 24 reads of a cell's nodes each. Returns nothing in the gap of a wound.
   std::optional<TissuePoint> find(TissuePort& target, const Vector3d& place_m) const;
 
-  Vector3d rest_m(uint32_t slot) const { return rest_m_[slot].cast<double>(); }  ///< of a node, in the tissue frame
+  Vector3d rest_m(uint32_t slot) const { return rest_m_[slot].cast<double>(); }  ///< rest position, tissue frame
   double spacing_m(uint32_t body) const { return elements_[body].spacing_m(); }
 
-  /// Begins a substep. @param points  all that will be asked for
+  /// Begins a substep. @param points  all points that will be used in it
   void read(TissuePort& target, const std::vector<const TissuePoint*>& points);
   Vector3d place_m(
-      const TissuePoint& point) const;  ///< at the end of the substep, impulses given since read() among it
+      const TissuePoint& point) const;  ///< position at the end of the substep, including impulses given since read()
   Vector3d velocity_m_per_s(const TissuePoint& point) const;
-  /// What an impulse at one changes another's velocity by [1/kg].
+  /// Returns the change of another's velocity per impulse at one [1/kg].
   double mobility(const TissuePoint& one, const TissuePoint& other) const;
   void give(const TissuePoint& point, const Vector3d& impulse_ns, double dt_s);
-  /// Of any point; reads its nodes.
+  /// Returns the position of any point; reads its nodes.
   Vector3d placeIn(const TissuePort& target, const TissuePoint& point) const;
-  /// A way in the tissue as it is now, at rest: by the inverse of the deformation; where it is folded, as it is.
+  /// Returns a vector in the current tissue mapped to rest, by the inverse of the deformation gradient; where tissue is
+  /// folded, unchanged.
   Vector3d toRest(const TissuePoint& point, const Vector3d& way_m) const;
-  /// All of them go on, or back, at the speeds that they have.
+  /// Moves all points on, or back, at their current velocities.
   void drift(double by_s);
-  double work_j() const { return work_j_; }  ///< that impulses have done since read()
-  /// Ends a substep: writes what was given. @param stylus  whose reaction it is; kMaxStyluses: no one's
+  double work_j() const { return work_j_; }  ///< work of impulses since read()
+  /// Ends a substep: writes the changes. @param stylus  receives the reaction; kMaxStyluses: none
   void write(TissuePort& target, uint32_t stylus, double dt_s);
 
  private:
@@ -61,12 +63,12 @@ class TissuePoints {
   const Model& model_;
   CutSprings cuts_;
   std::vector<RestElements> elements_;         ///< [bodies]
-  std::vector<std::vector<uint32_t>> sparse_;  ///< [bodies] a few of its nodes, from which find() begins
-  std::vector<float> inverse_mass_;            ///< [slots] 1/kg; 0 where fixed, or none
+  std::vector<std::vector<uint32_t>> sparse_;  ///< [bodies] a few of its nodes, from which find() starts
+  std::vector<float> inverse_mass_;            ///< [slots] 1/kg; 0 for fixed and missing nodes
   std::vector<Vector3f> rest_m_;               ///< [slots]
-  // of the substep
-  std::vector<uint32_t> slots_, wanted_;  ///< that are read, ascending; and by the points in their order
-  std::vector<uint32_t> node_of_;         ///< [slots] index into nodes_, of those in slots_
+  // data of the substep
+  std::vector<uint32_t> slots_, wanted_;  ///< slots that are read, ascending; and those of the points in their order
+  std::vector<uint32_t> node_of_;         ///< [slots] index into nodes_, valid for slots_
   std::vector<Node> nodes_;
   std::vector<Vector3f> u_, v_;
   double work_j_ = 0;

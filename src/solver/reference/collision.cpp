@@ -16,7 +16,7 @@ struct Node {
   uint32_t slot;
   size_t body;
   Vector3d rest_m, x_m;
-  double depth_m;  ///< below the surface
+  double depth_m;  ///< depth below the surface [m]
 };
 
 bool isAlone(const layout::NodeBits& bits) {

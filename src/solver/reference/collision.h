@@ -14,18 +14,18 @@ struct Scene;
 /// Two nodes that touch, or nearly.
 struct ReferencePair {
   CollisionPair slots;  ///< a < b
-  double depth_m;       ///< D_ij minus their distance (collision.h); below 0 where they are near without touching
+  double depth_m;       ///< D_ij minus their distance (collision.h) [m]; negative where they are near without touching
 };
 
-/// All pairs of nodes that may touch (touchDepths(), or severed; not alone) and are no farther apart than
-/// D_ij + margin, found by looking at every pair, in float64. Ascending.
+/// Returns all pairs of nodes that may touch (touchDepths(), or severed; not isolated) and are no farther apart than
+/// D_ij + margin. Compares every pair, in float64. Ascending.
 std::vector<ReferencePair> referencePairs(const Model& model, const Scene& scene, const HostState& state,
                                           double margin_m = 0);
 
-/// How a search did. @param tolerance_m  pairs whose depth is within it may go either way
+/// Quality of a search. @param tolerance_m  pairs with a depth within it may be found or not
 struct Recall {
-  size_t there = 0, found = 0;  ///< pairs deeper than the tolerance, and those of them that were found
-  size_t wrong = 0;             ///< that were found and do not touch, or were found twice
+  size_t there = 0, found = 0;  ///< pairs deeper than the tolerance, and how many of them were found
+  size_t wrong = 0;             ///< pairs that were found and do not touch, or were found twice
   double share() const { return there > 0 ? static_cast<double>(found) / static_cast<double>(there) : 1; }
 };
 Recall recallOf(const std::vector<CollisionPair>& found, const std::vector<ReferencePair>& truth, double tolerance_m);

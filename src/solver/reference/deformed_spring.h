@@ -6,7 +6,7 @@
 
 namespace viscera {
 
-constexpr double kShortest = 1e-6;  ///< of the rest length: a shorter spring keeps its direction at rest
+constexpr double kShortest = 1e-6;  ///< share of the rest length: a shorter spring keeps its direction at rest
 
 struct ReferenceLattice::Spring {
   Vector3d direction;  ///< n, unit vector to the far end
@@ -14,7 +14,7 @@ struct ReferenceLattice::Spring {
   double extension_m;  ///< L - l0
 };
 
-/// @param w  u_far - u_near [m]
+/// Returns the deformed spring. @param w  u_far - u_near [m]
 inline ReferenceLattice::Spring ReferenceLattice::springBetween(const Neighbor& n, const Vector3d& w) {
   const Vector3d edge = n.offset_m + w;
   const double length = edge.norm();
@@ -31,19 +31,19 @@ inline ReferenceLattice::Spring ReferenceLattice::springAt(const Field& u_m, uin
   return springBetween(n, u_m[n.slot] - u_m[slot]);
 }
 
-/// A spring of a cell that has lost one, with ends that are w apart beyond rest: such springs take the cell's stress at
-/// rest over (CpuStrengths::setBroken()).
+/// Returns a spring of a cell that has lost one. The remaining springs carry the cell's prestress
+/// (CpuStrengths::setBroken()). @param w_m  displacement of the far end relative to the near one
 inline ReferenceLattice::Spring ReferenceLattice::springOf(const Vector3d& w_m, const Cell& cell, uint32_t slot,
                                                            uint32_t spring) const {
   Neighbor n = neighbor(slot, spring);
   const Eigen::Matrix3d strain =
       0.5 * (cell.law.prestress - cell.law.prestress.trace() / 5 * Eigen::Matrix3d::Identity());
   n.rest_m *= 1 - n.offset_m.dot(strain * n.offset_m) / n.offset_m.squaredNorm();
-  n.spring = 0;  // its length at rest is not that of the lattice
+  n.spring = 0;  // its rest length is not that of the lattice
   return springBetween(n, w_m);
 }
 
-/// Calls visit(corner, far corner, slot, spring, k) for each spring that a cell has left: what the cell gives to it.
+/// Calls visit(corner, far corner, slot, spring, k) for each whole spring of a cell; k is the share of the cell.
 template <class Visit>
 void ReferenceLattice::forEachSpringOf(const Cell& cell, Visit visit) const {
   const double quarter = cell.law.rigidity_j / (4 * cell.spacing_m * cell.spacing_m);
@@ -62,10 +62,10 @@ void ReferenceLattice::forEachSpringOf(const Cell& cell, Visit visit) const {
   }
 }
 
-/// Sign of the axis at corner c of a cell: -1 or 1.
+/// Returns the sign of the axis at corner c of a cell: -1 or 1.
 inline double cornerSign(size_t corner, int axis) {
   return (corner >> axis) & 1u ? 1 : -1;
 }
 
-/// Determinant of 1 + g, less 1, without cancellation.
+/// Returns det(1 + g) - 1, without cancellation.
 }  // namespace viscera

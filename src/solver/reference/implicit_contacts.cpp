@@ -9,11 +9,11 @@ namespace viscera {
 namespace {
 
 constexpr StaticsOptions kNewton{1, 500, 1e-10};
-constexpr int kGuesses = 300;       // of which contacts press
-constexpr double kBalanced = 1e-9;  // of the largest force: pulls below it are rounding
-constexpr double kSteady = 1e-7;    // of the largest force: pressures that go on changing by less are found
-constexpr double kFirstSmooth_m = 1e-6, kSmooth_m = 1e-9;  // slips below it are no sliding yet
-constexpr double kParallel = 1e-6;  // of a unit vector: what is left of it is no direction of its own
+constexpr int kGuesses = 300;       // guesses of the active contacts
+constexpr double kBalanced = 1e-9;  // of the largest force: tensions below it are rounding
+constexpr double kSteady = 1e-7;    // of the largest force: pressures that change by less have converged
+constexpr double kFirstSmooth_m = 1e-6, kSmooth_m = 1e-9;  // smaller slips do not count as sliding
+constexpr double kParallel = 1e-6;  // of a unit vector: a smaller remainder is no independent direction
 
 }  // namespace
 
@@ -40,7 +40,8 @@ void ImplicitContacts::solve(Increment& increment, const Field& y_m, Field& u_m)
   throw ConvergenceError("no set of contacts fits the substep");
 }
 
-/// Where the first iterate leads, taken out of what it would end in, as contacts between nodes are found.
+/// Returns the first iterate moved out of the probes and obstacles that it ends in, for the search for contacts between
+/// nodes.
 Field ImplicitContacts::outside(Field predicted_m) const {
   constexpr int kRounds = 4;
   for (int round = 0; round < kRounds; ++round) {
@@ -53,12 +54,12 @@ Field ImplicitContacts::outside(Field predicted_m) const {
   return predicted_m;
 }
 
-/// Largest of a node's own stiffness and inertia [N/m].
+/// Returns the largest stiffness plus inertia of a node [N/m].
 double ImplicitContacts::stiffestNode(const Increment& increment, const Field& u_m) const {
   return increment.hessian(u_m, ReferenceLattice::Curvature::kPositive).diagonal().maxCoeff();
 }
 
-/// The equilibrium under the guess. Friction has a kink where sliding ends: it is rounded less and less.
+/// Finds the equilibrium under the guess. Friction has a kink where sliding ends: its smoothing is reduced in steps.
 void ImplicitContacts::balance(Increment& increment, Field& u_m) const {
   const double first_m = increment.drags().empty() ? kSmooth_m : kFirstSmooth_m;
   for (double smooth_m = first_m; smooth_m > 0.9 * kSmooth_m; smooth_m /= 10) {
@@ -79,7 +80,7 @@ void ImplicitContacts::add(uint32_t slot, size_t owner, const std::optional<Half
   contacts_.push_back({slot, owner, limited});
 }
 
-/// Contacts of nodes that end inside something. @return whether there are new ones
+/// Finds contacts of nodes that end inside something. @return whether there are new ones
 bool ImplicitContacts::find(const Field& u_m) {
   const size_t before = contacts_.size();
   for (uint32_t slot : solver_.active) {
@@ -94,9 +95,9 @@ bool ImplicitContacts::find(const Field& u_m) {
   return contacts_.size() > before;
 }
 
-/// Nodes whose contacts press are on them.
+/// Moves nodes with active contacts onto their surfaces.
 void ImplicitContacts::place(Field& u_m) const {
-  constexpr int kRounds = 50;  // of going from one to the other where a node has several
+  constexpr int kRounds = 50;  // alternating projections for nodes with several contacts
   for (int round = 0; round < kRounds; ++round) {
     for (const Contact& c : contacts_) {
       if (!c.presses) continue;
@@ -107,7 +108,7 @@ void ImplicitContacts::place(Field& u_m) const {
   }
 }
 
-/// Orthonormal directions in which a node's contacts do not let it move.
+/// Returns orthonormal directions in which a node's active contacts prevent motion.
 std::vector<Vector3d> ImplicitContacts::fixedDirections(uint32_t slot) const {
   std::vector<Vector3d> out;
   const auto fix = [&out](Vector3d direction) {
@@ -133,7 +134,8 @@ FreeDofs ImplicitContacts::freeDofs() const {
       for (int twice = 0; twice < 2; ++twice) {
         for (const Vector3d& other : basis) direction -= direction.dot(other) * other;
       }
-      if (basis.size() == 3 || direction.norm() < 0.5) continue;  // of three axes one is at most 0.58 from what is left
+      if (basis.size() == 3 || direction.norm() < 0.5)
+        continue;  // of three axes one is at most 0.58 from the remainder
       basis.push_back(direction.normalized());
     }
     for (size_t i = fixed; i < basis.size(); ++i, ++count) {
@@ -145,7 +147,7 @@ FreeDofs ImplicitContacts::freeDofs() const {
   return FreeDofs(solver_, std::move(directions));
 }
 
-/// Friction under the pressures of the guess.
+/// Returns the friction under the pressures of the guess.
 std::vector<Increment::Drag> ImplicitContacts::drags() const {
   std::vector<Increment::Drag> out;
   for (const Contact& c : contacts_) {
@@ -157,8 +159,8 @@ std::vector<Increment::Drag> ImplicitContacts::drags() const {
   return out;
 }
 
-/// Lets go who pulls, takes back who would pass, takes the pressures that there are for the next guess. @return whether
-/// anything changed
+/// Corrects the guess: deactivates contacts in tension, activates violated ones, and takes the current pressures.
+/// @return whether anything changed
 bool ImplicitContacts::mend(const Increment& increment, const Field& u_m) {
   const Field gradient = increment.gradient(u_m);
   bool changed = false;
@@ -170,7 +172,7 @@ bool ImplicitContacts::mend(const Increment& increment, const Field& u_m) {
       if (n.dot(du) < c.space.least_m - rounding_m) c.presses = changed = true;
       continue;
     }
-    // Of several contacts of a node each has what the others' normals leave.
+    // A node's force is split among its contacts by the directions of their normals.
     Vector3d needed = gradient[c.slot];
     for (const Contact& other : contacts_) {
       if (&other == &c || other.slot != c.slot || !other.presses) continue;

@@ -10,18 +10,19 @@
 
 namespace viscera {
 
-/// Probes, obstacles and contacts between nodes in a substep of implicit Euler, by an active set: which contacts press
-/// and which of them stick is guessed, the equilibrium is found under that by Newton's method, and the guess is mended
-/// until it fits (physics.md 2, 8).
+/// Probes, obstacles and contacts between nodes in a substep of implicit Euler, by an active-set method. It guesses
+/// which contacts are active and which of them stick, finds the equilibrium under the guess by Newton's method, and
+/// corrects the guess until it is consistent (physics.md 2, 8).
 class ImplicitContacts {
  public:
-  /// @param solver  with its obstacles, must outlive this   @param free  [slots] neither held nor at rest
+  /// @param solver  with its obstacles, must outlive this   @param free  [slots] neither held nor fixed
   ImplicitContacts(const ReferenceSolver& solver, const SubstepMotions& motions, std::vector<bool> free);
 
-  /// @param y_m  where no force would bring the nodes   @param u_m  held nodes where they will be; becomes the solution
+  /// Solves the substep. @param y_m  positions without any force   @param u_m  in: held nodes at their prescribed
+  /// positions; out: the solution
   /// @throws ConvergenceError
   void solve(Increment& increment, const Field& y_m, Field& u_m);
-  /// Tells the solver what probes and obstacles gave; fast arrivals bounce.
+  /// Gives the solver the impulses of probes and obstacles; fast impacts bounce.
   void give(ReferenceSolver& solver, Field& v_next) const;
 
  private:
@@ -49,7 +50,7 @@ class ImplicitContacts {
   std::vector<bool> free_;
   std::vector<Contact> contacts_;
   std::optional<NodeContacts> nodes_;
-  double scale_n_ = 0;  ///< largest of the forces that balance
+  double scale_n_ = 0;  ///< largest of the balancing forces [N]
 };
 
 }  // namespace viscera

@@ -7,15 +7,15 @@
 
 namespace viscera {
 
-/// Held nodes are prescribed where the stylus has them at the end of the substep, and nodes that would end in a probe
-/// or an obstacle stay outside: the solution knows of both. What a node's forces and inertia leave unbalanced there is
-/// the force of who holds or touches it.
+/// Held nodes are prescribed at their positions at the end of the substep, and nodes that would end in a probe or an
+/// obstacle stay outside; the solution includes both. The residual of a node's forces and inertia there is the force of
+/// the tool or obstacle that holds or touches it.
 void ReferenceSolver::implicitEuler(Field& u_next, Field& v_next) {
   Field y = u_m;
   std::vector<bool> free(slots(), false);
   for (uint32_t slot : active) {
     if (rests(slot)) continue;
-    y[slot] += dt_s_ * (v_m_per_s[slot] + dt_s_ * gravity_) / (1 + drag_per_s(slot) * dt_s_);
+    y[slot] += dt_s_ * (v_m_per_s[slot] + dt_s_ * gravity_) / (1 + mass_damping_per_s(slot) * dt_s_);
     free[slot] = heldBy(slot) == 0;
     if (const uint32_t held_by = heldBy(slot)) u_next[slot] = heldDisplacement(motions_[held_by - 1], slot);
   }

@@ -12,26 +12,26 @@
 
 namespace viscera {
 
-/// The incremental potential, whose minimum is the next state.
+/// The incremental potential. Its minimum is the next state.
 class Increment : public Objective {
  public:
   Increment(const ReferenceSolver& solver, Field y_m)
       : solver_(solver), dt_s_(solver.dt_s()), y_m_(std::move(y_m)), frozen_u_m_(solver.u_m) {}
 
-  /// Friction of a contact whose pressure is given: limit_n |slip|, slip along the surface from where the surface, or
-  /// the other node, carries the node.
+  /// Friction of a contact with a given pressure: limit_n |slip|. The slip is tangential, relative to the position to
+  /// which the surface, or the other node, carries the node.
   struct Drag {
     uint32_t slot;
-    Vector3d normal, carried_m;  ///< where the surface carries the node: displacement
+    Vector3d normal, carried_m;  ///< displacement to which the surface carries the node
     double limit_n;
-    int64_t other = -1;                        ///< slot of the other node, which feels the opposite; below 0: none
-    Vector3d other_from_m = Vector3d::Zero();  ///< its displacement before the substep
+    int64_t other = -1;  ///< slot of the other node, which receives the opposite force; negative: none
+    Vector3d other_from_m = Vector3d::Zero();  ///< displacement of the other node before the substep
     Vector3d slip(const Field& u_m) const {
       Vector3d off = u_m[slot] - carried_m;
       if (other >= 0) off -= u_m[static_cast<size_t>(other)] - other_from_m;
       return off - off.dot(normal) * normal;
     }
-    /// On the node [N]. @param smooth_m  slips below it are no sliding yet
+    /// Returns the friction on the node [N]. @param smooth_m  slips below it do not count as sliding
     Vector3d force(const Field& u_m, double smooth_m) const {
       const Vector3d s = slip(u_m);
       return -limit_n / std::hypot(s.norm(), smooth_m) * s;
@@ -45,11 +45,11 @@ class Increment : public Objective {
   /// Two nodes that come no nearer to each other than this: n . (du_a - du_b) >= -gap.
   struct Pair {
     uint32_t a, b;
-    Vector3d normal;  ///< from b to a
+    Vector3d normal;  ///< unit vector from b to a
     double gap_m;
-    double pressure_n;  ///< of the guess
+    double pressure_n;  ///< pressure of the guess
   };
-  /// @param stiffness_n_per_m  with which what they miss adds to the pressures
+  /// @param stiffness_n_per_m  penalty stiffness by which violations add to the pressures
   void setPairs(std::vector<Pair> pairs, double stiffness_n_per_m) {
     pairs_ = std::move(pairs);
     pair_stiffness_n_per_m_ = stiffness_n_per_m;
@@ -59,7 +59,7 @@ class Increment : public Objective {
     return std::max(0.0, p.pressure_n - pair_stiffness_n_per_m_ * (p.normal.dot(apart) + p.gap_m));
   }
 
-  /// The directions of the dashpots: a potential for them exists only while these stand still.
+  /// Freezes the directions of the dashpots: they have a potential only while these are constant.
   void freeze(const Field& u_m) override { frozen_u_m_ = u_m; }
 
   double value(const Field& u_m) const override {
@@ -117,7 +117,7 @@ class Increment : public Objective {
   }
 
  private:
-  /// The curvature of something that depends on u_a - u_b alone. @param b  below 0: on u_a
+  /// Adds the curvature of a term that depends on u_a - u_b alone. @param b  negative: on u_a alone
   void addBetween(uint32_t a, int64_t b, const Eigen::Matrix3d& stiff, Eigen::SparseMatrix<double>& out) const {
     const auto add = [&](uint32_t row, uint32_t column, double sign) {
       for (int i = 0; i < 9; ++i)
@@ -132,9 +132,9 @@ class Increment : public Objective {
   }
 
  public:
-  /// m (1 + gamma dt)/dt^2 [N/m]
+  /// Returns m (1 + gamma dt)/dt^2 [N/m].
   double inertia(uint32_t slot) const {
-    return solver_.mass(slot) * (1 + solver_.drag_per_s(slot) * dt_s_) / (dt_s_ * dt_s_);
+    return solver_.mass(slot) * (1 + solver_.mass_damping_per_s(slot) * dt_s_) / (dt_s_ * dt_s_);
   }
 
  private:

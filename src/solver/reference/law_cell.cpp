@@ -28,7 +28,7 @@ Eigen::Matrix<double, N, 1> gradientOf(const LawCell& cell, const Eigen::Matrix<
 
 template <int N>
 Eigen::Matrix<double, N, N> curvatureOf(const LawCell& cell, const Eigen::Matrix<double, N, 1>& motion) {
-  constexpr double kStep = 1e-6;  // of the spacing: halves the digits of the gradient
+  constexpr double kStep = 1e-6;  // of the spacing: loses half the digits of the gradient
   Eigen::Matrix<double, N, N> out;
   for (int i = 0; i < N; ++i) {
     Eigen::Matrix<double, N, 1> up = motion, down = motion;
@@ -48,8 +48,8 @@ Eigen::Matrix<double, 7, 1> motionOfCorner(size_t corner, double spacing_m) {
   return out / spacing_m;
 }
 
-CellMotion cellMotion(const std::array<Vector3d, 8>& u_m, double spacing_m) {
-  CellMotion out = CellMotion::Zero();
+CellModes cellMotion(const std::array<Vector3d, 8>& u_m, double spacing_m) {
+  CellModes out = CellModes::Zero();
   for (size_t c = 0; c < 8; ++c) {
     const Eigen::Matrix<double, 7, 1> of_corner = motionOfCorner(c, spacing_m);
     for (int i = 0; i < 7; ++i) out.segment<3>(3 * i) += of_corner[i] * u_m[c];
@@ -57,21 +57,21 @@ CellMotion cellMotion(const std::array<Vector3d, 8>& u_m, double spacing_m) {
   return out;
 }
 
-double lawCellEnergy(const LawCell& cell, const CellMotion& motion) {
+double lawCellEnergy(const LawCell& cell, const CellModes& motion) {
   return cell.rigidity_j == 0 ? 0 : energyOf<double, 21>(cell, motion);
 }
 double lawCellEnergy(const LawCell& cell, const WallMotion& motion) {
   return cell.rigidity_j == 0 ? 0 : energyOf<double, 48>(cell, motion);
 }
 
-CellMotion lawCellGradient(const LawCell& cell, const CellMotion& motion) {
+CellModes lawCellGradient(const LawCell& cell, const CellModes& motion) {
   return gradientOf<21>(cell, motion);
 }
 WallMotion lawCellGradient(const LawCell& cell, const WallMotion& motion) {
   return gradientOf<48>(cell, motion);
 }
 
-Eigen::Matrix<double, 21, 21> lawCellCurvature(const LawCell& cell, const CellMotion& motion) {
+Eigen::Matrix<double, 21, 21> lawCellCurvature(const LawCell& cell, const CellModes& motion) {
   return curvatureOf<21>(cell, motion);
 }
 Eigen::Matrix<double, 48, 48> lawCellCurvature(const LawCell& cell, const WallMotion& motion) {

@@ -21,8 +21,8 @@ double valueOf(const T& dual) {
   return dual.value();
 }
 
-/// Returns the energy of two layers at a mean gradient over the mean shear modulus. Their jump is at its minimum, so
-/// that the energy's derivatives are those at that jump held.
+/// Returns the energy of two layers at a mean gradient over the mean shear modulus. The jump minimizes the energy, so
+/// the derivatives are those at a fixed jump.
 template <class T>
 T laminateDensity(const LawLaminate& laminate, const Eigen::Matrix<T, 3, 3>& f, double stiffening) {
   Eigen::Matrix3d values;
@@ -38,14 +38,15 @@ T laminateDensity(const LawLaminate& laminate, const Eigen::Matrix<T, 3, 3>& f, 
   return energy;
 }
 
-/// How strain varies within a cell: its gradients along the cell's axes, G of F* = F (1 + G) + plain, and what is
-/// plain.
+/// Variation of strain within a cell: its gradients along the cell's axes, and G and `plain` of F* = F (1 + G) + plain.
 template <class T>
 struct LawVariation {
   Eigen::Matrix<T, 3, 3> gradients[3], g, plain;
 };
-/// @tparam N  as of lawEnergy()   @param s  hourglass motions in the frame, by columns   @param to_frame  J F^-1 over
-/// J, or over kLeastVolume below it
+/// Computes this variation.
+/// @tparam N  as for lawEnergy()
+/// @param s  hourglass motions in the frame, by columns
+/// @param to_frame  J F^-1 over J, or over kLeastVolume below it
 template <class T, int N>
 LawVariation<T> lawVariation(double poisson, const LawCell& cell, const Eigen::Matrix<T, 3, 3>& s,
                              const Eigen::Matrix<T, 3, 3>& to_frame, const Eigen::Matrix<T, N, 1>& motion) {
@@ -55,7 +56,7 @@ LawVariation<T> lawVariation(double poisson, const LawCell& cell, const Eigen::M
   out.plain.setZero();
   for (int n = 0; n < 3; ++n) {
     const int a = (n + 1) % 3, b = (n + 2) % 3;
-    // Twice along n: what the corners do not show. A plate that bends thins, and does not shear.
+    // Second derivatives along n, which the corners do not show. A plate that bends thins without shear.
     Eigen::Matrix<T, 3, 1> own;
     own(n) = -poisson * (s(a, b) + s(b, a));
     own(a) = -s(n, b);
@@ -83,9 +84,10 @@ LawVariation<T> lawVariation(double poisson, const LawCell& cell, const Eigen::M
 
 /// Returns the energy of a cell of the neo-Hookean law over rigidity (physics.md 1, Law and Thin walls).
 /// @tparam N  21, or 48 for cells in thin walls
-/// @param ratio  lambda / mu - 1   @param cell  all but its moduli
-/// @param motion  mean edges less their rest value, hourglass motions, alternating motion, over h; in thin walls second
-/// derivatives by rows, and their variation (law_cell.h)
+/// @param ratio  lambda / mu - 1
+/// @param cell  all but its moduli
+/// @param motion  mean edges minus their rest value, hourglass motions, alternating motion, over h; in thin walls also
+/// second derivatives from rows, and their variation (law_cell.h)
 template <class T, int N>
 T lawEnergy(double ratio, const LawCell& cell, const Eigen::Matrix<T, N, 1>& motion) {
   using Tensor = Eigen::Matrix<T, 3, 3>;

@@ -15,13 +15,13 @@ namespace {
 using Cholesky = Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>;
 using Curvature = ReferenceLattice::Curvature;
 
-constexpr double kArmijo = 1e-4;         ///< share of the promised descent that a step must bring
-constexpr double kSmallestShare = 1e-9;  ///< of a step, after which the search gives up
-constexpr double kSameValue = 1e-9;      ///< of the value: a promised descent below it is hard to see for rounding
-constexpr double kSolved = 1e-4;         ///< residual over right side with which conjugate gradients are content
-constexpr double kRounding = 1e-14;      ///< of the value: one below it cannot be seen
+constexpr double kArmijo = 1e-4;         ///< share of the predicted descent that a step must achieve
+constexpr double kSmallestShare = 1e-9;  ///< smallest share of a step that the search tries
+constexpr double kSameValue = 1e-9;      ///< share of the value: a smaller predicted descent is hidden by rounding
+constexpr double kSolved = 1e-4;         ///< residual over right-hand side at which conjugate gradients stop
+constexpr double kRounding = 1e-14;      ///< share of the value: smaller changes are invisible
 
-/// Solution of (H + shift) x = b, nothing where that is not positive definite.
+/// Returns the solution of (H + shift) x = b, or nothing if that is not positive definite.
 std::optional<Eigen::VectorXd> solveShifted(const Eigen::SparseMatrix<double>& h, double shift,
                                             const Eigen::VectorXd& b) {
   Cholesky cholesky;
@@ -31,7 +31,8 @@ std::optional<Eigen::VectorXd> solveShifted(const Eigen::SparseMatrix<double>& h
   return cholesky.solve(b);
 }
 
-/// Solution of H x = b to kSolved, preconditioned with the diagonal; nothing where H is found not to be positive.
+/// Returns the solution of H x = b to kSolved, preconditioned with the diagonal; nothing if H is found not to be
+/// positive.
 std::optional<Eigen::VectorXd> solveByGradients(const Eigen::SparseMatrix<double>& h, const Eigen::VectorXd& b) {
   const Eigen::VectorXd scale = h.diagonal().cwiseAbs().cwiseInverse();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(b.size()), r = b, z = scale.cwiseProduct(r), p = z;
@@ -47,7 +48,8 @@ std::optional<Eigen::VectorXd> solveByGradients(const Eigen::SparseMatrix<double
   return x;
 }
 
-/// With the true curvature, or a little more than it, where that is positive; else with the nearest positive one.
+/// Returns the step with the true curvature, or slightly more, where that is positive; else with the nearest positive
+/// one.
 Eigen::VectorXd choleskyStep(const Objective& objective, const FreeDofs& free, const Field& u_m,
                              const Eigen::VectorXd& gradient) {
   const Eigen::SparseMatrix<double> h = free.of(objective.hessian(u_m, Curvature::kTrue));
@@ -66,8 +68,9 @@ Eigen::VectorXd conjugateGradientStep(const Objective& objective, const FreeDofs
   return choleskyStep(objective, free, u_m, gradient);  // rounding made a curvature of zero negative
 }
 
-/// Goes along the step as far as the value falls enough; near the end, where values differ by little but rounding, as
-/// far as the gradient shrinks, or all the way, which leads away from a saddle. False if no share of the step will do.
+/// Moves along the step until the value falls enough. Near the end, where values differ little but for rounding, moves
+/// until the gradient shrinks, or the full step, which leads away from a saddle. Returns false if no share of the step
+/// is acceptable.
 bool search(const Objective& objective, const FreeDofs& free, const Eigen::VectorXd& gradient,
             const Eigen::VectorXd& step, Field& u_m) {
   const double before = objective.value(u_m), slope = gradient.dot(step);
@@ -149,7 +152,7 @@ StaticsReport minimise(Objective& objective, const FreeDofs& free, const Statics
                                      : conjugateGradientStep(objective, free, u_m, gradient);
     const bool rounding =
         step.lpNorm<Eigen::Infinity>() <= 8 * std::numeric_limits<double>::epsilon() * largestComponent(u_m);
-    if (rounding) return report;  // the displacements cannot be told apart any better
+    if (rounding) return report;  // the displacements are at the limit of rounding
     if (!search(objective, free, gradient, step, u_m)) break;
   }
   throw ConvergenceError("no equilibrium after " + std::to_string(report.iterations) +

@@ -3,17 +3,17 @@
 #include "solver/reference/node_contacts.h"
 
 #include "solver/contact/node_pairs.h"
-#include "solver/reference/reference_surroundings.h"
+#include "solver/reference/reference_environment.h"
 
 namespace viscera {
 
 NodeContacts::NodeContacts(const ReferenceSolver& solver, const Field& predicted_m) : solver_(solver) {
-  const ReferenceSurroundings* surroundings = solver.surroundings();
-  if (!surroundings || !surroundings->collides()) return;
-  friction_ = surroundings->collision().friction;
-  restitution_ = surroundings->collision().restitution;
+  const ReferenceEnvironment* environment = solver.environment();
+  if (!environment || !environment->collides()) return;
+  friction_ = environment->collision().friction;
+  restitution_ = environment->collision().restitution;
   constexpr double kReach = static_cast<double>(kPairReach);
-  const auto touching = surroundings->touching(solver, predicted_m, kReach);
+  const auto touching = environment->touching(solver, predicted_m, kReach);
   const ContactNormals normals(solver, touching, solver.u_m, predicted_m);
   for (const auto& pair : touching) {
     const double apart_m =
@@ -23,7 +23,7 @@ NodeContacts::NodeContacts(const ReferenceSolver& solver, const Field& predicted
 }
 
 void NodeContacts::tell(Increment& increment, double scale_n_per_m) const {
-  constexpr double kStiffer = 100;  // each guess leaves a hundredth of what the last one missed
+  constexpr double kStiffer = 100;  // each guess leaves a hundredth of the previous violation
   increment.setPairs(pairs_, kStiffer * scale_n_per_m);
 }
 

@@ -108,13 +108,13 @@ double ReferenceLattice::forceScale(const Field& u_m) const {
   return scale;
 }
 
-CellMotion ReferenceLattice::motionOf(const Field& u_m, const Cell& cell) const {
+CellModes ReferenceLattice::motionOf(const Field& u_m, const Cell& cell) const {
   std::array<Vector3d, 8> corners;
   for (size_t c = 0; c < 8; ++c) corners[c] = u_m[cell.corners[c]];
   return cellMotion(corners, cell.spacing_m);
 }
 
-/// Does a cell obey a law and have all its springs?
+/// Returns whether a cell obeys a law and has all its springs.
 bool ReferenceLattice::isWholeCell(const Cell& cell) const {
   return cell.law.rigidity_j != 0 && (nodes[cell.corners[0]].lo & layout::kCellBit) != 0;
 }
@@ -145,14 +145,15 @@ double ReferenceLattice::brokenEnergy(const Field& u_m, const Cell& cell) const 
   return sum;
 }
 
-/// What a cell does to its corners [N]; nothing of whole cells in thin walls, which do more (addWallForces()).
+/// Returns the forces of a cell on its corners [N]; zero for whole cells in thin walls, which act on more nodes
+/// (addWallForces()).
 ReferenceLattice::CornerForces ReferenceLattice::cellForces(const Field& u_m, size_t index) const {
   const Cell& cell = cells_[index];
   if (isBroken(cell)) return brokenForces(u_m, cell);
   CornerForces out;
   out.fill(Vector3d::Zero());
   if (!isWholeCell(cell) || cell.isInWall()) return out;
-  const CellMotion gradient = lawCellGradient(cell.law, motionOf(u_m, cell));
+  const CellModes gradient = lawCellGradient(cell.law, motionOf(u_m, cell));
   for (size_t c = 0; c < 8; ++c) {
     const Eigen::Matrix<double, 7, 1> of_corner = motionOfCorner(c, cell.spacing_m);
     for (int i = 0; i < 7; ++i) out[c] -= of_corner[i] * gradient.segment<3>(3 * i);
@@ -160,7 +161,7 @@ ReferenceLattice::CornerForces ReferenceLattice::cellForces(const Field& u_m, si
   return out;
 }
 
-/// @param forces_of  forces_of(cell) is cellForces() of that cell
+/// @param forces_of  forces_of(cell) returns cellForces() of that cell
 template <class ForcesOf>
 Vector3d ReferenceLattice::cellForce(ForcesOf forces_of, uint32_t slot) const {
   Vector3d sum = Vector3d::Zero();
@@ -191,7 +192,7 @@ Vector3d ReferenceLattice::elasticForce(const Field& u_m, uint32_t slot) const {
 }
 
 Field ReferenceLattice::elasticForces(const Field& u_m) const {
-  std::vector<CornerForces> of_cells(cells_.size());  // each serves eight nodes
+  std::vector<CornerForces> of_cells(cells_.size());  // each is used by eight nodes
   for (size_t c = 0; c < cells_.size(); ++c) of_cells[c] = cellForces(u_m, c);
   Field forces(slots(), Vector3d::Zero());
   for (uint32_t slot : active) {

@@ -11,8 +11,9 @@ namespace viscera {
 
 namespace {
 
-constexpr float kLeastFraction = 1.0f / (1 << 24);  ///< of a spring's length, where a cut is noted: 0 means whole
-constexpr double kLeastShare = 0.02;                ///< of a spring of a lattice (shaders/solver/tools/blade.glsl)
+constexpr float kLeastFraction =
+    1.0f / (1 << 24);                 ///< share of a spring's length at which a cut is recorded: 0 means whole
+constexpr double kLeastShare = 0.02;  ///< the same of a spring of a lattice (shaders/solver/tools/blade.glsl)
 constexpr std::array<int, 8> kNoCells = {-1, -1, -1, -1, -1, -1, -1, -1};
 
 Vector3i cornerOffset(size_t corner) {
@@ -59,7 +60,7 @@ void ReferenceLattice::addBody(const Model& model, size_t b, double dt_safe_s) {
     active.push_back(first + slot);
     rest_m_[first + slot] = viscera::restPosition(body, slot);
     if (!has_valences_[b] && lattice.nodes[slot].lo & layout::kCellBit) addCell(body, b, slot);
-    if (!lattice.way_to_surface_m.empty()) addWay(lattice, first, slot);
+    if (!lattice.offset_to_surface_m.empty()) addWay(lattice, first, slot);
   }
   if (body.network) {
     addLinks(*body.network, first);
@@ -101,7 +102,7 @@ void ReferenceLattice::addLinks(const SpringNetwork& network, uint32_t first) {
 }
 
 void ReferenceLattice::addWay(const Lattice& lattice, uint32_t first, uint32_t local) {
-  Way way{lattice.way_to_surface_m[local].cast<double>(), lattice.spacing_m, {-1, -1, -1}};
+  Way way{lattice.offset_to_surface_m[local].cast<double>(), lattice.spacing_m, {-1, -1, -1}};
   if (way.way_m.isZero()) return;
   for (int axis = 0; axis < 3; ++axis) {
     if (way.way_m[axis] == 0) continue;
@@ -112,7 +113,7 @@ void ReferenceLattice::addWay(const Lattice& lattice, uint32_t first, uint32_t l
   ways_[first + local] = way;
 }
 
-Vector3d ReferenceLattice::wayToSurface(const Field& u_m, uint32_t slot) const {
+Vector3d ReferenceLattice::offsetToSurface(const Field& u_m, uint32_t slot) const {
   const auto known = ways_.find(slot);
   if (known == ways_.end()) return Vector3d::Zero();
   const Way& way = known->second;
@@ -199,7 +200,7 @@ void ReferenceLattice::eraseSpring(uint32_t slot, uint32_t spring, double fracti
   const bool of_lattice = n.lattice_spring < layout::kSpringsPerNode;
   loseSpring(slot, n.lattice_spring);
   loseSpring(n.slot, of_lattice ? oppositeSpring(n.lattice_spring) : n.lattice_spring);
-  // Rounded, it must still say that the spring is cut.
+  // After rounding it must still say that the spring is cut.
   if (n.spring >= 0) spring_cut[static_cast<size_t>(n.spring)] = std::max(static_cast<float>(fraction), kLeastFraction);
   if (of_lattice) killCells(slot, n.slot);
   if (n.lattice_spring >= layout::kAxialSprings) return;
@@ -209,7 +210,7 @@ void ReferenceLattice::eraseSpring(uint32_t slot, uint32_t spring, double fracti
   axial_cut[3 * (forward ? slot : n.slot) + n.lattice_spring / 2] = erased ? fraction : share;
 }
 
-/// Notes in NodeBits that one end of a spring has it no longer.
+/// Removes one end of a spring from NodeBits.
 void ReferenceLattice::loseSpring(uint32_t slot, uint32_t lattice_spring) {
   layout::NodeBits& bits = nodes[slot];
   bits.lo |= layout::kSeveredBit;
@@ -220,7 +221,7 @@ void ReferenceLattice::loseSpring(uint32_t slot, uint32_t lattice_spring) {
   }
 }
 
-/// Takes the volume of the cells that have both nodes among their corners.
+/// Removes the volume of the cells with both nodes among their corners.
 void ReferenceLattice::killCells(uint32_t slot, uint32_t other) {
   for (int cell : around_[slot]) {
     if (cell < 0) continue;

@@ -11,7 +11,7 @@ namespace viscera {
 
 namespace {
 
-constexpr double kShortWay = 0.25;  // of a radius: shorter chords are not looked for (1/128 of it at most)
+constexpr double kShortWay = 0.25;  // of a radius: shorter chords are not searched for (1/128 of it deep at most)
 constexpr double kMiddle = 1e-6;    // of a radius: nearer to the axis there is no direction
 
 Pose poseOf(const layout::vec4& place, const layout::vec4& q) {
@@ -21,7 +21,7 @@ Vector3d seenFrom(const Pose& pose, const Vector3d& x) {
   return pose.orientation.conjugate() * (x - pose.position_m);
 }
 
-/// Smallest s >= 0 at which |a + s b| = radius, where a is outside; nothing where that never is.
+/// Returns the smallest s >= 0 at which |a + s b| = radius, with a outside; nothing if there is none.
 std::optional<double> firstAt(const Vector3d& a, const Vector3d& b, double radius) {
   const double bb = b.squaredNorm(), ab = a.dot(b), c = a.squaredNorm() - radius * radius;
   const double under = ab * ab - bb * c;
@@ -76,13 +76,13 @@ std::optional<HalfSpace> ReferenceObstacle::outside(const Vector3d& x_m, const V
   return out;
 }
 
-/// The tissue is on the +z side.
+/// Returns the contact with a plane; the tissue is on its +z side.
 std::optional<ReferenceObstacle::Local> ReferenceObstacle::meetPlane(const Vector3d& to) const {
   if (to.z() >= 0) return std::nullopt;
   return Local{Vector3d::UnitZ(), {to.x(), to.y(), 0}};
 }
 
-/// Out of the face that the way came in by, or of the nearest to who was inside.
+/// Returns the contact with the face through which the path entered; for a node that was inside, the nearest face.
 std::optional<ReferenceObstacle::Local> ReferenceObstacle::meetBox(const Vector3d& from, const Vector3d& to) const {
   const auto inside = [this](const Vector3d& p) { return (p.cwiseAbs().array() < half_size_m_.array()).all(); };
   int face = -1;
@@ -90,7 +90,7 @@ std::optional<ReferenceObstacle::Local> ReferenceObstacle::meetBox(const Vector3
     if (!inside(to)) return std::nullopt;
     (half_size_m_ - from.cwiseAbs()).minCoeff(&face);
   } else {
-    double enters = 0, leaves = 1;  // shares of the way
+    double enters = 0, leaves = 1;  // shares of the path
     for (int k = 0; k < 3; ++k) {
       const double way = to[k] - from[k];
       if (way == 0 && std::abs(from[k]) >= half_size_m_[k]) return std::nullopt;
@@ -111,13 +111,13 @@ std::optional<ReferenceObstacle::Local> ReferenceObstacle::meetBox(const Vector3
   return out;
 }
 
-/// Of a sphere its centre.
+/// Returns the nearest point of the axis; of a sphere its centre.
 Vector3d ReferenceObstacle::onAxis(const Vector3d& p) const {
   return {0, 0, std::clamp(p.z(), -half_length_m_, half_length_m_)};
 }
 
-/// Share of the way at which it comes into the sphere or capsule: into its cylinder between its ends, or into one of
-/// the two spheres.
+/// Returns the share of the path at which it enters the sphere or capsule: into its cylinder between the ends, or into
+/// one of the two spheres.
 std::optional<double> ReferenceObstacle::entry(const Vector3d& from, const Vector3d& to) const {
   const Vector3d way = to - from;
   double first = std::numeric_limits<double>::infinity();
@@ -130,7 +130,7 @@ std::optional<double> ReferenceObstacle::entry(const Vector3d& from, const Vecto
   return first <= 1 ? std::optional(first) : std::nullopt;
 }
 
-/// Out along the radius; who passed through, or beyond the middle, goes to where it came in.
+/// Returns the contact along the radius; a node that passed through, or beyond the middle, returns to where it entered.
 std::optional<ReferenceObstacle::Local> ReferenceObstacle::meetRound(const Vector3d& from, const Vector3d& to) const {
   const Vector3d away = to - onAxis(to), away_before = from - onAxis(from);
   const bool inside = away.norm() < radius_m_;
@@ -153,7 +153,7 @@ std::optional<HalfSpace> outsideOfProbe(const layout::ToolMotion& motion, const 
   if ((motion.info.y & (layout::kToolPushes | layout::kToolFeels)) != layout::kToolPushes) return std::nullopt;
   const Vector3d from = xyz(motion.from), to = xyz(motion.to), travel = to - from;
   const double radius = std::max(0.0, motion.from.w + below_m), length2 = travel.squaredNorm();
-  // The final sphere for who is in it, else the capsule that it has swept.
+  // The final sphere for a node inside it, else the capsule that it has swept.
   const auto centreFor = [&](const Vector3d& x) {
     if (length2 == 0 || (x - to).norm() < kOnSphere * radius) return to;
     return Vector3d(from + std::clamp((x - from).dot(travel) / length2, 0.0, 1.0) * travel);

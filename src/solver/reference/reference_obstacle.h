@@ -10,42 +10,43 @@
 
 namespace viscera {
 
-/// Of a probe's radius: so near to the final sphere nothing is seen as swept over (shaders/solver/tools/touch.glsl).
+/// Factor on a probe's radius: nodes nearer than that to the final sphere are not treated as swept over
+/// (shaders/solver/tools/touch.glsl).
 constexpr double kOnSphere = 1.001;
 
-/// A surface that a node meets in a substep, tissue frame.
+/// Contact of a node with a surface in a substep, tissue frame.
 struct ObstacleMeeting {
-  Vector3d normal;     ///< out of it
-  Vector3d surface_m;  ///< where the node goes
-  double way_m;        ///< of the node in the substep, as seen from the surface
+  Vector3d normal;     ///< outward normal
+  Vector3d surface_m;  ///< position to which the node is moved
+  double way_m;        ///< displacement of the node in the substep relative to the surface
 };
 
-/// Where a node must end a substep of implicit Euler: normal . du >= least.
+/// Constraint on the end position of a node in a substep of implicit Euler: normal . du >= least.
 struct HalfSpace {
   Vector3d normal;
-  double least_m;  ///< how far the node is inside before; below 0 outside
-  Vector3d way_m;  ///< of the surface in the substep
+  double least_m;  ///< depth of the node inside before the substep; negative outside
+  Vector3d way_m;  ///< displacement of the surface in the substep
   double friction = 0, restitution = 0;
 };
 
-/// A rigid obstacle over a substep (physics.md 8), in float64 from the numbers that kernels get.
+/// A rigid obstacle over a substep (physics.md 8), in float64 from the float32 numbers of the kernels.
 class ReferenceObstacle {
  public:
-  /// @param dt_s  the substep's length
+  /// @param dt_s  length of the substep [s]
   ReferenceObstacle(const layout::ObstacleMotion& motion, double dt_s);
 
-  /// As a node sees it that lies so deep below the surface of its tissue, or outside of it: larger or smaller.
+  /// Returns the obstacle enlarged for a node at a depth below the surface of its tissue; reduced for one outside.
   ReferenceObstacle enlarged(double below_m) const;
-  /// Does a node that goes from x to x_next end inside, or pass through?
+  /// Returns the contact of a node that moves from x to x_next, if it ends inside or passes through.
   std::optional<ObstacleMeeting> meet(const Vector3d& x_m, const Vector3d& x_next_m) const;
-  /// The half space that a node at x must end in if its way would meet the obstacle: the tangent plane nearest to x, of
-  /// a box the face that it meets.
+  /// Returns the half space in which a node at x must end, if its path would meet the obstacle: the tangent plane
+  /// nearest to x; of a box the face that it meets.
   std::optional<HalfSpace> outside(const Vector3d& x_m, const Vector3d& x_next_m) const;
-  /// Of the surface where it is at x [m/s].
+  /// Returns the velocity of the surface at x [m/s].
   Vector3d velocityAt(const Vector3d& x_m) const { return velocity_ + spin_.cross(x_m - to_.position_m); }
   double friction() const { return friction_; }
   double restitution() const { return restitution_; }
-  Vector3d place() const { return to_.position_m; }  ///< at the end of the substep [m]
+  Vector3d place() const { return to_.position_m; }  ///< position at the end of the substep [m]
 
  private:
   struct Local {
@@ -63,8 +64,8 @@ class ReferenceObstacle {
   Pose from_, to_;
 };
 
-/// The same of a probe that pushes: where a node at x must end a substep if x_next is inside.
-/// @param below_m  how deep the node lies below the surface of its tissue
+/// Returns the half space of a probe that pushes: where a node at x must end a substep if x_next is inside.
+/// @param below_m  depth of the node below the surface of its tissue [m]
 std::optional<HalfSpace> outsideOfProbe(const layout::ToolMotion& motion, const Vector3d& x_m, const Vector3d& x_next_m,
                                         double below_m);
 

@@ -77,8 +77,8 @@ void ReferenceSolver::substep(const SubstepMotions& motions, const SubstepOutsid
     const uint32_t effects = motions[s].info.y;
     if (effects & (layout::kToolCuts | layout::kToolErases)) cut(s, (effects & layout::kToolErases) != 0);
   }
-  // What blows and pushes is part of an implicit substep by the velocities that it starts from; after an explicit one
-  // it acts on its own, between contacts of nodes and obstacles.
+  // Wind and forces are part of an implicit substep by its initial velocities. After an explicit one they act on their
+  // own, between the contacts of nodes and obstacles.
   const bool implicit = options_.integrator == ReferenceIntegrator::kImplicitEuler;
   if (implicit) blow(outside, u_m, v_m_per_s, nullptr);
   Field u_next = u_m, v_next(slots(), Vector3d::Zero());
@@ -95,7 +95,7 @@ void ReferenceSolver::substep(const SubstepMotions& motions, const SubstepOutsid
     blow(outside, u_next, v_next, &u_next);
     meetObstacles(u_next, v_next);
   }
-  if (options_.surroundings || !obstacles_.empty()) {
+  if (options_.environment || !obstacles_.empty()) {
     for (uint32_t slot : active) {
       if (!rests(slot)) sleep(slot, u_next[slot], v_next[slot]);
     }
@@ -117,8 +117,8 @@ void ReferenceSolver::integrate(Field& u_next, Field& v_next) {
   }
 }
 
-/// Velocities live half a substep before the displacements: a kick spans from the middle of the last substep to that of
-/// this one, and the first, from the same moment, is half a one.
+/// Velocities are half a substep earlier than displacements. A kick spans from the middle of the last substep to that
+/// of this one; the first, from the same time, is half a kick.
 void ReferenceSolver::leapfrog(Field& u_next, Field& v_next) const {
   const double kick_s = first_ ? 0.5 * dt_s_ : 0.5 * (last_dt_s_ + dt_s_);
   const Field elastic = elasticForces(lawPlaces(u_m, v_m_per_s));
@@ -126,21 +126,21 @@ void ReferenceSolver::leapfrog(Field& u_next, Field& v_next) const {
     if (rests(slot)) continue;
     Vector3d force = elastic[slot];
     if (!obeysLaw(slot)) force += dampingForce(u_m, v_m_per_s, slot);
-    const double g = drag_per_s(slot) * kick_s;
+    const double g = mass_damping_per_s(slot) * kick_s;
     v_next[slot] = ((1 - g / 2) * v_m_per_s[slot] + kick_s * (force / mass(slot) + gravity_)) / (1 + g / 2);
     u_next[slot] = u_m[slot] + dt_s_ * v_next[slot];
   }
 }
 
-/// x+ = 2 x - x_prev + dt^2 (F/m + g - gamma (x - x_prev)/dt), with v = (x - x_prev)/dt in the place of x_prev: the
-/// same in exact arithmetic. What float32 does to x and x_prev is the kernel's affair. Like the papers it starts with a
-/// whole kick.
+/// x+ = 2 x - x_prev + dt^2 (F/m + g - gamma (x - x_prev)/dt), with v = (x - x_prev)/dt in the place of x_prev, which
+/// is the same in exact arithmetic. The effect of float32 on x and x_prev is tested with the kernel. As in the papers,
+/// it starts with a full kick.
 void ReferenceSolver::verletPaper(Field& u_next, Field& v_next) const {
   const Field elastic = elasticForces(u_m);
   for (uint32_t slot : active) {
     if (rests(slot)) continue;
     const Vector3d& v = v_m_per_s[slot];
-    v_next[slot] = v + dt_s_ * (elastic[slot] / mass(slot) + gravity_ - drag_per_s(slot) * v);
+    v_next[slot] = v + dt_s_ * (elastic[slot] / mass(slot) + gravity_ - mass_damping_per_s(slot) * v);
     u_next[slot] = u_m[slot] + dt_s_ * v_next[slot];
   }
 }
@@ -148,7 +148,7 @@ void ReferenceSolver::verletPaper(Field& u_next, Field& v_next) const {
 void ReferenceSolver::sleep(uint32_t slot, Vector3d& u_next, Vector3d& v_next) const {
   if (heldBy(slot) != 0) return;
   if (u_next.norm() <= options_.sleep_distance_m || u_next.norm() <= u_m[slot].norm()) return;
-  if ((u_next - u_m[slot]).norm() > 0.1 * options_.sleep_distance_m) return;  // that is no fall, but an explosion
+  if ((u_next - u_m[slot]).norm() > 0.1 * options_.sleep_distance_m) return;  // not a fall, but an explosion
   u_next = u_m[slot];
   v_next.setZero();
 }

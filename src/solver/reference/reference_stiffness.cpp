@@ -22,12 +22,12 @@ Matrix positivePart(const Matrix& m) {
   return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
 }
 
-/// d2 (k/2 extension^2) / d w2 of a spring, with its dashpot [N/m]. @param damping  c / dt
+/// Returns d2 (k/2 extension^2) / d w2 of a spring, with its dashpot [N/m]. @param damping  c / dt
 Eigen::Matrix3d springCurvature(const Vector3d& direction, double extension_m, double length_m, double k,
                                 double damping, bool positive) {
   const Eigen::Matrix3d along = direction * direction.transpose();
-  // Tension over length, what a spring resists turning with; negative while it is compressed. One without rest
-  // length has k even where it has no length: its force is k times the way from end to end.
+  // Tension over length, the resistance of a spring to rotation; negative in compression. A spring without rest length
+  // has k also at zero length: its force is k times the vector from end to end.
   double turning = length_m > 0 ? k * extension_m / length_m : k;
   if (positive) turning = std::max(0.0, turning);
   return (k + damping) * along + turning * (Eigen::Matrix3d::Identity() - along);

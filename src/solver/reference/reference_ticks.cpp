@@ -7,7 +7,7 @@
 
 #include "model/fracture/toughness.h"
 #include "model/scene/feature_rules.h"
-#include "solver/reference/reference_surroundings.h"
+#include "solver/reference/reference_environment.h"
 #include "solver/ticks/registry.h"
 #include "solver/tissue/substeps.h"
 #include "tools/motion_packing.h"
@@ -19,7 +19,7 @@ namespace viscera {
 namespace {
 
 SolverConfig ungoverned(SolverConfig config) {
-  config.governor = false;
+  config.stability_monitor = false;
   return config;
 }
 
@@ -30,19 +30,19 @@ ReferenceOptions optionsFor(const Model& model, const Scene& scene) {
   options.push_speed_m_per_s = static_cast<float>(pushSpeed(model));
   options.sleep_distance_m = static_cast<float>(config.sleep_distance_m);
   for (const Body& body : model.bodies) options.resists.push_back(resistsBlades(body));
-  if (surroundingsOf(model, scene).any()) options.surroundings = std::make_shared<ReferenceSurroundings>(model, scene);
+  if (environmentOf(model, scene).any()) options.environment = std::make_shared<ReferenceEnvironment>(model, scene);
   return options;
 }
 
 }  // namespace
 
-// Substep, gravity and limits are the float32 numbers that the kernels get: what differs is the arithmetic alone.
+// Substep, gravity and limits are the float32 numbers that the kernels get, so only the arithmetic differs.
 ReferenceTicks::ReferenceTicks(const Model& model, const Scene& scene)
     : acts_(scene.styluses, 1 / scene.solver.tick_hz, resistsBlades(scene) && !cutsFreely(scene)),
       tick_hz_(scene.solver.tick_hz),
       dt_safe_s_(safeTimeStep(model)),
       substeps_(planSubsteps(model, ungoverned(scene.solver), dt_safe_s_).calm),
-      surroundings_(model, scene),
+      environment_(model, scene),
       solver_(model, scene.environment.gravity_m_per_s2.cast<float>().cast<double>(), static_cast<float>(dt_s()),
               optionsFor(model, scene)),
       processes_(makeProcesses(scene, model, true), 0),
@@ -53,7 +53,7 @@ ReferenceTicks::ReferenceTicks(const Model& model, const Scene& scene)
 void ReferenceTicks::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
   solver_.markTick();
   obstacle_before_n_s_ = solver_.obstacle_impulse_n_s;
-  surroundings_.beginTick(1 / tick_hz_, substeps_, obstacles);
+  environment_.beginTick(1 / tick_hz_, substeps_, obstacles);
   acts_.beginTick(solver_, motions);
   interpolateMotions(motions, acts_.styluses(), substeps_, motions_);
   for (layout::ToolMotion& motion : motions_) motion.timing.x = static_cast<float>(dt_s());
@@ -64,15 +64,15 @@ void ReferenceTicks::step(const ToolMotions& motions, const ObstacleMotions& obs
     cuts_seen_ = solver_.springs_cut;
     processes_.cutsChanged(solver_.state());
   }
-  const ObstacleMotions& surrounding = surroundings_.motions().empty() ? obstacles : surroundings_.motions();
+  const ObstacleMotions& surrounding = environment_.motions().empty() ? obstacles : environment_.motions();
   const ProcessTick tick{motions, surrounding, substeps_, acts_.sever(motions)};
   processes_.beginTick(tick);
   for (int n = 0; n < substeps_; ++n) {
     SubstepMotions substep;
     std::copy_n(motions_.begin() + n * static_cast<int>(layout::kMaxStyluses), layout::kMaxStyluses, substep.begin());
-    const SubstepSurroundings now = surroundings_.at(n);
+    const SubstepEnvironment now = environment_.at(n);
     SubstepOutside outside{{}, now.wind_m_per_s.cast<double>()};
-    outside.obstacles.assign(now.obstacles, now.obstacles + surroundings_.obstacleCount());
+    outside.obstacles.assign(now.obstacles, now.obstacles + environment_.obstacleCount());
     solver_.substep(substep, outside);
     processes_.act(solver_, tick, {n, dt_s(), substep.data()});
   }

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "solver/contact/surroundings.h"
+#include "solver/contact/environment.h"
 #include "solver/contact/tool_acts.h"
 #include "solver/reference/reference_solver.h"
 #include "solver/ticks/process_list.h"
@@ -14,44 +14,46 @@ namespace viscera {
 
 struct Scene;
 
-/// The reference tick by tick, as Ticks goes through a scene, with the same processes in the tissue, but always in calm
-/// substeps and without a stability monitor (governor). pd is implicit Euler here, solved to the end.
+/// The reference tick by tick, as TissueStepper runs a scene, with the same processes in the tissue, but always in calm
+/// substeps and without a stability monitor (stability monitor). Here pd is implicit Euler, solved to convergence.
 class ReferenceTicks {
  public:
   /// @param model  must outlive this
   /// @throws SceneError  substeps (planSubsteps), parts (strengths), tissue that tears
   ReferenceTicks(const Model& model, const Scene& scene);
 
+  /// Advances by a tick.
   /// @throws ConvergenceError  implicit Euler found no solution
-  /// @param obstacles  over the tick, all of the scene's; empty: they stand where they were last
+  /// @param obstacles  motions over the tick, of all obstacles of the scene; empty: they stay where they were last
   void step(const ToolMotions& motions, const ObstacleMotions& obstacles = {});
 
-  /// Sets the state, all of one moment: time starts again with half a kick. @param u_m, v_m_per_s  [slots]
+  /// Sets the state, all of one time: time integration restarts with half a kick. @param u_m, v_m_per_s  [slots]
   void load(const std::vector<layout::vec4>& u_m, const std::vector<layout::vec4>& v_m_per_s);
   const ReferenceSolver& solver() const { return solver_; }
   double dt_s() const { return 1 / (tick_hz_ * substeps_); }
   double dtSafe_s() const { return dt_safe_s_; }
-  int substeps() const { return substeps_; }  ///< per tick
-  Vector3d impulse(uint32_t stylus) const;    ///< given to the nodes in the last tick [N s]
+  int substeps() const { return substeps_; }  ///< number per tick
+  Vector3d impulse(uint32_t stylus) const;    ///< momentum given to the nodes in the last tick [N s]
   Vector3d obstacleImpulse(size_t obstacle) const {
     return solver_.obstacle_impulse_n_s[obstacle] - obstacle_before_n_s_[obstacle];
   }
-  /// What lives in the tissue: their state is float64 too, but TissuePort rounds what they read and give to float32.
+  /// Returns the processes in the tissue. Their state is float64 too, but TissuePort rounds what they read and give to
+  /// float32.
   const TissueProcesses& processes() const { return processes_.all(); }
   double maxStretch() const;        ///< largest |L - l0| / l0 of the current state
-  double maxSpeed_m_per_s() const;  ///< of any node in the current state
-  uint64_t nonfinite() const;       ///< nodes whose u or v is not finite
+  double maxSpeed_m_per_s() const;  ///< largest speed of a node in the current state
+  uint64_t nonfinite() const;       ///< number of nodes with u or v not finite
 
  private:
   ToolActs acts_;
   double tick_hz_, dt_safe_s_;
   int substeps_;
-  Surroundings surroundings_;  ///< where and when; what they do is the solver's
+  Environment environment_;  ///< motions of obstacles and time; the solver applies them
   ReferenceSolver solver_;
   ProcessList processes_;
-  uint64_t cuts_seen_ = 0;                                           ///< springs cut, when processes were told last
+  uint64_t cuts_seen_ = 0;                                           ///< springs cut when processes were last notified
   bool first_ = true;                                                ///< no tick was made yet
-  std::array<Vector3d, layout::kMaxObstacles> obstacle_before_n_s_;  ///< given when the tick began
+  std::array<Vector3d, layout::kMaxObstacles> obstacle_before_n_s_;  ///< momentum given when the tick began
   std::vector<layout::ToolMotion> motions_;
 };
 

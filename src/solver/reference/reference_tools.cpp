@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What styluses do to the reference (VR05 2.7, physics.md 5).
+// Effects of styluses on the reference (VR05 2.7, physics.md 5).
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -14,9 +14,9 @@ namespace viscera {
 
 namespace {
 
-const double kErasedFraction = static_cast<double>(layout::kErasedShare);  ///< of a spring whose end was erased
+const double kErasedFraction = static_cast<double>(layout::kErasedShare);  ///< of a spring with an erased end
 
-constexpr double kOverlap = 1e-3;  ///< of a sweep with the one before (shaders/solver/tools/blade.glsl)
+constexpr double kOverlap = 1e-3;  ///< overlap of a sweep with the previous one (shaders/solver/tools/blade.glsl)
 
 Vector3d nearestOnSegment(const Vector3d& a, const Vector3d& b, const Vector3d& x) {
   const Vector3d ab = b - a;
@@ -28,7 +28,7 @@ struct Plane {
   Vector3d point, normal;
 };
 
-/// The plane of the triangle p q r if the segment a..b crosses the triangle. Borders belong to it.
+/// Returns the plane of the triangle p q r if the segment a..b crosses the triangle, including its border.
 std::optional<Plane> crossing(const Vector3d& a, const Vector3d& b, const Vector3d& p, const Vector3d& q,
                               const Vector3d& r) {
   const Vector3d normal = (q - p).cross(r - p);
@@ -42,7 +42,7 @@ std::optional<Plane> crossing(const Vector3d& a, const Vector3d& b, const Vector
   return inside ? std::optional(Plane{p, normal}) : std::nullopt;
 }
 
-/// Where the line a..b passes a plane, 0..1 of the way from a to b; at the nearer end where it passes beyond.
+/// Returns where the line a..b crosses a plane, 0..1 from a to b; clamped to the nearer end.
 double fractionOf(const Vector3d& a, const Vector3d& b, const Plane& plane) {
   const double da = (a - plane.point).dot(plane.normal), db = (b - plane.point).dot(plane.normal);
   return da == db ? 0.5 : std::clamp(da / (da - db), 0.0, 1.0);
@@ -57,9 +57,9 @@ double distanceToTriangle(const Vector3d& x, const Vector3d& p, const Vector3d& 
   return inside ? std::min(d, std::abs((x - p).dot(normal)) / normal.norm()) : d;
 }
 
-/// Swept sphere of VR05 2.7.1: out of the final sphere along the radius, out of the swept capsule sideways, but by no
-/// more than longest_push_m.
-/// @param below_m  how deep the node lies below the surface of its tissue: for it the probe is as much larger
+/// Applies the swept sphere of VR05 2.7.1: out of the final sphere along the radius, out of the swept capsule sideways,
+/// by at most longest_push_m.
+/// @param below_m  depth of the node below the surface of its tissue: the probe is enlarged by it
 void probe(const layout::ToolMotion& m, double below_m, double dt_s, double longest_push_m, const Vector3d& x,
            Vector3d& x_next, Vector3d& v_next) {
   const double radius = std::max(0.0, m.from.w + below_m);
@@ -85,14 +85,15 @@ struct Sweep {
     const Vector3d normal = ((far_from - from) + (far_to - to)).cross(move());
     return normal.norm() > 0 ? Vector3d(normal.normalized()) : Vector3d::Zero();
   }
-  /// The part of a way that goes along the blade's own.
+  /// Returns the component of a displacement along the blade's own.
   Vector3d along(const Vector3d& way) const {
     return move().norm() > 0 ? Vector3d(way.dot(move()) / move().squaredNorm() * move()) : Vector3d::Zero();
   }
 };
 
-constexpr double kSameCut = 0.7, kSway = 0.5, kBeside = 1e-3;  // as there
+constexpr double kSameCut = 0.7, kSway = 0.5, kBeside = 1e-3;  // as in cut_sides.glsl
 
+/// Returns the position of a node moved to its side of the cut.
 /// @param side  unit normal towards the node's side; zero: none   @param h_m  spacing
 Vector3d onItsSide(const Vector3d& side, const Vector3d& x, const Sweep& sweep, double h_m) {
   const double same = sweep.normal().dot(side);
@@ -127,7 +128,8 @@ void ReferenceSolver::applyTools(const SubstepMotions& motions, uint32_t slot, V
   }
 }
 
-/// Nodes of lattices that have all their springs, and no surface near them, lie inside.
+/// Returns whether a node is at the surface. Nodes of lattices with all their springs, and no surface near them, are
+/// inside.
 bool ReferenceSolver::onSkin(uint32_t slot) const {
   if (surfaceDepth(slot) != 0) return true;
   for (uint32_t s = 0; s < springsOf(slot); ++s) {
@@ -156,13 +158,13 @@ std::optional<ReferenceSolver::EdgeWay> ReferenceSolver::wayOfEdge(const layout:
   return EdgeWay{{a, b}, {share_a, share_b}, {push, faster}, normal};
 }
 
-/// Rounds in which all see what the one before did.
+/// Works in rounds; in each, all springs use the result of the previous one.
 void ReferenceSolver::applyEdges(const layout::ToolMotion& m, uint32_t stylus, Field& u_next, Field& v_next) {
   if ((m.info.y & (layout::kToolPushes | layout::kToolFeels)) != layout::kToolPushes) return;
   const auto moves = [&](uint32_t slot) { return !isFixed(nodes[slot]) && heldBy(slot) == 0; };
   for (uint32_t round = 0; round < layout::kEdgeRounds; ++round) {
     std::vector<EdgeWay> ways;
-    std::vector<Array2d> sums(nodes.size(), Array2d::Zero());  // of parts times ways
+    std::vector<Array2d> sums(nodes.size(), Array2d::Zero());  // sums of shares times displacements
     for (const uint32_t slot : active) {
       for (uint32_t s = 0; onSkin(slot) && s < springsOf(slot); ++s) {
         const uint32_t far = farEnd(slot, s);
@@ -196,7 +198,7 @@ void ReferenceSolver::takeHold(uint32_t stylus, const Pose& pose, double radius_
   for (uint32_t slot : active) {
     if (isFixed(nodes[slot]) || heldBy(slot) != 0 || isIsolated(slot)) continue;
     const Vector3d offset = restPosition(slot) + u_m[slot] - pose.position_m;
-    if ((offset + wayToSurface(u_m, slot)).norm() > radius_m) continue;
+    if ((offset + offsetToSurface(u_m, slot)).norm() > radius_m) continue;
     grab_offsets_[slot] = pose.orientation.conjugate() * offset;
     nodes[slot].lo |= (stylus + 1) << layout::kGrabShift;
   }
@@ -216,7 +218,7 @@ void ReferenceSolver::cut(uint32_t stylus, bool particles) {
   cutWith(motions_[stylus], particles, particles ? std::vector<uint8_t>() : options_.resists);
 }
 
-/// @param spared  [bodies] 1 where no spring is cut; empty: those of all are
+/// @param spared  [bodies] 1 where no spring is cut; empty: no body is spared
 void ReferenceSolver::cutWith(const layout::ToolMotion& m, bool particles, const std::vector<uint8_t>& spared) {
   const Vector3d a = xyz(m.from), b = xyz(m.blade_from), c = xyz(m.blade_to), d = xyz(m.to);
   const auto position = [&](uint32_t slot) { return tissueAt(u_m, slot); };
@@ -233,8 +235,8 @@ void ReferenceSolver::cutWith(const layout::ToolMotion& m, bool particles, const
     if (std::abs(normal.dot(side)) >= kSameCut) return;
     side = (position(slot) - a).dot(normal) >= 0 ? normal : Vector3d(-normal);
   };
-  // Where a spring, which has come `way` in the last substep, is severed, if it is: its ends' tissue says whether, the
-  // line between the nodes where.
+  // Returns where a spring, moved by `way` in the last substep, is severed, if it is. The tissue points of its ends
+  // decide whether, the line between the nodes where.
   const auto severed = [&](uint32_t slot, uint32_t far, bool linked, const Vector3d& way) -> std::optional<double> {
     if (particles) {
       return erased(position(slot)) || erased(position(far)) ? std::optional(kErasedFraction) : std::nullopt;
@@ -250,7 +252,7 @@ void ReferenceSolver::cutWith(const layout::ToolMotion& m, bool particles, const
     if (!plane) return std::nullopt;
     return fractionOf(restPosition(slot) + u_m[slot], restPosition(far) + u_m[far], *plane);
   };
-  std::vector<uint32_t> lost;  // nodes of lattices: seen in this pass as before it
+  std::vector<uint32_t> lost;  // nodes of lattices: this pass reads them as before it
   for (uint32_t slot : active) {
     if (!spared.empty() && spared[nodes[slot].hi >> layout::kBodyShift]) continue;
     for (uint32_t s = 0; s < springsOf(slot); ++s) {
@@ -288,7 +290,7 @@ void ReferenceSolver::pushNodes(uint32_t stylus, float dt_s, const std::vector<u
   }
 }
 
-/// The cut sees tissue that is where it is at rest.
+/// Cuts with the tissue at its rest position.
 void ReferenceSolver::cutAtRest(const layout::ToolMotion& sweep, bool particles) {
   Field u(u_m.size(), Vector3d::Zero()), v = u;
   u_m.swap(u);

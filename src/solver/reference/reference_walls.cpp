@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Cells in thin walls, whose second derivatives come from rows of nodes (physics.md 1, Thin walls).
+// Cells in thin walls, with second derivatives from rows of nodes (physics.md 1, Thin walls).
 #include <algorithm>
 
 #include "solver/reference/reference_lattice.h"
@@ -9,7 +9,8 @@ namespace viscera {
 
 namespace {
 
-/// Place in a WallMotion, in vectors, of the second derivative along an axis, and of how it varies along another.
+/// Returns the index in a WallMotion, in vectors, of the second derivative along an axis. The next function returns
+/// that of its variation along another axis.
 constexpr int rowAt(int axis) {
   return 7 + axis;
 }
@@ -31,7 +32,7 @@ void ReferenceLattice::addWall(const WallCell& wall, Cell& cell) {
   }
 }
 
-/// Notes which cells in thin walls a node beside their corners belongs to, once neighbours are known.
+/// Adds cells in thin walls to the nodes next to their corners, once neighbours are known.
 void ReferenceLattice::linkWalls() {
   for (const auto& [corner, spring, cell] : axial_of_walls_) {
     if (isWhole(corner, spring)) walls_near_[farEnd(corner, spring)].push_back(cell);
@@ -43,7 +44,7 @@ void ReferenceLattice::linkWalls() {
   }
 }
 
-/// Is a node within a row: are both springs along an axis whole?
+/// Returns whether a node is within a row: both springs along an axis are intact.
 bool ReferenceLattice::isWithinRow(uint32_t slot, int axis) const {
   const auto first = static_cast<uint32_t>(2 * axis);
   return isWhole(slot, first) && isWhole(slot, first + 1);
@@ -61,7 +62,7 @@ ReferenceLattice::WallStencil ReferenceLattice::stencilOf(const Cell& cell) cons
   for (size_t c = 0; c < 8; ++c) {
     for (int axis = 0; axis < 3; ++axis) {
       uint32_t node = cell.corners[c];
-      if (!isWithinRow(node, axis)) node = cell.corners[c ^ (size_t{1} << axis)];  // a row's end has what is next to it
+      if (!isWithinRow(node, axis)) node = cell.corners[c ^ (size_t{1} << axis)];  // a row ends: uses its neighbour
       if (!isWithinRow(node, axis)) continue;
       WallShare difference = WallShare::Zero();
       difference[rowAt(axis)] = 0.125 / cell.spacing_m;
@@ -77,7 +78,7 @@ ReferenceLattice::WallStencil ReferenceLattice::stencilOf(const Cell& cell) cons
   return out;
 }
 
-/// A cell with the rows that it has left.
+/// Returns the law of a cell with its remaining rows.
 LawCell ReferenceLattice::wallLaw(const Cell& cell) const {
   LawCell out = cell.law;
   for (int axis = 0; axis < 3; ++axis) {
@@ -96,7 +97,7 @@ WallMotion ReferenceLattice::motionOf(const Field& u_m, const WallStencil& stenc
   return out;
 }
 
-/// Calls visit(slot, force) for what a cell does to the nodes of its stencil [N].
+/// Calls visit(slot, force) with the forces of a cell on the nodes of its stencil [N].
 template <class Visit>
 void ReferenceLattice::wallForces(const Field& u_m, const Cell& cell, Visit visit) const {
   const WallStencil stencil = stencilOf(cell);

@@ -10,7 +10,8 @@ namespace viscera {
 
 namespace {
 
-constexpr double kSingular = 1e-13;  ///< smallest over largest pivot of a stiffness that leaves no motion free
+constexpr double kSingular =
+    1e-13;  ///< least ratio of the smallest to the largest pivot of a stiffness without free motion
 
 /// Elastic energy less the work of gravity and of the external forces, at a share of the full load.
 class Potential : public Objective {
@@ -56,7 +57,7 @@ std::vector<bool> freeDofs(const ReferenceSolver& solver, const std::vector<Pres
   return free;
 }
 
-/// Moves the prescribed ones and lets the others follow to first order: Newton's method then starts near the end.
+/// Moves the prescribed nodes, and the others to first order: Newton's method then starts near the solution.
 void predict(const ReferenceSolver& solver, const Objective& objective, const FreeDofs& free, const Field& change,
              Field& u_m) {
   const Eigen::SparseMatrix<double> k = objective.hessian(u_m, ReferenceLattice::Curvature::kPositive);
@@ -67,7 +68,8 @@ void predict(const ReferenceSolver& solver, const Objective& objective, const Fr
   free.add(solvePositive(free.of(k), -free.of(flat)), 1, u_m);
 }
 
-/// What nothing holds flies off: a "solution" a million times as far away as the lattice is large.
+/// Checks that the body is held: without supports the "solution" is a million times as far away as the lattice is
+/// large.
 void requireHeld(const ReferenceSolver& solver) {
   Eigen::AlignedBox3d box;
   double farthest = 0;
@@ -75,7 +77,8 @@ void requireHeld(const ReferenceSolver& solver) {
     box.extend(solver.restPosition(slot));
     farthest = std::max(farthest, solver.u_m[slot].norm());
   }
-  if (farthest > 1e6 * box.diagonal().norm()) throw ConvergenceError("nothing holds the tissue: no static equilibrium");
+  if (farthest > 1e6 * box.diagonal().norm())
+    throw ConvergenceError("the tissue is not held anywhere: no static equilibrium");
 }
 
 Field fieldOf(const ReferenceLattice& lattice, const Eigen::VectorXd& flat) {
@@ -118,7 +121,7 @@ Field solveLinear(const ReferenceSolver& solver, const std::vector<PrescribedDof
   for (uint32_t slot : solver.active) load[slot] = (external_n.empty() ? rest[slot] : external_n[slot]) - load[slot];
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt(free.of(solver.stiffnessMatrix(rest)));
   if (ldlt.info() != Eigen::Success || ldlt.vectorD().minCoeff() < kSingular * ldlt.vectorD().maxCoeff()) {
-    throw ConvergenceError("the prescribed displacements leave a motion without strain free: no linear equilibrium");
+    throw ConvergenceError("the prescribed displacements do not prevent a rigid motion: no linear equilibrium");
   }
   free.add(ldlt.solve(free.of(load)), 1, u);
   return u;

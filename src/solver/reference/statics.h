@@ -9,12 +9,12 @@
 
 namespace viscera {
 
-/// An iteration that did not reach its tolerance: iterations done and what is left.
+/// An iteration did not reach its tolerance; says the iterations done and the residual.
 struct ConvergenceError : Error {
   using Error::Error;
 };
 
-/// One axis of one node held at a displacement.
+/// One axis of one node prescribed at a displacement.
 struct PrescribedDof {
   uint32_t slot;
   int axis;  ///< 0..2
@@ -22,32 +22,34 @@ struct PrescribedDof {
 };
 
 struct StaticsOptions {
-  int load_steps = 1;        ///< prescribed displacements and forces are reached in equal steps
-  int max_iterations = 200;  ///< per load step
-  double tolerance = 1e-10;  ///< largest residual force over the largest of all forces that balance
+  int load_steps = 1;        ///< prescribed displacements and forces are applied in equal steps
+  int max_iterations = 200;  ///< largest number per load step
+  double tolerance = 1e-10;  ///< largest residual force over the largest of the balancing forces
 };
 
 struct StaticsReport {
   int iterations = 0;
-  double residual = 0;  ///< as in StaticsOptions::tolerance
+  double residual = 0;  ///< residual, defined as in StaticsOptions::tolerance
 };
 
-/// Static equilibrium of elastic energy, gravity and external forces: Newton's method with line search, from
-/// solver.u_m. Nodes that are fixed, held or lone stay where they are. Leaves u in solver.u_m and zero velocities.
+/// Finds the static equilibrium of elastic energy, gravity and external forces by Newton's method with line search,
+/// from solver.u_m. Nodes that are fixed, held or isolated do not move. Leaves u in solver.u_m and zero velocities.
 /// @param external_n  [slots] forces on nodes, or empty
 /// @throws ConvergenceError
 StaticsReport solveStatics(ReferenceSolver& solver, const std::vector<PrescribedDof>& prescribed,
                            const Field& external_n = {}, const StaticsOptions& options = {});
 
-/// The same for infinitesimal displacements about rest, by one factorisation of the rest stiffness; no gravity.
-/// @return displacements [slots]; the solver is left as it is
+/// Returns the solution for infinitesimal displacements about rest, by one factorisation of the rest stiffness; no
+/// gravity.
+/// @return displacements [slots]; the solver is not changed
 /// @throws ConvergenceError  the prescribed displacements leave a rigid motion free
 Field solveLinear(const ReferenceSolver& solver, const std::vector<PrescribedDof>& prescribed,
                   const Field& external_n = {});
 
-/// Forces that would hold every node where it is, -(elastic force) [slots, N]: sum over an end face for its reaction.
+/// Returns the forces that would hold every node in place, -(elastic force) [slots, N]: sum over an end face for its
+/// reaction.
 Field reactions(const ReferenceSolver& solver);
-/// The same for the linear solution: K u of the rest stiffness.
+/// Returns the reactions of the linear solution: K u of the rest stiffness.
 Field linearReactions(const ReferenceSolver& solver, const Field& u_m);
 
 }  // namespace viscera

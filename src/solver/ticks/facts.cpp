@@ -8,7 +8,7 @@ namespace viscera {
 
 namespace {
 
-constexpr int kDigits = 5;  // of numbers for a person
+constexpr int kDigits = 5;  // significant digits of printed numbers
 
 using Flat = std::vector<std::pair<std::string, std::string>>;
 

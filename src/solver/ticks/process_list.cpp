@@ -102,7 +102,7 @@ void ProcessList::persist(Archive& archive) {
     uint64_t count = states.size();
     archive.value(count);
     archive.require(count <= good_states_, "states to roll back to: " + std::to_string(count) + "; 0 .. " +
-                                               std::to_string(good_states_) + " is accepted");
+                                               std::to_string(good_states_) + " are accepted");
     states.resize(count);
     for (std::vector<Archive::Section>& state : states) {
       if (archive.reads()) state.assign(1, {});

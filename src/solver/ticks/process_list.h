@@ -8,15 +8,17 @@
 
 namespace viscera {
 
-/// The processes of a scene, run as one: Ticks and Watch go through them here, and know none of them.
+/// The processes of a scene, run as one. TissueStepper and RollbackGuard call them through this list and know none of
+/// them.
 class ProcessList {
  public:
-  /// @param good_states  how many are kept for roll-backs, as SolverBackend keeps them
+  /// @param good_states  number of states kept for roll-backs, the same as in SolverBackend
   ProcessList(TissueProcesses processes, size_t good_states);
 
   const TissueProcesses& all() const { return processes_; }
 
-  /// @name As in TissueProcess, of all. Those that say whether springs were cut return how many processes cut some.
+  /// @name As in TissueProcess, for all processes. Those that report cuts return the number of processes that cut
+  /// springs.
   /// @{
   bool readCuts() const;
   void cutsChanged(const CutSprings& cuts);
@@ -25,17 +27,17 @@ class ProcessList {
   uint64_t endTick(TissuePort& port, const ProcessTick& tick);
   bool pushStyluses(const ProcessTick& tick) const;
   StylusPulls pulls() const;
-  /// Sums the work of those that did some: what one took away does not hide what another did.
+  /// Sums the work of the processes that did positive work, so that work taken away by one does not hide another's.
   double work_j() const;
   void reset();
   /// @}
 
-  /// @name What roll-backs put back: as SolverBackend::saveGood(), restoreGood(), clearGood()
+  /// @name State for roll-backs, as SolverBackend::saveGood(), restoreGood(), clearGood()
   /// @{
   void saveGood();
   void restoreGood(int back);
   void clearGood();
-  /// After the state was put back. @returns  how many cut springs
+  /// Restarts the processes after the state was restored. @returns  number of processes that cut springs
   uint64_t restart(TissuePort& port);
   /// @}
   void persist(Archive& archive);
@@ -43,7 +45,7 @@ class ProcessList {
  private:
   using States = std::vector<std::vector<Archive::Section>>;
   TissueProcesses processes_;
-  std::vector<States> kept_;  ///< [processes] oldest first; of RollBack::kUndo only
+  std::vector<States> kept_;  ///< [processes] states, oldest first; only those with RollBack::kUndo
   size_t good_states_;
 };
 

@@ -11,7 +11,7 @@
 #include "solver/processes/bleed/bleeding.h"
 #include "solver/processes/burn/burns.h"
 #include "solver/processes/clip/clips.h"
-#include "solver/processes/suture/thread_bodies.h"
+#include "solver/processes/suture/suture_bodies.h"
 #include "viscera/model/scene/scene.h"
 
 namespace viscera {
@@ -30,16 +30,16 @@ struct Kind {
   std::unique_ptr<TissueProcess> (*make)(const Setup&);
 };
 
-/// One row per process, in the order in which they act. A process that asks another one (TissueProcess::endTick) for
-/// what it did in the tick need not come behind it: all have acted by then.
+/// One row per process, in the order in which they act. A process that reads another one's results of the tick
+/// (TissueProcess::endTick) need not follow it: all have acted by then.
 constexpr Kind kKinds[] = {
     {[](const Setup& setup) { return setup.tools && resistsBlades(setup.scene); }, ProcessActs::kWithTools,
      [](const Setup& setup) -> std::unique_ptr<TissueProcess> {
        return std::make_unique<Blades>(setup.model, setup.scene.styluses);
      }},
-    {[](const Setup& setup) { return !setup.scene.threads.empty(); }, ProcessActs::kAlways,
+    {[](const Setup& setup) { return !setup.scene.sutures.empty(); }, ProcessActs::kAlways,
      [](const Setup& setup) -> std::unique_ptr<TissueProcess> {
-       return std::make_unique<ThreadBodies>(setup.scene, &setup.model);
+       return std::make_unique<SutureBodies>(setup.scene, &setup.model);
      }},
     {[](const Setup& setup) { return mayClip(setup.scene.styluses); }, ProcessActs::kAlways,
      [](const Setup& setup) -> std::unique_ptr<TissueProcess> {

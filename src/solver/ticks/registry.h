@@ -9,15 +9,15 @@ namespace viscera {
 
 struct Scene;
 
-/// Makes the processes that a scene has, in the order in which they act (registry.cpp).
-/// @param model  must outlive them   @param tools  whether there are styluses   @throws SceneError  one cannot be made
+/// Makes the processes of a scene, in the order in which they act (registry.cpp).
+/// @param model  must outlive them   @param tools  there are styluses   @throws SceneError  a process cannot be made
 TissueProcesses makeProcesses(const Scene& scene, const Model& model, bool tools);
 
 /// When a process reads or pushes nodes after substeps.
 enum class ProcessActs { kNever, kWithTools, kAlways };
 
-/// @returns  the most that any process of a scene does: with kAlways the tissue cannot sleep as a whole, and with any
-/// but kNever a GPU keeps what TissuePort needs
+/// Returns the most that any process of a scene does. With kAlways the tissue cannot sleep as a whole; with any but
+/// kNever a GPU keeps the data that TissuePort needs.
 ProcessActs processesAct(const Scene& scene, const Model& model, bool tools);
 
 }  // namespace viscera

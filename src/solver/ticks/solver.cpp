@@ -64,11 +64,11 @@ const StylusPull& Solver::pull(uint32_t /*stylus*/) const {
 }
 
 void Solver::persist(Archive& /*archive*/) {
-  throw Error(backend() + ": its state can be neither saved nor restored");
+  throw Error(backend() + ": cannot save or restore its state");
 }
 
 void Solver::goOnFrom(const HostState& /*state*/) {
-  throw Error(backend() + ": takes no state");
+  throw Error(backend() + ": cannot continue from a state");
 }
 
 uint64_t stateHash(const Model& model, const HostState& state) {

@@ -12,35 +12,35 @@
 #include "model/fracture/prestress_balance.h"
 #include "model/scene/integrators.h"
 #include "solver/tissue/joined_lattice.h"
-#include "viscera/solver/governor.h"
+#include "viscera/solver/stability_monitor.h"
 
 namespace viscera {
 
 namespace {
 
-/// Of Lanczos' method: the limit is found to 2 % then (test/solver/stable_step_gl_test.cpp).
+/// Steps of Lanczos' method: finds the limit to 2 % (test/solver/stable_step_gl_test.cpp).
 constexpr int kProducts = 20;
-/// Of the shortest spacing: forces are linear to as much, and float32 holds them to less.
+/// Amplitude over the shortest spacing: forces are linear up to it, and float32 resolves them below it.
 constexpr double kAmplitude = 1e-4;
-/// Any: velocities are what forces give in it.
+/// Arbitrary: the velocities are those that forces give in this time.
 constexpr double kKick_s = 1e-4;
-/// Substep over the limit, and its dt_fraction. The dashpot leaves 0.87 and
-/// more (docs/physics.md 2, docs/stability.md).
+/// Ratio of substep to limit, and the dt_fraction that gives it. The dashpot leaves 0.87 and more (docs/physics.md 2,
+/// docs/verification.md).
 constexpr double kOfLimit = 0.82, kDefaultFraction = 0.75;
-/// Of the limit that the dashpot leaves.
+/// Share of the limit that the dashpot leaves.
 constexpr double kDashpotMargin = 0.94;
-/// strainFactor(): up to kStrainedStretch, and beyond, where shear asks for more (docs/physics.md 2).
+/// strainFactor(): slope up to kStrainedStretch, and beyond, where shear needs more (docs/physics.md 2).
 constexpr double kPerStretch = 0.4, kPerMore = 0.8;
 
-/// lawFactor(): what strain takes from the substep, times this, as it grows within the tick too; kWithin of it is
-/// within kOfLimit. In steps of a twentieth, since substeps that change in every tick make small forces flicker.
+/// lawFactor(): kStrainMargin multiplies the reduction of the substep by strain, as strain grows within the tick;
+/// kWithin of it is covered by kOfLimit. It changes in steps of 1/kPerFactor: substeps that change in every tick make
+/// small forces flicker.
 constexpr double kStrainMargin = 1.5, kWithin = 0.9, kPerFactor = 20;
 
-/// releasedStiffening(): what freed cells overshoot their strain by at most, and how much longer or shorter they are
-/// then at most.
+/// releasedStiffening(): largest overshoot of the strain of freed cells, and largest change of their length.
 constexpr double kOvershoot = 3, kMostReleased = 0.6;
 
-/// Displaces the nodes of bodies with a prestress as if their parts of a label, and all others, were let go.
+/// Displaces the nodes of bodies with a prestress as if their parts of a label, and all others, were freed.
 void letGo(const Model& model, size_t label, HostState& state) {
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
@@ -78,7 +78,7 @@ Movers moversOf(const Model& model) {
   return out;
 }
 
-/// M^-1 K of a backend's tissue at rest, of vectors with three numbers per mover.
+/// Operator M^-1 K of a backend's tissue at rest, on vectors with three numbers per mover.
 class Tissue {
  public:
   Tissue(SolverBackend& backend, const Model& model)
@@ -126,7 +126,7 @@ class Tissue {
   HostState state_;
 };
 
-/// Largest eigenvalue of a tridiagonal matrix, and what it may lack of that of the operator.
+/// Returns the largest eigenvalue of a tridiagonal matrix plus a bound on its error as one of the operator's.
 double largestOf(const std::vector<double>& diagonal, const std::vector<double>& beside) {
   const auto n = static_cast<Eigen::Index>(diagonal.size());
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
@@ -147,8 +147,8 @@ Eigen::VectorXd someWay(Eigen::Index size) {
 bool measuresLimit(const Model& model, const SolverConfig& config) {
   const bool lattices =
       std::all_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) { return body.hasCells(); });
-  return config.measured_limit && config.governor && config.substeps == 0 && traitsOf(config.integrator).shortens &&
-         lattices;
+  return config.measured_limit && config.stability_monitor && config.substeps == 0 &&
+         traitsOf(config.integrator).shortens && lattices;
 }
 
 double measureLimit_s(SolverBackend& backend, const Model& model) {
@@ -165,7 +165,7 @@ double measureLimit_s(SolverBackend& backend, const Model& model) {
       next -= diagonal.back() * way;
       link = std::sqrt(tissue.dot(next, next));
       beside.push_back(link);
-      if (!(link > 1e-9 * diagonal.back())) break;  // the ways span all that can swing
+      if (!(link > 1e-9 * diagonal.back())) break;  // the vectors span all that can oscillate
       before = std::move(way);
       way = next / link;
     }
@@ -205,14 +205,14 @@ double lawFactor(double stiffening) {
   return std::ceil(kPerFactor * std::max(1.0, factor)) / kPerFactor;
 }
 
-double measuredSubstep_s(const SolverConfig& config, double dashpot_ratio, double dt_safe_s, double dt_limit_s,
-                         double stretch) {
+double measuredSubstep_s(const SolverConfig& config, double stiffness_damping_ratio, double dt_safe_s,
+                         double dt_limit_s, double stretch) {
   const double proven_s =
       (stretch > kStrainedStretch ? std::min(config.dt_fraction, config.dt_fraction_strained) : config.dt_fraction) *
       dt_safe_s;
   if (!std::isfinite(dt_limit_s) || !std::isfinite(dt_safe_s)) return proven_s;
-  // The dashpot's constant is that of dt_safe: of a slower fastest mode it is a smaller ratio.
-  const double largest = stableFraction(config.integrator, dashpot_ratio * dt_safe_s / dt_limit_s);
+  // The dashpot's constant is that of dt_safe: it is a smaller ratio of a slower fastest mode.
+  const double largest = stableFraction(config.integrator, stiffness_damping_ratio * dt_safe_s / dt_limit_s);
   const double fraction = std::min(config.dt_fraction * (kOfLimit / kDefaultFraction), kDashpotMargin * largest);
   return std::max(proven_s, fraction * dt_limit_s / strainFactor(stretch));
 }

@@ -16,12 +16,13 @@ namespace viscera {
 
 namespace {
 
-constexpr int kMostLonger = 2;  // times as long as proven: measured substeps were found 1.6 to 1.8 times (physics.md 2)
+constexpr int kMostLonger = 2;  // over the proven substep: measured ones were 1.6 to 1.8 times as long (physics.md 2)
 
 /// Substeps that strained cells of a law may have, with motions of tools for each: 1 MB.
 constexpr int kMostByStrain = 4000;
 
-/// Where the limit will be measured, twice as many proven substeps at rest as there may be: the measured ones may do.
+/// Returns the planned substeps. Where the limit will be measured, up to twice max_substeps proven ones at rest are
+/// accepted, as the measured ones may be few enough.
 SubstepPlan planned(const Model& model, const SolverConfig& asked, double dt_safe_s, bool allow_unstable) {
   if (measuresLimit(model, asked)) {
     SolverConfig any = asked;
@@ -29,10 +30,10 @@ SubstepPlan planned(const Model& model, const SolverConfig& asked, double dt_saf
     try {
       const SubstepPlan plan = planSubsteps(model, any, dt_safe_s, allow_unstable);
       if (plan.calm / kMostLonger <= asked.max_substeps) return plan;
-    } catch (const SceneError&) {  // more than there are numbers for
+    } catch (const SceneError&) {  // more substeps than fit an int
     }
   }
-  return planSubsteps(model, asked, dt_safe_s, allow_unstable);  // names what was asked for
+  return planSubsteps(model, asked, dt_safe_s, allow_unstable);  // the error names the requested numbers
 }
 
 }  // namespace
@@ -46,14 +47,14 @@ TickPlan planTicks(const Model& model, const Scene& scene, const SolverOptions& 
   plan.dt_safe_s = safeTimeStep(model);
   plan.substeps = planned(model, scene.solver, plan.dt_safe_s, options.allow_unstable);
   plan.recovers_by_pd = !hasLaw(model);
-  if (scene.solver.governor) {
+  if (scene.solver.stability_monitor) {
     const int sweeps = plan.recovers_by_pd ? SolverBackend::kRecoveryIterations : 1;
     plan.recovery_substeps = std::max(1, plan.substeps.strained / sweeps);
   }
   if (hasLaw(model) && scene.solver.substeps == 0 && plan.governed())
     plan.most_by_strain = std::min(scene.solver.max_substeps, std::max(kMostByStrain, plan.substeps.strained));
   plan.tools = !scene.styluses.empty();
-  if (surroundingsOf(model, scene).any()) plan.surroundings.emplace(model, scene);
+  if (environmentOf(model, scene).any()) plan.environment.emplace(model, scene);
   return plan;
 }
 

@@ -13,11 +13,11 @@ namespace viscera {
 
 namespace {
 
-constexpr int kReach = 2;             ///< how far around a place an old node is looked for, spacings
-constexpr double kRidge = 1e-6;       ///< of a fit: holds gradients down that its nodes do not tell, shares of spacings
-constexpr double kNearest_sq = 0.1;   ///< no node weighs more than one so far from the place [spacings^2]
+constexpr int kReach = 2;        ///< largest distance at which an old node is searched around a position, in spacings
+constexpr double kRidge = 1e-6;  ///< regularisation of a fit: damps undetermined gradients, in spacings
+constexpr double kNearest_sq = 0.1;   ///< nearer nodes weigh no more than at this distance [spacings^2]
 constexpr float kLeastShare = 0.02f;  ///< as in CutSprings
-constexpr int kShareSteps = 32;       ///< in which it is looked for where a spring is cut
+constexpr int kShareSteps = 32;       ///< resolution of the search for the position of a cut along a spring
 
 uint32_t slotsOf(const Body& body) {
   return static_cast<uint32_t>(body.lattice.nodes.size());
@@ -34,7 +34,7 @@ struct Motion {
 /// One lattice in its state.
 class OldLattice {
  public:
-  /// Of nodes around one, those that springs join to it within a box.
+  /// Nodes around a node that springs connect to it within a box.
   using Reached = std::unordered_set<uint32_t>;
 
   OldLattice(const Lattice& lattice, const HostState& state, uint32_t offset)
@@ -43,12 +43,12 @@ class OldLattice {
                           [this](uint32_t slot) { return (bits(slot).lo & layout::kSeveredBit) != 0; });
   }
 
-  bool isCut() const { return is_cut_; }  ///< some spring is
+  bool isCut() const { return is_cut_; }  ///< some spring is cut
 
-  /// In spacings from node (0, 0, 0).
+  /// Returns a rest position in spacings from node (0, 0, 0).
   Vector3d placeOf(const Vector3d& rest_m) const { return (rest_m - lattice_.origin_m) / lattice_.spacing_m; }
 
-  /// The node next to a place, on its side of cuts, or -1 where none is near.
+  /// Returns the node next to a position, on its side of cuts, or -1 if none is near.
   int64_t nearest(const Vector3d& place) const {
     const Vector3i middle = place.array().round().cast<int>();
     int64_t best = -1;
@@ -77,7 +77,7 @@ class OldLattice {
     return fitted(place, reachedFrom(static_cast<uint32_t>(next), box(lattice_.nodeAt(static_cast<uint32_t>(next)))));
   }
 
-  /// Where a line from one place to another is cut, as a share of it: 0 nowhere.
+  /// Returns where the line between two positions is cut, as a share of its length; 0: nowhere.
   float cutShare(const Vector3d& from, const Vector3d& to) const {
     const int64_t a = nearest(from), b = nearest(to);
     if (a < 0 || b < 0 || a == b) return 0;
@@ -100,7 +100,7 @@ class OldLattice {
     Vector3i low, high;
   };
 
-  /// The node beside this one on the other side of a cut, where a place beside it is there; else the same one.
+  /// Returns the neighbour across a cut if the position is on that side; else the same node.
   int64_t acrossCut(uint32_t slot, const Vector3d& place) const {
     if (!(bits(slot).lo & layout::kSeveredBit) || state_.axial_cut.empty()) return slot;
     const Vector3d way = place - lattice_.nodeAt(slot).cast<double>();
@@ -170,7 +170,7 @@ class OldLattice {
     return {{u.x, u.y, u.z}, {v.x, v.y, v.z}};
   }
 
-  /// Trilinear.
+  /// Interpolates trilinearly within a cell.
   Motion within(uint32_t cell, const Vector3d& share) const {
     Motion out;
     forEachCorner(lattice_, cell, [&](const Vector3i& corner, uint32_t slot) {
@@ -183,11 +183,11 @@ class OldLattice {
     return out;
   }
 
-  /// The linear field that is closest to that of some nodes, those near the place first.
+  /// Fits the linear field closest to the values at some nodes, weighted towards those near the position.
   Motion fitted(const Vector3d& place, const Reached& nodes) const {
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
     Eigen::Matrix<double, 4, 6> right = Eigen::Matrix<double, 4, 6>::Zero();
-    // in the order of their slots: the sums are the same in every run
+    // ascending slots: the sums are the same in every run
     for (const uint32_t slot : sorted(nodes)) {
       const Vector3d way = lattice_.nodeAt(slot).cast<double>() - place;
       const double weight = 1 / (way.squaredNorm() + kNearest_sq);
@@ -215,10 +215,10 @@ class OldLattice {
   bool is_cut_ = false;
 };
 
-/// The lattice whose state is made.
+/// The lattice that receives the state.
 class NewLattice {
  public:
-  /// @param first_spring  of the body in HostState::spring_cut
+  /// @param first_spring  index of the body's first spring in HostState::spring_cut
   NewLattice(const Body& body, HostState& state, uint32_t offset, size_t first_spring)
       : lattice_(body.lattice), state_(state), offset_(offset), first_spring_(first_spring) {
     if (!body.network) return;
@@ -259,7 +259,7 @@ class NewLattice {
     at = {static_cast<float>(value.x()), static_cast<float>(value.y()), static_cast<float>(value.z()), 0};
   }
 
-  /// As a blade does: both ends lose it, cells that have both among their corners are no longer whole.
+  /// Cuts a spring as a blade does: both ends lose it, and cells with both among their corners are no longer whole.
   void cut(uint32_t a, uint32_t b, uint32_t spring, float share) {
     layout::NodeBits &of_a = state_.nodes[offset_ + a], &of_b = state_.nodes[offset_ + b];
     setSpringCount(of_a, spring, 0);
@@ -299,7 +299,7 @@ size_t springsOf(const Body& body) {
 
 template <class T>
 void copyRange(const std::vector<T>& from, size_t at, size_t count, std::vector<T>& to, size_t to_at) {
-  if (from.size() < at + count || to.size() < to_at + count) return;  // nothing cuts in one of the two
+  if (from.size() < at + count || to.size() < to_at + count) return;  // one of the two has no record of cuts
   std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(at), count, to.begin() + static_cast<std::ptrdiff_t>(to_at));
 }
 

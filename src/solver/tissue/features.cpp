@@ -50,7 +50,7 @@ FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint3
   features.parts = isHeterogeneous(model);
   features.compensated = isCompensated(scene.solver, dt_s);
   features.tools = !scene.styluses.empty();
-  features.cuts = maySever(scene.styluses) || tears(scene) || threadsTear(scene);
+  features.cuts = maySever(scene.styluses) || tears(scene) || suturesTear(scene);
   features.tears = tears(scene);
   features.obstacles = static_cast<uint32_t>(scene.obstacles.size());
   features.dashpot = largestDashpot(model) > 0;

@@ -14,34 +14,35 @@ namespace viscera {
 
 struct Scene;
 
-/// What a scene has that the kernels of either backend must know of. The rest costs nothing: on the GPU it is compiled
-/// out, and nowhere does it have an array.
+/// Features of a scene that the kernels of either backend need. The others cost nothing: on the GPU they are compiled
+/// out, and no backend has an array for them.
 struct FeatureSet {
   bool lattice = true;   ///< some body has implicit connections
   bool network = false;  ///< some body has explicit ones
   bool dashpot = false;
-  bool predicted = false;    ///< a lattice of springs has dashpots: leapfrog has its springs pull where nodes will be
+  bool predicted = false;    ///< a lattice of springs has dashpots: leapfrog takes spring forces at predicted positions
   bool law = false;          ///< the cells of some body obey a hyperelastic law
   bool prestress = false;    ///< some of these cells are stressed at rest
-  bool laminates = false;    ///< some of these cells are of two materials
-  bool walls = false;        ///< some of these cells lie in thin walls: second derivatives by rows of nodes
-  bool springs = true;       ///< something is made of springs: not all bodies obey one
-  bool parts = false;        ///< strengths differ within a body
+  bool laminates = false;    ///< some of these cells have two materials
+  bool walls = false;        ///< some of these cells are in thin walls: second derivatives by rows of nodes
+  bool springs = true;       ///< something is made of springs: not all bodies obey a law
+  bool parts = false;        ///< strengths vary within a body
   bool compensated = false;  ///< u and v are summed with Kahan's compensation
   bool tools = false;        ///< there are styluses
-  bool cuts = false;       ///< one of them may cut or erase, or tissue tears: lattices keep a record of it (CutRecord)
-  bool tears = false;      ///< some lattice is pulled apart by energy; CPU backend
-  uint32_t obstacles = 0;  ///< how many there are
+  bool cuts = false;         ///< a stylus may cut or erase, or tissue tears: lattices keep a record of cuts (CutRecord)
+  bool tears = false;        ///< some lattice tears by energy; CPU backend
+  uint32_t obstacles = 0;    ///< number of obstacles
   bool single_body = false;
   uint32_t group_size = layout::kGroupSize;
 
   std::vector<std::string> defines() const;
 };
 
-/// Contacts that a node may have at once with styluses and obstacles within an implicit integrator.
+/// Returns the number of contacts that a node may have at once with styluses and obstacles in an implicit integrator.
 uint32_t contactRows(bool tools, uint32_t obstacles);
 
-/// @param dt_s  shortest substep   @param group_size  invocations per group, on the GPU
+/// Returns the features of a scene. @param dt_s  shortest substep [s]   @param group_size  invocations per group, on
+/// the GPU
 FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint32_t group_size = layout::kGroupSize);
 
 }  // namespace viscera

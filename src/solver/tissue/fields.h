@@ -8,10 +8,10 @@
 
 namespace viscera {
 
-/// One vector per slot, in float64: displacements [m], velocities [m/s], forces [N]. Zero where no node is.
+/// One vector per slot, in float64: displacements [m], velocities [m/s], forces [N]. Zero in slots without a node.
 using Field = std::vector<Vector3d>;
 
-double largestNorm(const Field& field);       ///< longest of its vectors; 0 of none
-double largestComponent(const Field& field);  ///< largest magnitude of any of their components; 0 of none
+double largestNorm(const Field& field);       ///< length of its longest vector; 0 if empty
+double largestComponent(const Field& field);  ///< largest magnitude of any component; 0 if empty
 
 }  // namespace viscera

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "layout/surface_ways.h"
+#include "layout/surface_offsets.h"
 #include "viscera/model/body/cell_laminates.h"
 #include "viscera/model/body/wall_cells.h"
 
@@ -80,9 +80,9 @@ Strengths allStrengths(const Model& model) {
 
 namespace {
 
-/// A word of surface_ways.h.
+/// Returns a node's word as defined in surface_offsets.h.
 uint32_t packedWay(const Lattice& lattice, uint32_t slot) {
-  const Vector3d cells = lattice.way_to_surface_m[slot].cast<double>() / lattice.spacing_m;
+  const Vector3d cells = lattice.offset_to_surface_m[slot].cast<double>() / lattice.spacing_m;
   uint32_t word = 0;
   bool any = false;
   for (int axis = 0; axis < 3; ++axis) {
@@ -98,7 +98,7 @@ uint32_t packedWay(const Lattice& lattice, uint32_t slot) {
   return any ? word : 0;
 }
 
-/// A number per slot, of nodes of bodies with cells that are tissue in part; 0 elsewhere, empty without such bodies.
+/// Returns a number per slot for nodes of bodies with partially filled cells; 0 elsewhere, empty without such bodies.
 /// @param numberOf  lattice, its slot -> number
 template <class Number, class NumberOf>
 std::vector<Number> atSurface(const Model& model, NumberOf numberOf) {
@@ -164,7 +164,7 @@ float edgeReach(const Model& model) {
   return static_cast<float>(kStretch * longest_m);
 }
 
-std::vector<uint32_t> surfaceWays(const Model& model) {
+std::vector<uint32_t> surfaceOffsets(const Model& model) {
   return atSurface<uint32_t>(model, packedWay);
 }
 

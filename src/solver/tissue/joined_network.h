@@ -8,19 +8,19 @@
 
 namespace viscera {
 
-/// The explicit connections of all bodies of a model as one, as every backend holds them: slots of body b behind those
-/// of the bodies before it, springs and links likewise.
+/// The explicit connections of all bodies of a model as one, as every backend holds them: the slots, springs and links
+/// of body b follow those of the bodies before it.
 struct JoinedNetwork {
-  std::vector<uint32_t> starts;             ///< [slots + 1] first link of a node; none for nodes of implicit lattices
-  std::vector<layout::Link> links;          ///< [2 * springs]
+  std::vector<uint32_t> starts;     ///< [slots + 1] first link of a node; no links for nodes of implicit lattices
+  std::vector<layout::Link> links;  ///< [2 * springs]
   std::vector<layout::SpringEnds> springs;  ///< [springs]
-  std::vector<layout::vec4> rest_m;         ///< [slots] xyz rest position, of all bodies
-  std::vector<float> masses_kg;             ///< [slots] of all bodies; 1 where no node is
+  std::vector<layout::vec4> rest_m;         ///< [slots] xyz rest position [m], of all bodies
+  std::vector<float> masses_kg;             ///< [slots] masses of all bodies [kg]; 1 in slots without a node
 };
-/// Empty where no body has explicit connections.
+/// Joins the networks of a model. Empty if no body has explicit connections.
 JoinedNetwork joinNetworks(const Model& model);
 
-/// Takes the stiffness from both links of the springs that are cut. @param spring_cut  [springs] as in CutSprings
+/// Sets the stiffness of both links of cut springs to 0. @param spring_cut  [springs] as in CutSprings
 void eraseSprings(const std::vector<float>& spring_cut, const std::vector<layout::SpringEnds>& springs,
                   std::vector<layout::Link>& links);
 

@@ -10,8 +10,8 @@
 
 namespace viscera {
 
-/// Returns the shear energy of the law over mu/2: (exp(b x) - 1) / b, straight from b x = kMostExponent on; x without
-/// stiffening.
+/// Returns the shear energy of the law over mu/2: (exp(b x) - 1) / b, continued linearly from b x = kMostExponent; x
+/// without stiffening.
 template <class T>
 T lawShear(const T& x, double stiffening) {
   using std::exp;
@@ -22,7 +22,7 @@ T lawShear(const T& x, double stiffening) {
 }
 
 /// Returns W of the neo-Hookean law over mu (physics.md 1): 1/2 (J^(-2/3) |F|^2 - 3) + K/(4 mu) (J^2 - 1 - 2 ln J).
-/// Below kLeastVolume 1/J is constant and J^(-2/3) levels off, both without a jump in the stress.
+/// Below kLeastVolume 1/J is constant and J^(-2/3) levels off; the stress is continuous in both.
 template <class T>
 T lawDensity(const Eigen::Matrix<T, 3, 3>& f, double bulk_over_mu, double stiffening) {
   using std::log;

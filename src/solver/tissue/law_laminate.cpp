@@ -12,8 +12,8 @@ namespace viscera {
 namespace {
 
 constexpr int kMostJumpSteps = 60;        // Newton needs 3 to 8
-constexpr double kJumpDifference = 1e-6;  // of a gradient's derivative: half of the digits
-constexpr double kLeastStep = 1e-15;      // of a step of a, which is a strain
+constexpr double kJumpDifference = 1e-6;  // step of a gradient's difference quotient: half of the digits
+constexpr double kLeastStep = 1e-15;      // least step of a, which is a strain
 
 /// Energy over mu, and its gradient by a.
 struct JumpEnergy {
@@ -59,7 +59,7 @@ Vector3d laminateJump(const LawLaminate& laminate, const Eigen::Matrix3d& f, dou
     }
     Vector3d way = -curvature.partialPivLu().solve(now.gradient);
     if (!(way.dot(now.gradient) < 0)) way = -now.gradient;
-    // Where energies differ by rounding alone, the gradient tells.
+    // Where energies differ only by rounding, the gradient decides.
     const auto isBetter = [&](const JumpEnergy& next) {
       return next.value < now.value || next.gradient.norm() < 0.5 * now.gradient.norm();
     };

@@ -11,12 +11,12 @@ namespace viscera {
 
 /// One layer of a laminate (physics.md 1, Two materials in a cell).
 struct LawLayer {
-  double weight = 0;  ///< its shear modulus times its share of the volume, over the mean modulus; both sum up to 1
-  double jump = 0;    ///< share of the other layer, with a sign: F of the layer is F + jump a N^T
+  double weight = 0;        ///< shear modulus times share of the volume, over the mean modulus; both sum to 1
+  double jump = 0;          ///< signed share of the other layer: F of the layer is F + jump a N^T
   double bulk_over_mu = 0;  ///< K / mu
 };
 
-/// Two materials in a cell that meet in a plane.
+/// Two materials in a cell, with a plane interface.
 struct LawLaminate {
   Vector3d normal = Vector3d::Zero();  ///< N, unit, in the lattice's axes
   LawLayer layers[2];
@@ -26,8 +26,8 @@ struct LawLaminate {
 
 LawLaminate lawLaminateOf(const CellLaminate& cell);
 
-/// Returns the jump a that minimises the energy of both layers, at which the traction is the same on either side: by
-/// Newton's method with a line search, to rounding.
+/// Returns the jump a that minimises the energy of both layers; the traction is then the same on either side. Newton's
+/// method with a line search, to rounding.
 /// @param f  mean deformation gradient   @param stiffening  b of lawShear()
 Vector3d laminateJump(const LawLaminate& laminate, const Eigen::Matrix3d& f, double stiffening);
 

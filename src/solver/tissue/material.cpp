@@ -12,8 +12,8 @@ namespace viscera {
 
 namespace {
 
-/// [slots] what the cells of a law around a node resist a change of their volumes with beyond their springs, twice the
-/// stiffness [N/m].
+/// Returns [slots] twice the stiffness with which the cells of a law around a node resist a change of volume in
+/// addition to its springs [N/m].
 std::vector<double> volumeStiffness(const Body& body) {
   const Lattice& lattice = body.lattice;
   const double body_bulk = bodyParams(body, 0).bulk_j;
@@ -31,7 +31,7 @@ std::vector<double> volumeStiffness(const Body& body) {
   return volume;
 }
 
-/// Highest frequency that a body's nodes may have, squared [1/s^2].
+/// Returns a bound on the square of the highest frequency of a body's nodes [1/s^2].
 double stiffestRate(const Body& body) {
   const Lattice& lattice = body.lattice;
   const layout::BodyParams params = bodyParams(body, 0);
@@ -62,7 +62,7 @@ void forEachMaterial(const Body& body, Visit visit) {
   for (const PartConfig& part : body.parts) visit(part.young_modulus_pa, part.poisson_ratio, part.density_kg_per_m3);
 }
 
-/// stiffestRate() of a body with explicit connections: all its springs count, those against bending too.
+/// Returns stiffestRate() of a body with explicit connections: all its springs count, including those against bending.
 double stiffestLinkedRate(const Body& body) {
   const SpringNetwork& network = *body.network;
   std::vector<double> stiffness(network.positions_m.size());
@@ -77,8 +77,8 @@ double stiffestLinkedRate(const Body& body) {
   return fastest;
 }
 
-/// Upper bound on the speed of waves longer than a spring [m/s]: c^2 = largest eigenvalue of sum of k d d^T over 2 m,
-/// exact along a chain of springs, 15 % above in a regular sheet.
+/// Returns an upper bound on the speed of waves longer than a spring [m/s]: c^2 = largest eigenvalue of sum of k d d^T
+/// over 2 m. It is exact along a chain of springs and 15 % too high in a regular sheet.
 double fastestWave(const SpringNetwork& network) {
   std::vector<Eigen::Matrix3d> sums(network.positions_m.size(), Eigen::Matrix3d::Zero());
   for (const NetworkSpring& spring : network.springs) {
@@ -106,9 +106,9 @@ layout::BodyParams bodyParams(const Body& body, double dt_safe_s) {
   params.axial_quarter_n_per_m = static_cast<float>(e.spring_n_per_m / 4);
   params.diagonal_half_n_per_m = static_cast<float>(e.spring_n_per_m / 2);
   params.mass_eighth_kg = static_cast<float>(e.cell_mass_kg / 8);
-  params.drag_per_s = static_cast<float>(material.drag_per_s);
+  params.mass_damping_per_s = static_cast<float>(material.mass_damping_per_s);
   // c = 2 xi k / omega_max with omega_max = 2 / dt_safe (physics.md 2).
-  params.dashpot_s = static_cast<float>(material.dashpot_ratio * dt_safe_s);
+  params.dashpot_s = static_cast<float>(material.stiffness_damping_ratio * dt_safe_s);
   params.law = material.law == Law::kNeoHookean ? layout::kLawNeoHookean : layout::kLawSprings;
   if (params.law != layout::kLawSprings) {
     params.bulk_j = static_cast<float>(e.bulk_j);
@@ -134,7 +134,7 @@ bool hasLaw(const Model& model) {
 
 bool predictsSprings(const Model& model) {
   return std::any_of(model.bodies.begin(), model.bodies.end(), [](const Body& body) {
-    return !body.network && body.material.law != Law::kNeoHookean && body.material.dashpot_ratio > 0;
+    return !body.network && body.material.law != Law::kNeoHookean && body.material.stiffness_damping_ratio > 0;
   });
 }
 

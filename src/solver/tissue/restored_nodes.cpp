@@ -12,7 +12,7 @@ namespace {
 
 using layout::NodeBits;
 
-/// Whether every field of `width` bits within `mask` is at most what it is in `whole`.
+/// Returns whether every field of `width` bits within `mask` is at most that of `whole`.
 bool noneLarger(uint32_t bits, uint32_t whole, uint32_t mask, uint32_t width) {
   const uint32_t field = (1U << width) - 1;
   for (uint32_t shift = 0; (mask >> shift) != 0; shift += width) {
@@ -21,14 +21,15 @@ bool noneLarger(uint32_t bits, uint32_t whole, uint32_t mask, uint32_t width) {
   return true;
 }
 
-/// @returns what of a node is not of this tissue; nullptr where all is
+/// Returns the name of the part of a node that does not fit this tissue; nullptr if all fits.
 const char* foreignPart(NodeBits bits, NodeBits whole, bool network) {
   constexpr uint32_t kMayChange = layout::kAxialMask | layout::kGrabMask | layout::kSeveredBit | layout::kCellBit;
   constexpr uint32_t kAxialWidth = 3, kDiagonalWidth = 2;
-  if (bits.hi >> layout::kBodyShift != whole.hi >> layout::kBodyShift) return "is of another body";
+  if (bits.hi >> layout::kBodyShift != whole.hi >> layout::kBodyShift) return "belongs to another body";
   if ((bits.lo & ~kMayChange) != (whole.lo & ~kMayChange)) return "has another mass or another support";
   if ((bits.lo & layout::kCellBit) > (whole.lo & layout::kCellBit)) return "has a cell that the tissue does not have";
-  if (((bits.lo & layout::kGrabMask) >> layout::kGrabShift) > layout::kMaxStyluses) return "is held by no stylus";
+  if (((bits.lo & layout::kGrabMask) >> layout::kGrabShift) > layout::kMaxStyluses)
+    return "is held by a stylus that does not exist";
   const bool axial = network ? (bits.lo & layout::kValenceMask) <= (whole.lo & layout::kValenceMask)
                              : noneLarger(bits.lo, whole.lo, layout::kAxialMask, kAxialWidth);
   if (!axial || !noneLarger(bits.hi, whole.hi, layout::kDiagonalMask, kDiagonalWidth))

@@ -9,11 +9,11 @@
 
 namespace viscera {
 
-/// Checks the node bits that a saved state holds against those of the whole tissue: a spring or a body that the tissue
-/// does not have would be looked up beyond the end of the arrays. Springs may be weaker or cut, cells cut, nodes held.
+/// Checks the node bits of a saved state against those of the whole tissue. A spring or body that the tissue does not
+/// have would index beyond the end of the arrays. Springs may be weaker or cut, cells cut, nodes held.
 /// @param whole, restored  [slots]
 /// @param bodies  [bodies] as given to the backend
-/// @throws Error  names the archive's section, the node and what differs
+/// @throws Error  names the archive's section, the node and the difference
 void requireNodesOf(const std::vector<layout::NodeBits>& whole, const std::vector<layout::BodyParams>& bodies,
                     const std::vector<layout::NodeBits>& restored, const Archive& archive);
 

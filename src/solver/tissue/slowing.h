@@ -7,12 +7,12 @@
 
 namespace viscera {
 
-/// Share of their velocity that a substep leaves to the nodes of tissue that recovers and obeys a law (physics.md 3).
+/// Share of their velocity that nodes keep per substep in tissue that recovers and obeys a law (physics.md 3).
 constexpr float kSlowingKeeps = 0.9f;
 
-/// Returns how far such a node goes in a substep at most, over the spacing of its body. Energy falls so, and no force,
-/// however much too stiff a strained cell is for the substep, carries a node past its neighbours.
-/// @param setbacks  roll-backs in a row: a tick that was slowed and is bad all the same is not tried again as it was
+/// Returns the largest displacement of such a node in a substep, over the spacing of its body. With it energy falls,
+/// and no force carries a node past its neighbours, however much too stiff a strained cell is for the substep.
+/// @param setbacks  consecutive roll-backs: a slowed tick that was bad is retried with a smaller displacement
 inline float slowedWay(int setbacks) {
   constexpr float kMostWay = 0.05f;
   constexpr int kMostHalvings = 8;

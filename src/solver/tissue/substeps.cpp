@@ -20,7 +20,7 @@ int count(const SolverConfig& config, double fraction, double dt_safe_s) {
     throw SceneError("a tick of 1/" + numberText(config.tick_hz) + " s needs " + std::to_string(std::lround(wanted)) +
                      " substeps (stable substep " + numberText(dt_safe_s * kMicro) +
                      " us), more than solver.max_substeps = " + std::to_string(config.max_substeps) +
-                     ": use a larger spacing_m, a softer or heavier material, or raise solver.max_substeps");
+                     ". Use a larger spacing_m, a softer or heavier material, or raise solver.max_substeps");
   }
   return std::max(1, static_cast<int>(wanted));
 }
@@ -31,7 +31,7 @@ void requireStable(const Model& model, const SolverConfig& config, double dt_saf
   if (dt_s < limit_s) return;
   throw SceneError(
       "solver.substeps = " + std::to_string(config.substeps) + " gives substeps of " + numberText(dt_s * kMicro) +
-      " us, and this integrator is stable below " + numberText(limit_s * kMicro) + " us: use at least " +
+      " us, but this integrator is stable only below " + numberText(limit_s * kMicro) + " us; use at least " +
       std::to_string(std::lround(std::floor(1.0 / (config.tick_hz * limit_s)) + 1)) + " substeps, or integrator pd");
 }
 
@@ -39,7 +39,7 @@ void requireStable(const Model& model, const SolverConfig& config, double dt_saf
 
 double largestDashpot(const Model& model) {
   double xi = 0;
-  for (const Body& body : model.bodies) xi = std::max(xi, body.material.dashpot_ratio);
+  for (const Body& body : model.bodies) xi = std::max(xi, body.material.stiffness_damping_ratio);
   return xi;
 }
 
@@ -50,7 +50,7 @@ SubstepPlan planSubsteps(const Model& model, const SolverConfig& config, double 
   }
   SubstepPlan plan;
   plan.calm = plan.strained = count(config, config.dt_fraction, dt_safe_s);
-  const bool shortens = config.governor && traitsOf(config.integrator).shortens;
+  const bool shortens = config.stability_monitor && traitsOf(config.integrator).shortens;
   if (shortens && config.dt_fraction_strained < config.dt_fraction)
     plan.strained = count(config, config.dt_fraction_strained, dt_safe_s);
   return plan;

@@ -8,25 +8,25 @@
 
 namespace viscera {
 
-/// How many substeps a tick has (physics.md 2).
+/// Number of substeps of a tick (physics.md 2).
 struct SubstepPlan {
-  int calm = 1;      ///< in ordinary states
-  int strained = 1;  ///< of who shortens them, while the governor finds the tissue strained: at least as many
+  int calm = 1;      ///< number in ordinary states
+  int strained = 1;  ///< number in strained tissue, with integrators that shorten substeps; at least `calm`
 };
 
-/// Substeps below this lose float32 digits of u unless they are summed with compensation [s] (physics.md 2).
+/// Substep below which float32 digits of u are lost unless summed with compensation [s] (physics.md 2).
 constexpr double kShortSubstep_s = 50e-6;
-/// Are u and v summed with compensation? @param dt_s  shortest substep
+/// Returns whether u and v are summed with compensation. @param dt_s  shortest substep [s]
 constexpr bool isCompensated(const SolverConfig& config, double dt_s) {
   return traitsOf(config.integrator).compensates && (config.compensated || dt_s < kShortSubstep_s);
 }
 
-double largestDashpot(const Model& model);  ///< dashpot_ratio of all bodies
+double largestDashpot(const Model& model);  ///< largest stiffness_damping_ratio of all bodies
 
-/// @param allow_unstable  do not refuse a substep that is too long: for those who study what happens then
-/// @throws SceneError  more substeps than max_substeps; substeps given that are too long for an explicit integrator,
-/// with
-///                     the number that would do
+/// Plans the substeps of a tick.
+/// @param allow_unstable  accept a substep that is too long, to study the effect
+/// @throws SceneError  more substeps than max_substeps; or the given substeps are too long for an explicit integrator,
+/// with the number that suffices
 SubstepPlan planSubsteps(const Model& model, const SolverConfig& config, double dt_safe_s, bool allow_unstable = false);
 
 }  // namespace viscera

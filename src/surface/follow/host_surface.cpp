@@ -5,8 +5,8 @@
 #include <cassert>
 #include <utility>
 
-#include "solver/cpu/text/glsl.h"
-#include "solver/cpu/text/glsl_features.h"
+#include "solver/cpu/kernels/glsl.h"
+#include "solver/cpu/kernels/glsl_features.h"
 #include "solver/tissue/joined_lattice.h"
 #include "solver/tissue/joined_network.h"
 #include "viscera/solver/material.h"
@@ -17,19 +17,19 @@ namespace glsl {
 
 namespace {
 
-using layout::SplitEdge;  // and not the model's
+using layout::SplitEdge;  // not the model's type
 
-/// Displacements of the bricks of a snapshot as a shader's buffer of vec4.
+/// Displacements of the bricks of a snapshot, as a shader's buffer of vec4.
 struct Shown {
   const float* first = nullptr;
-  const uint* places = nullptr;  ///< [bricks] of a brick in the snapshot
+  const uint* places = nullptr;  ///< [bricks] place of a brick in the snapshot
   vec4 operator[](uint slot) const {
     const float* const at = first + kBrickFloats * places[slot >> 6] + (slot & 63u);
     return {at[0], at[64], at[128], 0};
   }
 };
 
-/// A buffer that is written for drawing only.
+/// A buffer that only drawing reads.
 struct Ignored {
   struct Element {
     void operator=(uint) const {}
@@ -48,7 +48,7 @@ struct NodeNormals {
   Element operator[](uint slot) const { return {first + slot}; }
 };
 
-/// What the kernels of the skin find in buffers and uniforms, under the names that they have there.
+/// Buffers and uniforms of the kernels of the surface mesh, under their names in GLSL.
 struct SkinKernel {
   uint index = 0;
   uint globalIndex() const { return index; }
@@ -65,7 +65,7 @@ struct SkinKernel {
   const layout::vec4* rest_m = nullptr;
   const NodeBits* nodes = nullptr;
   const uint* stale_bricks = nullptr;
-  uint followed_revision = 0;  // nothing is in place
+  uint followed_revision = 0;  // always 0: nothing is up to date
   Shown displacement;
   NodeNormals node_normals;
   const SkinBinding* skin = nullptr;
@@ -89,34 +89,34 @@ struct SkinKernel {
 #define VARIANT_NAME CarriedNormal
 #define VARIANT_BASE SkinKernel
 #define VARIANT_TEXT "shaders/surface/node_normal.comp"
-#include "solver/cpu/text/glsl_variant.inc"
+#include "solver/cpu/kernels/glsl_variant.inc"
 
 #define VARIANT_NAME SummedNormal
 #define VARIANT_BASE SkinKernel
 #define VARIANT_TEXT "shaders/surface/node_normal.comp"
 #define VARIANT_FEATURES WITH_SUMMED
-#include "solver/cpu/text/glsl_variant.inc"
+#include "solver/cpu/kernels/glsl_variant.inc"
 
 #define VARIANT_NAME MapSkin
 #define VARIANT_BASE SkinKernel
 #define VARIANT_TEXT "shaders/surface/map_skin.comp"
 #define VARIANT_FEATURES WITH_MIXED | WITH_SKINS
-#include "solver/cpu/text/glsl_variant.inc"
+#include "solver/cpu/kernels/glsl_variant.inc"
 
 #define VARIANT_NAME NetworkSkin
 #define VARIANT_BASE SkinKernel
 #define VARIANT_TEXT "shaders/surface/network_skin.comp"
-#include "solver/cpu/text/glsl_variant.inc"
+#include "solver/cpu/kernels/glsl_variant.inc"
 
 #define VARIANT_NAME SplitEdges
 #define VARIANT_BASE SkinKernel
 #define VARIANT_TEXT "shaders/surface/split_edges.comp"
-#include "solver/cpu/text/glsl_variant.inc"
+#include "solver/cpu/kernels/glsl_variant.inc"
 
 #define VARIANT_NAME SplitTriangles
 #define VARIANT_BASE SkinKernel
 #define VARIANT_TEXT "shaders/surface/split_triangles.comp"
-#include "solver/cpu/text/glsl_variant.inc"
+#include "solver/cpu/kernels/glsl_variant.inc"
 
 template <class Kernel>
 void run(const SkinKernel& buffers, size_t count) {
@@ -155,12 +155,12 @@ HostSurface::HostSurface(const Model& model, MovedNormals normals)
     : skins_(joinSkins(model, normals)),
       shown_bricks_(viscera::shownBricks(model)),
       bricks_(allBricks(model)),
-      bodies_(bodyParams(model, 0)),  // places and spacings are all that is shown of them
+      bodies_(bodyParams(model, 0)),  // kernels here read only places and spacings
       node_normals_(skins_.any_bound ? model.slots() : 0) {
   if (model.hasNetwork()) rest_m_ = joinNetworks(model).rest_m;
   if (Wounds::possible(model)) wounds_ = std::make_unique<Wounds>(model, skins_);
   std::vector<uint32_t> splits = splitsOf(skins_);
-  shown_ = ShownTriangles(model, vertices(), std::move(skins_.triangles), std::move(splits));
+  shown_ = VisibleTriangles(model, vertices(), std::move(skins_.triangles), std::move(splits));
   alive_.assign(shown_.count(), layout::kShownWhole);
   brick_places_.resize(bricks_.size());
   for (uint32_t i = 0; i < shown_bricks_.size(); ++i) brick_places_[shown_bricks_[i]] = i;
@@ -179,7 +179,7 @@ void HostSurface::split(const StateSnapshot& snapshot) {
   glsl::run<glsl::SplitTriangles>(Buffers(*this, snapshot), skins_.networks.triangles.size());
 }
 
-void HostSurface::show(const StateSnapshot& snapshot, ShownMesh& out) {
+void HostSurface::show(const StateSnapshot& snapshot, VisibleMesh& out) {
   assert(snapshot.bricks == shown_bricks_ && snapshot.displacement_m.size() == kBrickFloats * shown_bricks_.size());
   split(snapshot);
   out.positions_m.resize(3 * vertices());

@@ -6,32 +6,32 @@
 #include <memory>
 #include <vector>
 
-#include "surface/shown_triangles.h"
 #include "surface/skins/joined_skins.h"
+#include "surface/visible_triangles.h"
 #include "surface/wounds/wounds.h"
 #include "viscera/model/model.h"
 #include "viscera/solver/state.h"
 
 namespace viscera {
 
-/// What Surface does, without OpenGL: the skins of all bodies follow a state on the host, triangles are split by
-/// cuts. The kernels are the text of the same shaders compiled as C++, so the two differ by rounding only.
+/// Surface without OpenGL: the surface meshes of all bodies follow a state on the host, and cuts split triangles. It
+/// compiles the text of the same shaders as C++, so the two differ by rounding only.
 class HostSurface {
  public:
   explicit HostSurface(const Model& model, MovedNormals normals = MovedNormals::kCarried);
 
-  /// Bricks that a snapshot must hold, as those of StateMirror.
+  /// Returns the bricks that a snapshot must hold, like StateMirror::shownBricks().
   const std::vector<uint32_t>& shownBricks() const { return shown_bricks_; }
-  /// The skin in a state. Looks at the springs only if cut_revision is another one than in the last call.
+  /// Computes the surface mesh in a state. Reads the springs only if cut_revision differs from the last call.
   /// @param snapshot  of shownBricks()   @param out  gets positions, normals and topology
-  void show(const StateSnapshot& snapshot, ShownMesh& out);
-  /// Every triangle whole again.
+  void show(const StateSnapshot& snapshot, VisibleMesh& out);
+  /// Makes every triangle whole again.
   void reset();
 
   size_t vertices() const { return wounds_ ? wounds_->bindings().size() : skins_.bindings.size(); }
-  const ShownTriangles& skin() const { return shown_; }
-  const ShownWounds* wounds() const { return wounds_ ? wounds_->shown().get() : nullptr; }  ///< null where none can be
-  uint64_t mappings() const { return mappings_; }                                           ///< times show() was called
+  const VisibleTriangles& skin() const { return shown_; }
+  const VisibleWounds* wounds() const { return wounds_ ? wounds_->shown().get() : nullptr; }  ///< null if impossible
+  uint64_t mappings() const { return mappings_; }                                             ///< calls of show()
 
  private:
   struct Buffers;
@@ -39,7 +39,7 @@ class HostSurface {
 
   JoinedSkins skins_;
   std::unique_ptr<Wounds> wounds_;  ///< null where no body with an inside can be cut
-  ShownTriangles shown_;
+  VisibleTriangles shown_;
   std::vector<uint32_t> shown_bricks_, brick_places_, alive_;
   std::vector<layout::Brick> bricks_;
   std::vector<layout::BodyParams> bodies_;

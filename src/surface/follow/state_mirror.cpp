@@ -27,7 +27,7 @@ StateMirror::StateMirror(const Model& model)
       stale_buffer_(stale_) {
   for (uint32_t i = 0; i < shown_.size(); ++i) places_[shown_[i]] = i;
   run_.reserve(layout::kBrickSlots * shown_.size());
-  bodies_.write(bodyParams(model, 0));  // places and spacings are all that is shown of them
+  bodies_.write(bodyParams(model, 0));  // kernels here read only places and spacings
   if (!model.hasNetwork()) return;
   const JoinedNetwork network = joinNetworks(model);
   rest_ = gpu::Buffer<layout::vec4>(network.rest_m, "rest");
@@ -67,7 +67,7 @@ bool StateMirror::hasMoved(const StateSnapshot& snapshot, size_t index) const {
   return std::memcmp(&snapshot.displacement_m[first], &known_m_[first], kBrickFloats * sizeof(float)) != 0;
 }
 
-/// Puts a brick at the end of the run.
+/// Appends a brick to the run.
 void StateMirror::take(const StateSnapshot& snapshot, size_t index) {
   if (run_.empty()) run_begin_ = run_end_ = shown_[index];
   const float* const u = &snapshot.displacement_m[kBrickFloats * index];

@@ -17,8 +17,8 @@ namespace viscera {
 
 namespace {
 
-constexpr double kNormalInSpacings = 0.6;  // length that a normal is drawn with
-constexpr double kForceInSpacings = 2;     // length that the force on a body is drawn with: its direction alone
+constexpr double kNormalInSpacings = 0.6;  // length of a drawn normal
+constexpr double kForceInSpacings = 2;     // length of the drawn force on a body, which shows only its direction
 
 }  // namespace
 
@@ -68,7 +68,7 @@ NodeOverlay::NodeOverlay(const Model& model)
   sum_normals_ = surfaceKernel("node_normal.comp", {"SUMMED"});
 }
 
-/// Springs between nodes that the skin is bound to, each once, and normals of these nodes.
+/// Adds springs between nodes that the surface mesh is bound to, each once, and normals of these nodes.
 void NodeOverlay::addLattice(const Body& body, uint32_t slot) {
   const std::unordered_set<uint32_t> bound(body.skin.bound_slots.begin(), body.skin.bound_slots.end());
   for (const uint32_t node : body.skin.bound_slots) {

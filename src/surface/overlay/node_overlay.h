@@ -17,23 +17,26 @@
 
 namespace viscera {
 
-/// What overlays show of nodes and springs, made on the GPU of the state there: lines, normals, forces and strains.
-/// Owner of shaders/surface/overlay_*.comp but overlay_nodes.comp. Made when an overlay is first asked for.
+/// Lines, normals, forces and strains of nodes and springs for overlays, computed on the GPU. Owner of
+/// shaders/surface/overlay_*.comp but overlay_nodes.comp. Made when an overlay is first requested.
 class NodeOverlay {
  public:
   /// Needs a current context. @param model  must outlive this   @throws GpuError
   explicit NodeOverlay(const Model& model);
 
-  /// Positions and strains of the nodes of a state; what follows is of it, and made once of each.
+  /// Computes positions and strains of the nodes of a state. The functions below use it, and compute each result once
+  /// per state.
   /// @param surface  of the same model, that follows the state
   void follow(const StateView& state, const Surface& surface);
-  /// Springs between nodes that skins are bound to; what is cut is no line. @param all  diagonal ones too
-  /// @returns how many indices are to be drawn
+  /// Makes lines of the springs between nodes that surface meshes are bound to, without cut ones. @param all  diagonal
+  /// ones too
+  /// @returns number of indices to draw
   size_t makeLines(const StateView& state, bool all);
-  /// Approximate normals of nodes that skins are bound to, VR05's eq 5 in any mapping; of networks the skin's.
+  /// Makes approximate normals of nodes that surface meshes are bound to: VR05's eq 5 with any mapping; of networks the
+  /// normals of the mesh.
   void makeNormals(const StateView& state, const Surface& surface);
   void makeForces(const Surface& surface);
-  /// @param strain_range  the end of the scale
+  /// Makes colours by strain. @param strain_range  the end of the scale
   void makeColors(const Surface& surface, double strain_range);
 
   const gpu::Buffer<layout::vec4>& nodes() const { return strains_.nodes(); }  ///< [slots] xyz m, w strain
@@ -41,7 +44,7 @@ class NodeOverlay {
   const gpu::Buffer<layout::vec4>& normals() const { return normal_ends_; }    ///< [2 * n] xyz m, in pairs
   const gpu::Buffer<layout::vec4>& forces() const { return force_ends_; }      ///< [2 * n] xyz m, in pairs
   const gpu::Buffer<uint32_t>& colors() const { return colors_; }              ///< [vertices] RGBA8
-  bool anyForces() const { return any_forces_; }                               ///< has some body a force of its own?
+  bool anyForces() const { return any_forces_; }  ///< whether a body has a force of its own
 
  private:
   void addLattice(const Body& body, uint32_t slot);
@@ -49,13 +52,13 @@ class NodeOverlay {
   void makeSpikes(const Surface& surface, uint32_t kind, const std::vector<float>& of_bodies,
                   const gpu::Buffer<layout::vec4>& ends);
 
-  std::vector<layout::OverlayLine> axial_, diagonal_;  ///< until they are on the GPU
+  std::vector<layout::OverlayLine> axial_, diagonal_;  ///< until they are uploaded
   std::vector<layout::OverlaySpike> spike_list_;
   std::vector<float> normal_lengths_, force_spikes_;  ///< [4 * kMaxBodies] see overlay_spikes.comp
   size_t axial_count_ = 0;
-  bool any_forces_ = false, network_;  ///< of some body: a force; connections of its own
+  bool any_forces_ = false, network_;  ///< whether a body has a force; whether one has explicit connections
   NodeStrains strains_;
-  struct Made {  ///< of the state
+  struct Made {  ///< results for the current state
     size_t lines = 0;
     bool normals = false, forces = false, colors = false;
     double strain_range = 0;  ///< of the colours
@@ -67,7 +70,7 @@ class NodeOverlay {
   gpu::Buffer<layout::OverlayLine> lines_;
   gpu::Buffer<layout::OverlaySpike> spikes_;
   gpu::Program draw_lines_, draw_spikes_, color_;
-  gpu::Program sum_normals_;  ///< none without lattices
+  gpu::Program sum_normals_;  ///< empty without lattices
 };
 
 }  // namespace viscera

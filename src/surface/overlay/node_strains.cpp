@@ -13,7 +13,7 @@ namespace viscera {
 
 namespace {
 
-/// Links of every slot, as overlay_nodes.comp goes over them.
+/// Links of every slot, in the order in which overlay_nodes.comp visits them.
 struct Links {
   std::vector<uint32_t> starts;
   std::vector<layout::OverlayLink> links;

@@ -10,14 +10,14 @@
 
 namespace viscera {
 
-/// How far the springs of each node are strained. Owner of shaders/surface/overlay_nodes.comp.
+/// Strain of the springs of each node. Owner of shaders/surface/overlay_nodes.comp.
 class NodeStrains {
  public:
   enum class Mean { kOfSquares, kSigned };
   /// Needs a current context. @throws GpuError
   NodeStrains(const Model& model, Mean mean);
 
-  /// Works them out for a state; what is in its buffers is bound to be read by what follows.
+  /// Computes them for a state. Leaves its buffers bound for the kernels that follow.
   void follow(const StateView& state);
   const gpu::Buffer<layout::vec4>& nodes() const { return nodes_; }  ///< [slots] xyz m, w strain
 

@@ -13,7 +13,7 @@
 namespace viscera {
 namespace {
 
-/// Of each vertex: where its ring begins; [vertices + 1].
+/// Returns where the ring of each vertex begins, [vertices + 1].
 std::vector<uint32_t> ringStarts(const TriangleMesh& mesh) {
   std::vector<uint32_t> starts(mesh.positions_m.size() + 1);
   for (const auto& triangle : mesh.triangles) {
@@ -23,7 +23,7 @@ std::vector<uint32_t> ringStarts(const TriangleMesh& mesh) {
   return starts;
 }
 
-/// The vertex that a split edge has at its end a, or b, follows the body's own vertices.
+/// Returns the vertex of a split edge at its end a or b; these follow the body's own vertices.
 uint32_t splitVertex(const Skin& skin, const NetworkSkins::Place& place, uint32_t edge, bool at_b) {
   return place.vertex + static_cast<uint32_t>(skin.bindings.size()) + 2 * edge + (at_b ? 1 : 0);
 }
@@ -113,7 +113,7 @@ void JoinedSkins::appendBindings(const Skin& skin, uint32_t slot_offset) {
     binding.slot2 += slot_offset;
     bindings.push_back(binding);
   }
-  for (const SplitEdge& edge : skin.split_edges) {  // none of the kernels for lattices touches these
+  for (const SplitEdge& edge : skin.split_edges) {  // no kernel of lattices reads these
     for (const uint32_t end : {edge.a, edge.b}) {
       layout::SkinBinding split{};
       split.slot0 = slot_offset + skin.bindings[end].slot0;
@@ -148,7 +148,7 @@ void JoinedSkins::appendTriangles(const Skin& skin, const NetworkSkins::Place& p
   }
 }
 
-/// The vertices of a split edge begin in its middle.
+/// Appends rest positions. Vertices of a split edge begin at its middle.
 void JoinedSkins::appendRests(const Skin& skin) {
   const auto add = [&](const Vector3f& at) { rests.push_back({at.x(), at.y(), at.z(), 0}); };
   for (const Vector3f& at : skin.mesh.positions_m) add(at);
@@ -162,7 +162,7 @@ void JoinedSkins::appendRests(const Skin& skin) {
 void JoinedSkins::appendCharts(const Skin& skin, const NetworkSkins::Place& place) {
   const size_t all = place.triangle + skin.mesh.triangles.size();
   if (!skin.mesh.charts.empty()) {
-    charts.resize(place.triangle, kNoChart);  // of bodies before, that have none
+    charts.resize(place.triangle, kNoChart);  // of the bodies before, which have none
     for (const uint32_t chart : skin.mesh.charts) charts.push_back(chart == kNoChart ? chart : chart + charts_before_);
   } else if (!charts.empty()) {
     charts.resize(all, kNoChart);

@@ -11,17 +11,17 @@
 
 namespace viscera {
 
-/// The skin of a body is its network's: a vertex is a node (EGVE 3.2).
+/// Returns whether the surface mesh of the body is its network: a vertex is a node (EGVE 3.2).
 bool isOneToOne(const Body& body);
 
-/// The skins of all networks of a model as one, numbered through as the vertices and triangles of Surface are.
+/// The surface meshes of all networks of a model in one, with the vertex and triangle numbers of Surface.
 struct NetworkSkins {
   std::vector<layout::RingVertex> vertices;
   std::vector<layout::RingTriangle> rings;
   std::vector<layout::SplitEdge> edges;
   std::vector<layout::SplitTriangle> triangles;  ///< of bodies that can be cut
 
-  /// Where the buffers of Surface begin for the body. Its split vertices follow its own.
+  /// Where the body begins in the buffers of Surface. Its split vertices follow its own.
   struct Place {
     uint32_t slot = 0, vertex = 0, triangle = 0, spring = 0;
   };
@@ -32,22 +32,23 @@ struct NetworkSkins {
   void appendSplits(const Skin& skin, const Place& place, uint32_t first_ring_vertex);
 };
 
-/// How approximate normals follow where vertices are turned by them (docs/mappings.md): turned as the tissue is, or, to
-/// compare, summed again as VR05's eq 5 is. One_to_one and along_normal sum in any case.
+/// How approximate normals follow the tissue where vertices are turned by them (docs/surface.md): carried with the
+/// tissue or, for comparison, summed again by VR05's eq 5. One_to_one and along_normal always sum.
 enum class MovedNormals { kCarried, kSummed };
 
-/// The skins of all bodies as one: slots and vertices numbered through. Split vertices of a network follow its own.
+/// The surface meshes of all bodies in one, with global numbers of slots and vertices. Split vertices of a network
+/// follow its own.
 struct JoinedSkins {
-  /// Whose approximate normals some vertex follows: carried from rest, and summed in every state.
+  /// Nodes with approximate normals that some vertex uses: carried from rest, and summed in every state.
   std::vector<layout::SurfaceNode> carried_nodes, summed_nodes;
   std::vector<uint32_t> triangles, colors;
   std::vector<layout::SkinBinding> bindings;
-  std::vector<layout::vec4> rests;  ///< [vertices] xyz at rest [m, tissue frame]; w 0: on the skin
-  /// [triangles] texture charts of all bodies, numbered through, or kNoChart; empty where no body has any
+  std::vector<layout::vec4> rests;  ///< [vertices] xyz at rest [m, tissue frame]; w 0: on the surface
+  /// [triangles] texture charts of all bodies, numbered globally, or kNoChart; empty where no body has any
   std::vector<uint32_t> charts;
   NetworkSkins networks;
   bool any_bound = false, any_one_to_one = false;
-  uint32_t kinds = 0;  ///< bits of SkinBinding.springs that some vertex of a lattice's skin has
+  uint32_t kinds = 0;  ///< bits of SkinBinding.springs that occur in a lattice's surface mesh
 
   void append(const Body& body, const NetworkSkins::Place& place, MovedNormals normals);
 
@@ -61,11 +62,11 @@ struct JoinedSkins {
 };
 JoinedSkins joinSkins(const Model& model, MovedNormals normals = MovedNormals::kCarried);
 
-/// Split vertices of every triangle, as appendShown takes them: [6 * triangles]; empty where no triangle can split.
+/// Returns the split vertices of every triangle for appendShown: [6 * triangles]; empty where no triangle can split.
 std::vector<uint32_t> splitsOf(const JoinedSkins& skins);
 
-/// Bricks of the nodes to which skins are bound and of their neighbours, ascending, and all of bodies that can be cut:
-/// all that showing a state looks at.
+/// Returns the bricks that showing a state reads, ascending: those of the nodes to which surface meshes are bound and
+/// of their neighbours, and all bricks of bodies that can be cut.
 std::vector<uint32_t> shownBricks(const Model& model);
 
 }  // namespace viscera

@@ -8,15 +8,15 @@
 
 namespace viscera {
 
-/// Makes room for `count` elements in a vector that is filled again in every tick that cuts, and for those of the ticks
-/// to come: assignments alone would ask for as much as they need, in every tick again.
+/// Reserves memory for `count` elements and for growth in later ticks. An assignment alone would allocate what it needs
+/// again in every tick that cuts.
 template <class Element>
 void keepRoom(std::vector<Element>& in, size_t count) {
   constexpr size_t kFirst = 4096;
   if (in.capacity() < count) in.reserve(std::max(2 * count, kFirst));
 }
 
-/// Adds an element behind all, with room for those to come.
+/// Appends an element, with memory for later ones.
 template <class Element>
 void appendTo(std::vector<Element>& list, const Element& element) {
   keepRoom(list, list.size() + 1);

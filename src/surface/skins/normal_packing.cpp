@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "viscera/surface/shown_mesh.h"
+#include "viscera/surface/visible_mesh.h"
 
 namespace viscera {
 

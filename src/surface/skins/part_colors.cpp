@@ -10,14 +10,14 @@ namespace viscera {
 
 namespace {
 
-// Multiples of the plastic number's powers spread over the square without clusters.
+// Multiples of the plastic number's powers fill the square without clusters.
 constexpr double kShadeStep = 0.7548776662466927;
 constexpr double kTintStep = 0.5698402909980532;
 constexpr double kShadeRange = 0.16;  // lightness of parts differs by at most +-16 %
 constexpr double kTintRange = 0.10;   // red against blue by at most +-10 %
 constexpr uint16_t kNoPart = UINT16_MAX;
 
-/// The part's place in a sequence that fills -1..1 evenly; part 0 is at 0.
+/// Returns the part's place in a sequence that fills -1..1 evenly; part 0 is at 0.
 double spread(double step, size_t part) {
   const double turns = step * static_cast<double>(part) + 0.5;
   return 2 * (turns - std::floor(turns)) - 1;
@@ -46,7 +46,7 @@ double srgb(float linear) {
   return linear <= 0.0031308F ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
-/// What the mesh's file says of a part, if anything.
+/// Returns the material that the mesh's file gives a part, or null.
 const SurfaceMaterial* materialOf(const SurfaceDetail* detail, size_t part) {
   if (detail == nullptr || part >= detail->part_materials.size()) return nullptr;
   const uint32_t material = detail->part_materials[part];
@@ -54,7 +54,7 @@ const SurfaceMaterial* materialOf(const SurfaceDetail* detail, size_t part) {
   return &detail->materials[material];
 }
 
-/// Colours of all parts. Parts of one material differ by partColor(), or an organ of one colour would be one lump.
+/// Returns the colours of all parts. Parts of one material differ by partColor(), to keep them distinct.
 std::vector<Vector3d> partColors(const TriangleMesh& mesh, const Vector3d& organ_color) {
   std::vector<Vector3d> out;
   for (size_t part = 0; part < std::max<size_t>(mesh.part_names.size(), 1); ++part) {
@@ -83,7 +83,7 @@ std::vector<uint32_t> vertexColors(const TriangleMesh& mesh, const Vector3d& org
 
 namespace {
 
-/// Each channel of a colour so far towards another; alpha stays.
+/// Returns a colour moved by t towards another, channel by channel; alpha stays.
 uint32_t towards(uint32_t rgba, const std::array<float, 3>& rgb, float t) {
   uint32_t out = rgba & 0xff000000U;
   for (size_t c = 0; c < 3; ++c) {
@@ -94,7 +94,7 @@ uint32_t towards(uint32_t rgba, const std::array<float, 3>& rgb, float t) {
 }
 
 uint32_t burntColor(uint32_t rgba, float share) {
-  // sRGB, by share; chosen by eye: pale as boiled liver is, brown, black.
+  // sRGB, by share; chosen by eye: pale like boiled liver, brown, black.
   struct Stop {
     float share;
     std::array<float, 3> rgb;

@@ -14,11 +14,12 @@ void requireSkinFits(size_t vertices, bool can_be_cut) {
   const size_t block_bytes = gpu::driverLimits().storage_block_bytes, room = can_be_cut ? kRoomForWounds : 1;
   const size_t most = block_bytes / sizeof(layout::SkinBinding) / room;
   if (vertices <= most) return;
-  constexpr double kFacesPerVertex = 2, kMargin = 0.8;  // of a closed surface; seams have vertices twice
+  constexpr double kFacesPerVertex = 2, kMargin = 0.8;  // of a closed surface; seams double vertices
   std::ostringstream out;
-  out << "the skins have " << vertices << " vertices, and this driver shows at most " << most;
+  out << "the skins have " << vertices << " vertices, but this driver can show at most " << most;
   if (can_be_cut) out << " where tissue can be cut";
-  out << " (GL_MAX_SHADER_STORAGE_BLOCK_SIZE = " << block_bytes << "): set bodies[].skin_faces, of all bodies together "
+  out << " (GL_MAX_SHADER_STORAGE_BLOCK_SIZE = " << block_bytes
+      << "). Set bodies[].skin_faces, in total over all bodies "
       << static_cast<size_t>(kMargin * kFacesPerVertex * static_cast<double>(most)) << " or less, or run without "
       << "pictures (--no-view)";
   throw GpuError(out.str());

@@ -6,13 +6,13 @@
 
 namespace viscera {
 
-/// Times the vertices and triangles of the skins that buffers hold where tissue can be cut: beyond it a tick makes
-/// larger ones.
+/// Size of buffers for surface meshes of tissue that can be cut, over the size of the uncut meshes. Beyond it a tick
+/// allocates larger ones.
 constexpr size_t kRoomForWounds = 2;
 
-/// @param can_be_cut  the skins have room for wounds
-/// @throws GpuError  the skins, with that room, have more vertices than this thread's driver can hold in one buffer;
-/// names what makes them coarser
+/// Checks that the surface meshes fit into buffers. @param can_be_cut  leave room for wounds
+/// @throws GpuError  with that room they have more vertices than this thread's driver can hold in one buffer; names the
+/// keys that make them coarser
 void requireSkinFits(size_t vertices, bool can_be_cut);
 
 }  // namespace viscera

@@ -11,7 +11,7 @@ namespace viscera {
 
 namespace {
 
-constexpr double kBesideOwn = 0.15;  // cells: a lip so near a vertex of the skin hangs on the same nodes
+constexpr double kBesideOwn = 0.15;  // cells: a lip this near a vertex of the surface mesh is bound to the same nodes
 
 layout::SkinBinding bind(const CutCells& cells, const WoundVertex& vertex) {
   return bindToSide(cells, vertex.point, vertex.normal, vertex.place);
@@ -22,7 +22,7 @@ layout::SkinBinding bind(const CutCells& cells, const WoundVertex& vertex) {
 BodyWound::BodyWound(const Skin& skin, const Lattice& lattice)
     : cells_(lattice), own_bindings_(skin.bindings), bindings_(skin.bindings), skin_(skin, lattice) {}
 
-/// The vertices of the skin that it has looked at.
+/// Binds the vertices of the surface mesh that its last update has checked.
 void BodyWound::bindSkin() {
   for (const uint32_t vertex : skin_.lookedAt())
     bindings_[vertex] = skin_.isRebound(vertex) ? bind(cells_, skin_.own(vertex)) : own_bindings_[vertex];
@@ -43,7 +43,7 @@ void BodyWound::bindSkin() {
   }
 }
 
-/// The vertices of walls that have changed, and those that go with a lip's.
+/// Binds the vertices of walls that have changed, and those that belong to a lip.
 void BodyWound::bindWalls() {
   const std::vector<WoundVertex>& vertices = walls_.vertices();
   keepRoom(wall_bindings_, vertices.size());
@@ -85,7 +85,7 @@ void BodyWound::follow() {
   bindWalls();
   work_ = {cells_.changedCells().size(), skin_.looks(), walls_.trianglesMade() - made, walls_.pointsTried(),
            skin_.lookedAt().size() + skin_.lookedAtAdded().size() + walls_.changed().size()};
-  // Copies, which follow the size of the wound: what is added lies behind the skin's own, walls behind lips.
+  // Copies; their cost grows with the wound. Added vertices follow the own ones, those of walls follow those of lips.
   const size_t own = own_bindings_.size(), first_wall = firstWallVertex();
   keepRoom(bindings_, first_wall + wall_bindings_.size());
   bindings_.resize(first_wall + wall_bindings_.size());

@@ -16,7 +16,7 @@ constexpr double kOtherNode = 0.25;  // cells squared: how much nearer a triangl
 /// Two axial springs of a node at right angles to each other, which span a triangle.
 struct Candidate {
   uint32_t slot0 = 0, slot1 = 0, slot2 = 0;
-  Vector3i edge1 = Vector3i::UnitX(), edge2 = Vector3i::UnitY();  // as if they were there where they are not
+  Vector3i edge1 = Vector3i::UnitX(), edge2 = Vector3i::UnitY();  // as if they existed where they do not
 };
 
 struct Fit {
@@ -26,7 +26,7 @@ struct Fit {
 Fit fitOf(const Candidate& candidate, const CutCells& cells, const Vector3d& point) {
   const Vector3d from = point - cells.lattice().nodeAt(candidate.slot0).cast<double>();
   Fit fit;
-  const auto share = [&](uint32_t slot, const Vector3i& edge) {  // an edge that is none carries nothing
+  const auto share = [&](uint32_t slot, const Vector3i& edge) {  // a missing edge carries nothing
     return slot == candidate.slot0 ? 0 : std::clamp(from.dot(edge.cast<double>()), 0.0, 1.0);
   };
   fit.weight1 = share(candidate.slot1, candidate.edge1);
@@ -50,7 +50,7 @@ uint32_t neighborOf(const CutCells& cells, uint32_t slot, uint32_t spring) {
   return static_cast<uint32_t>(cells.slotAt(cells.lattice().nodeAt(slot) + offsetOf(spring)));
 }
 
-/// Triangles of a cell; `take(corner)` and `hold(slot, spring)` say which.
+/// Visits triangles of a cell that `take(corner)` and `hold(slot, spring)` accept.
 template <class Take, class Hold, class Visit>
 void forEachInCell(const CutCells& cells, const WoundPlace& place, Take take, Hold hold, Visit visit) {
   const Vector3i at = cells.lattice().nodeAt(place.cell);
@@ -68,7 +68,7 @@ void forEachInCell(const CutCells& cells, const WoundPlace& place, Take take, Ho
   }
 }
 
-/// Those on one side of the wound.
+/// Visits those on one side of the wound.
 template <class Visit>
 void forEachOfSide(const CutCells& cells, const WoundPlace& place, Visit visit) {
   const CutCell* const cut = cells.find(place.cell);
@@ -78,7 +78,7 @@ void forEachOfSide(const CutCells& cells, const WoundPlace& place, Visit visit) 
       [&](uint32_t slot, uint32_t spring) { return cells.isAlive(slot, spring); }, visit);
 }
 
-/// Triangles at a node, wherever they lie; degenerate ones where the node has no two whole springs at right angles.
+/// Visits the triangles at a node in all cells, degenerate ones where it has no two intact springs at right angles.
 template <class Visit>
 void forEachAtNode(const CutCells& cells, uint32_t slot, Visit visit) {
   Candidate alone{slot, slot, slot};
@@ -134,7 +134,7 @@ layout::SkinBinding bindingOf(const Candidate& best, const Fit& fit, const CutCe
                     static_cast<uint32_t>(springIndex(back)) << 10U;
   const auto weight1 = static_cast<float>(fit.weight1), weight2 = static_cast<float>(fit.weight2);
   binding.weights = {1 - weight1 - weight2, weight1, weight2, 0};
-  // The offset is taken from where the rounded weights put the reference point, as the skin's own (skin.cpp).
+  // The offset is measured from the reference point of the rounded weights, as for uncut meshes (skin.cpp).
   const Vector3d reference = cells.lattice().nodeAt(best.slot0).cast<double>() + weight1 * best.edge1.cast<double>() +
                              weight2 * best.edge2.cast<double>();
   binding.offset_constant = packed(cells.lattice().spacing_m * basisOf(binding).coordinates(point - reference));

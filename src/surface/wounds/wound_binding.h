@@ -7,20 +7,20 @@
 
 namespace viscera {
 
-/// Binds a point beside a wound to a triangle of lattice nodes of its own side (EGVE 3.3.1 with the constant basis), so
-/// that both lips are where they were at rest and go each with its tissue. The triangle is the nearest one of its
-/// cell's whose edges are whole and whose nodes hang together with the place's node; where there is none, one beyond
-/// the cell at that node; at a node with one whole spring the third node is the first, at one with none all three are:
-/// the point goes with it unturned.
+/// Binds a point near a wound to a triangle of lattice nodes on its own side (EGVE 3.3.1 with the constant basis). So
+/// both lips are where they were at rest, and each moves with its tissue. The triangle is the nearest one of the cell
+/// that has intact edges and nodes connected to the place's node. If there is none, it is one outside the cell at that
+/// node. At a node with one intact spring the third node equals the first. At a node without intact springs all three
+/// are equal, and the point translates with it.
 /// @param point  in cells from the lattice's origin   @param normal  unit, at rest
 layout::SkinBinding bindToSide(const CutCells& cells, const Vector3d& point, const Vector3d& normal,
                                const WoundPlace& place);
 
-/// Binds the end of a wound, which is of both its sides, to the nearest triangle of its cell as if it were whole.
+/// Binds the end of a wound, which both of its sides share, to the nearest triangle of its cell as if it were intact.
 layout::SkinBinding bindAcross(const CutCells& cells, const Vector3d& point, const Vector3d& normal,
                                const WoundPlace& place);
 
-/// Binds a point to the triangle of nodes that carries another one: between the two nothing can fold.
+/// Binds a point to the triangle of nodes of another binding, so that nothing can fold between the two.
 layout::SkinBinding bindLike(const layout::SkinBinding& other, const CutCells& cells, const Vector3d& point,
                              const Vector3d& normal);
 

@@ -14,17 +14,17 @@ namespace viscera {
 namespace {
 
 constexpr float kMargin =
-    0.02F;  // of a cell: centres keep this far from its faces, so that every tetrahedron has a volume
-constexpr float kNowhere = 1e-6F;  // a point nearer to a centre than this lies on every side
+    0.02F;  // of a cell: distance of centres from its faces, so that every tetrahedron has a volume
+constexpr float kNowhere = 1e-6F;  // a point nearer to a centre than this has no definite side
 
 constexpr int kEdge = static_cast<int>(layout::kBrickEdge);
 
-/// The other two axes of a face, ascending.
+/// Returns the other two axes of a face, ascending.
 std::array<int, 2> axesOf(int normal) {
   return {normal == 0 ? 1 : 0, normal == 2 ? 1 : 2};
 }
 
-/// Edge of a cell along `axis` at the corner bits of the other two axes.
+/// Returns the edge of a cell along `axis` at the corner bits of the other two axes.
 int edgeAt(int axis, int corner) {
   const auto [u, v] = axesOf(axis);
   return 4 * axis + (corner >> u & 1) + 2 * (corner >> v & 1);
@@ -37,8 +37,8 @@ Vector3f placeOnEdge(int edge, float share) {
   return place;
 }
 
-/// The axis by whose face a way from a point leaves the unit cube (of two dimensions: square), and how many times the
-/// way it is to there; -1 where there is no way to speak of.
+/// Returns the axis of the face through which a direction from a point leaves the unit cube (in two dimensions:
+/// square), and the multiple of the direction to there. Returns -1 for a direction of almost no length.
 template <int Dimensions>
 std::pair<int, float> wayOut(const Eigen::Matrix<float, Dimensions, 1>& from,
                              const Eigen::Matrix<float, Dimensions, 1>& way) {
@@ -100,7 +100,7 @@ int64_t CutCells::slotAt(const Vector3i& node) const {
   constexpr auto kSide = static_cast<uint32_t>(kEdge);  // unsigned: divisions by it are shifts
   const auto x = static_cast<uint32_t>(node.x()), y = static_cast<uint32_t>(node.y()),
              z = static_cast<uint32_t>(node.z());
-  const Vector3i& end = lattice_.nodes_per_axis;  // below zero is beyond it too
+  const Vector3i& end = lattice_.nodes_per_axis;  // below zero is outside too
   if (x >= static_cast<uint32_t>(end.x()) || y >= static_cast<uint32_t>(end.y()) || z >= static_cast<uint32_t>(end.z()))
     return -1;
   const auto along_x = static_cast<size_t>(bricks_per_axis_.x()), along_y = static_cast<size_t>(bricks_per_axis_.y());
@@ -122,7 +122,7 @@ bool CutCells::isGone(uint32_t slot) const {
          (bits.hi & layout::kDiagonalMask) == 0;
 }
 
-/// Is a spring along an axis cut, other than between two nodes without springs?
+/// Returns whether a spring along an axis is cut, other than between two nodes without springs.
 bool CutCells::isCut(uint32_t low, uint32_t high, int axis) const {
   const auto spring = static_cast<uint32_t>(2 * axis);
   return isSevered(low) && springCount(lattice_.nodes[low], spring) != 0 && !isAlive(low, spring) &&
@@ -155,7 +155,7 @@ void CutCells::lookAt(uint32_t lowest) {
   cells_[number - 1] = cell;
 }
 
-/// Sides and centres, of what is cut.
+/// Computes the sides and centres of a cut cell.
 void CutCells::complete(CutCell& cell) const {
   for (size_t c = 0; c < 8; ++c) cell.component[c] = static_cast<uint8_t>(c);
   cell.crossed.fill(0.5F);
@@ -217,10 +217,10 @@ void CutCells::makeWhole() {
   changed_slots_.clear();
   changed_cells_.clear();
   severed_nodes_ = 0;
-  forget();
+  clear();
 }
 
-void CutCells::forget() {
+void CutCells::clear() {
   for (const CutCell& cell : cells_) numbers_[static_cast<size_t>(slotAt(cell.at))] = 0;
   cells_.clear();
   cut_cells_ = 0;
@@ -229,7 +229,7 @@ void CutCells::forget() {
 void CutCells::update(const layout::NodeBits* nodes, const float* axial_cut) {
   findChanged(nodes, axial_cut);
   changed_cells_.clear();
-  if (isWhole()) return forget();
+  if (isWhole()) return clear();
   ++mark_;
   for (const uint32_t slot : changed_slots_) {
     const Vector3i node = lattice_.nodeAt(slot);
@@ -246,7 +246,7 @@ void CutCells::update(const layout::NodeBits* nodes, const float* axial_cut) {
   }
 }
 
-/// The nearest cell to a point outside of all cells: shells around, until one is found that nothing nearer can follow.
+/// Returns the nearest cell to a point outside all cells. Searches shells around it until no farther one can be nearer.
 Vector3i CutCells::nearestCell(const Vector3d& point) const {
   const Vector3i home = point.array().floor().cast<int>();
   double best = std::numeric_limits<double>::infinity();
@@ -277,7 +277,7 @@ WoundPlace CutCells::placeOf(const Vector3d& point) const {
     lowest = slotAt(home);
   }
   WoundPlace place;
-  if (lowest < 0) return place;  // nothing within three cells: who asks has no skin there
+  if (lowest < 0) return place;  // nothing within three cells: callers have no surface there
   place.cell = static_cast<uint32_t>(lowest);
   place.within = (point - home.cast<double>()).cwiseMax(0.0).cwiseMin(1.0).cast<float>();
   if (const CutCell* const cell = find(place.cell)) {
@@ -299,7 +299,7 @@ bool CutCells::areParted(uint32_t node, uint32_t other) const {
       if (b - a == Vector3i(o[0], o[1], o[2])) return !isAlive(node, spring);
     }
   }
-  // A cell that holds both: one of up to four.
+  // A cell that contains both nodes: one of up to four.
   const Vector3i low = a.cwiseMin(b), span = (a - b).cwiseAbs();
   bool shared = false;
   for (int k = 0; k < 8; ++k) {

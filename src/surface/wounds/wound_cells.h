@@ -11,75 +11,76 @@
 namespace viscera {
 
 /// A cell with an axial spring that a blade has crossed, other than between two nodes without springs. Corner c is the
-/// one at (c & 1, c >> 1 & 1, c >> 2); edge 4 a + k is the k-th along axis a, counted by its other two coordinates, the
+/// one at (c & 1, c >> 1 & 1, c >> 2). Edge 4 a + k is the k-th along axis a, counted by its other two coordinates, the
 /// first of them fastest.
 struct CutCell {
   Vector3i at = Vector3i::Zero();      ///< of its lowest corner, in cells
   std::array<uint32_t, 8> slots{};     ///< of its corners
-  std::array<float, 12> crossed{};     ///< where along each edge, 0..1 from its lower end; 0.5 where it is whole
+  std::array<float, 12> crossed{};     ///< position along each edge, 0..1 from its lower end; 0.5 where it is intact
   uint32_t cut = 0;                    ///< a bit per edge; 0: the cell is whole again
-  uint64_t order = 0;                  ///< of cells among each other, whatever was cut first
-  std::array<uint8_t, 8> component{};  ///< of each corner: its lowest corner that whole edges join it to
-  Vector3f centre = Vector3f::Constant(0.5F);  ///< of its wound: mean of where its edges are cut
+  uint64_t order = 0;                  ///< order of cells, independent of the order of cuts
+  std::array<uint8_t, 8> component{};  ///< of each corner: the lowest corner that it is connected to by intact edges
+  Vector3f centre = Vector3f::Constant(0.5F);  ///< of its wound: mean of the crossings on its edges
   std::array<Eigen::Vector2f, 6>
       face_centre;  ///< the same of face 2 a + side, by its other two axes in ascending order
 
-  /// The corner on whose side of the wound a point lies. A cell is seen as 48 tetrahedra, each of its centre, the
-  /// centre of a face, the crossing on an edge of that face, and a corner at that edge: exact on flat cuts, and the
-  /// same on both sides of a face that two cells share. @param place  0..1 within the cell
+  /// Returns the corner on the same side of the wound as a point. Divides the cell into 48 tetrahedra, each of its
+  /// centre, the centre of a face, the crossing on an edge of that face, and a corner at that edge. Exact on flat cuts,
+  /// and the same on both sides of a face that two cells share. @param place  0..1 within the cell
   int cornerAt(const Vector3f& place) const;
   bool holds(uint32_t slot) const { return cornerOf(slot) >= 0; }
   int cornerOf(uint32_t slot) const;  ///< -1 where the slot is none of its corners
 };
 
-/// The two corners of an edge of a cell.
+/// Returns the two corners of an edge of a cell.
 inline std::array<int, 2> edgeCorners(int edge) {
   const int axis = edge / 4, u = (axis + 1) % 3 < (axis + 2) % 3 ? (axis + 1) % 3 : (axis + 2) % 3, v = 3 - axis - u;
   const int low = (edge & 1) << u | (edge >> 1 & 1) << v;
   return {low, low | 1 << axis};
 }
 
-/// A place in a body as its wounds see it.
+/// A place in a body, with its cell and its side of a wound.
 struct WoundPlace {
   uint32_t cell = 0;  ///< slot of the lowest corner of the cell that holds the point, or of the nearest one
-  Vector3f within = Vector3f::Zero();  ///< 0..1 in that cell; of a point outside of it its nearest place
-  uint32_t node = 0;                   ///< slot of the node on whose side the point lies
+  Vector3f within = Vector3f::Zero();  ///< 0..1 in that cell; for a point outside, its nearest place there
+  uint32_t node = 0;                   ///< slot of the node on the same side of the wound
 };
 
-/// The cut cells of one body's lattice (docs/wounds.md 1). Cells here are those that are tissue, whole or in part. An
-/// update looks at every node whether its springs are those of the last one, and makes again what lies around those
-/// whose are not.
+/// The cut cells of one body's lattice (docs/surface.md). Cells here are those that are tissue, fully or partly. An
+/// update compares the springs of every node with those of the last update, and recomputes cells around changed nodes.
 class CutCells {
  public:
   explicit CutCells(const Lattice& lattice);
 
-  /// @param nodes  [slots] of this body   @param axial_cut  [3 * slots] see CutSprings; null: all as before
+  /// Updates the cut cells. @param nodes  [slots] of this body   @param axial_cut  [3 * slots] see CutSprings; null:
+  /// unchanged
   void update(const layout::NodeBits* nodes, const float* axial_cut);
   void makeWhole();
 
-  /// Numbers stay with their cells until the body is whole again.
+  /// Returns the cut cells. A cell keeps its number until the body is whole again.
   const std::vector<CutCell>& cells() const { return cells_; }
-  bool any() const { return cut_cells_ > 0; }           ///< is any axial spring cut?
-  bool isWhole() const { return severed_nodes_ == 0; }  ///< has no node lost a spring?
-  /// The cut cell of the lowest corner's slot; null where the cell is whole.
+  bool any() const { return cut_cells_ > 0; }           ///< whether any axial spring is cut
+  bool isWhole() const { return severed_nodes_ == 0; }  ///< whether no node has lost a spring
+  /// Returns the cut cell by its lowest corner's slot; null where the cell is whole.
   const CutCell* find(uint32_t lowest) const {
     const uint32_t number = numbers_[lowest];
     return number == 0 || cells_[number - 1].cut == 0 ? nullptr : &cells_[number - 1];
   }
   uint32_t numberOf(uint32_t lowest) const { return numbers_[lowest] - 1; }  ///< of a cell in cells()
-  /// Nodes whose springs, or where these are cut, the last update has found changed; ascending.
+  /// Returns the nodes with springs, or cut positions, that the last update has found changed; ascending.
   const std::vector<uint32_t>& changedSlots() const { return changed_slots_; }
-  /// Lowest corners' slots of the cells around them.
+  /// Returns the lowest corners' slots of the cells around them.
   const std::vector<uint32_t>& changedCells() const { return changed_cells_; }
-  /// Visits the cells, by their lowest corner's slot, up to so many cells from those; one cell maybe more than once.
+  /// Visits the cells within `reach` cells of those, by their lowest corner's slot; one cell maybe more than once.
   template <class Visit>
   void forEachCellNear(int reach, Visit visit) const;
   WoundPlace placeOf(const Vector3d& point) const;
-  /// Has a node lost all of its springs, as erased ones have? It stays where it is, and nothing is shown of its side.
+  /// Returns whether a node has lost all of its springs, as erased nodes have. It stays where it is, and its side is
+  /// not shown.
   bool isGone(uint32_t slot) const;
-  bool isSevered(uint32_t slot) const { return (nodes_[slot].lo & layout::kSeveredBit) != 0; }  ///< has it lost any?
+  bool isSevered(uint32_t slot) const { return (nodes_[slot].lo & layout::kSeveredBit) != 0; }  ///< lost any spring
   bool isAlive(uint32_t slot, uint32_t spring) const { return springCount(nodes_[slot], spring) != 0; }
-  /// Do two nodes that share a cell lie on two sides of a wound?
+  /// Returns whether two nodes that share a cell are on two sides of a wound.
   bool areParted(uint32_t node, uint32_t other) const;
 
   const Lattice& lattice() const { return lattice_; }
@@ -89,7 +90,7 @@ class CutCells {
  private:
   Vector3i nearestCell(const Vector3d& point) const;
   void findChanged(const layout::NodeBits* nodes, const float* axial_cut);
-  void forget();
+  void clear();
   bool isCut(uint32_t low, uint32_t high, int axis) const;
   void lookAt(uint32_t lowest);
   void complete(CutCell& cell) const;
@@ -98,11 +99,11 @@ class CutCells {
   Vector3i bricks_per_axis_;
   std::vector<uint32_t> brick_at_;       ///< [bricks of the bounding box] 1 + brick, 0 where there is none
   std::vector<layout::NodeBits> nodes_;  ///< [slots] of the last update
-  std::vector<float> axial_cut_;         ///< [3 * slots] as well
-  std::vector<uint32_t> numbers_;        ///< [slots] of the cell whose lowest corner it is: 1 + index into cells_, or 0
+  std::vector<float> axial_cut_;         ///< [3 * slots] likewise
+  std::vector<uint32_t> numbers_;        ///< [slots] of the cell with this lowest corner: 1 + index into cells_, or 0
   std::vector<CutCell> cells_;
   std::vector<uint32_t> changed_slots_, changed_cells_;
-  std::vector<uint32_t> seen_;  ///< [slots] by their cells: the last update that has looked at it
+  std::vector<uint32_t> seen_;  ///< [slots] by their cells: the last update that has visited it
   uint32_t mark_ = 0;
   size_t cut_cells_ = 0, severed_nodes_ = 0;
 };
@@ -110,7 +111,7 @@ class CutCells {
 template <class Visit>
 void CutCells::forEachCellNear(int reach, Visit visit) const {
   const size_t count = changed_slots_.size();
-  for (size_t first = 0, end = 0; first < count; first = end) {  // brick by brick: the box around what changed in it
+  for (size_t first = 0, end = 0; first < count; first = end) {  // brick by brick: the box around its changes
     Vector3i low = lattice_.nodeAt(changed_slots_[first]), high = low;
     const auto is_here = [&](uint32_t slot) {
       return slot / layout::kBrickSlots == changed_slots_[first] / layout::kBrickSlots;

@@ -8,18 +8,18 @@
 
 namespace viscera {
 
-/// How deep places of one body lie below its skin at rest: measured once at its nodes, so that a wall asks no more than
-/// the eight around it.
+/// Depth of places of one body below its surface at rest. Measured once at its nodes, so that a wall only interpolates
+/// between eight nodes.
 class WoundDepths {
  public:
   /// @param skin, lattice  of one body; the lattice must outlive this
   WoundDepths(const Skin& skin, const Lattice& lattice);
-  /// @param point  in cells from the lattice's origin   @returns [m], 0 at the skin and outside
+  /// Returns the depth [m], 0 at the surface and outside. @param point  in cells from the lattice's origin
   double at(const Vector3d& point) const;
 
  private:
   const Lattice& lattice_;
-  std::vector<float> depth_m_;  ///< [slots], less than 0 outside
+  std::vector<float> depth_m_;  ///< [slots], below 0 outside
 };
 
 }  // namespace viscera

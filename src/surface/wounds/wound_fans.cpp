@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Walls are sewn to the lips of the skin.
+// Joins walls to the lips of the surface mesh.
 #include "surface/skins/keep_room.h"
 #include "surface/wounds/wound_walls.h"
 
@@ -9,12 +9,12 @@ namespace viscera {
 
 namespace {
 
-// Of triangles among each other: behind quads (wound_walls.cpp).
+// Order of triangles: after quads (wound_walls.cpp).
 constexpr uint64_t kFans = uint64_t{1} << 62U, kFansBetween = uint64_t{2} << 62U;
 
 }  // namespace
 
-/// A vertex that goes with one of the skin's is where that is.
+/// Moves a vertex to the vertex of the surface mesh that it belongs to.
 void WoundWalls::placeLipVertex(uint32_t vertex) {
   touched_.note(vertex, mark_);
   const Vector3d& point = skin_->pointOf(vertices_[vertex].skin_vertex);
@@ -53,7 +53,7 @@ void WoundWalls::placeFan(uint32_t f, const Lip& lip) {
   points_to_find_.note(fan.cell, mark_);
 }
 
-/// Of a triangle and those that share an edge with it: lips go on from one to the other.
+/// Notes the fans of a triangle and of those that share an edge with it, as lips continue from one to the other.
 void WoundWalls::noteFansBeside(uint32_t triangle) {
   for (const uint32_t edge : skin_->edgesOf(triangle)) {
     for (const uint32_t beside : skin_->trianglesAt(edge)) {
@@ -64,20 +64,20 @@ void WoundWalls::noteFansBeside(uint32_t triangle) {
   }
 }
 
-/// Those that the skin has changed.
+/// Updates the fans that the surface mesh has changed.
 void WoundWalls::takeFans() {
   for (const uint32_t shown : skin_->changed()) {
     for (uint32_t i = 0; i < 6; ++i) dropFan(6 * shown + i);
   }
   for (const uint32_t shown : skin_->changed()) {
-    const ShownPieces& pieces = skin_->shown()[shown];
+    const VisiblePieces& pieces = skin_->shown()[shown];
     for (uint32_t i = 0; i < pieces.lip_count; ++i) {
       if (fans_[6 * shown + i].triangle == kNone) placeFan(6 * shown + i, pieces.lips[i]);
     }
   }
 }
 
-/// The lip that ends where this one begins, in a cell.
+/// Returns the lip that ends where this one begins, in a cell.
 const Lip* WoundWalls::lipBefore(const Lip& lip) const {
   const Lip* before = nullptr;
   forEachLipAt(lip.from, [&](const Lip& other) {
@@ -106,7 +106,7 @@ void WoundWalls::addFan(uint32_t f) {
   setTriangle(between, kFansBetween | order, fan.triangles[1]);
 }
 
-/// From the pieces of the skin around it, where it lies on a lip.
+/// Finds the outward direction of a vertex on a lip, from the pieces of the surface mesh around it.
 void WoundWalls::findOutward(uint32_t vertex) {
   if (vertices_[vertex].skin_vertex == WoundVertex::kNone) return;
   Vector3d outward = Vector3d::Zero();
@@ -118,7 +118,8 @@ void WoundWalls::findOutward(uint32_t vertex) {
   askAround(vertex);
 }
 
-/// Every lip with its cell's point, and where a lip goes on in another cell both cells' points with the vertex between.
+/// Joins every lip to its cell's point. Where a lip continues in another cell, joins both cells' points to the vertex
+/// between.
 void WoundWalls::addFans() {
   for (const uint32_t cell : cells_changed_.list) {
     for (uint32_t f = first_fans_[cell]; f != kNone; f = fans_[f].next) noteFansBeside(fans_[f].triangle);

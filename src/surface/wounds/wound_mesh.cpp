@@ -39,7 +39,7 @@ uint32_t WoundMesh::add(const std::array<uint32_t, 3>& corners, uint64_t order) 
   return name;
 }
 
-/// The last one takes its place.
+/// Removes a triangle. The last one takes its place.
 void WoundMesh::remove(uint32_t name) {
   const size_t place = place_of_[name];
   for (uint32_t i = 0; i < 3; ++i) {

@@ -9,13 +9,14 @@
 
 namespace viscera {
 
-/// Triangles that come and go, without gaps between them, each listed at its corners. All memory is kept.
+/// Triangles that are added and removed, stored without gaps, each listed at its corners. It keeps its memory for
+/// reuse.
 class WoundMesh {
  public:
   static constexpr uint32_t kNone = UINT32_MAX;
 
   void clear();
-  /// @param order  of triangles among each other   @returns a name that it keeps
+  /// Adds a triangle. @param order  among triangles   @returns its name, which stays the same
   uint32_t add(const std::array<uint32_t, 3>& corners, uint64_t order);
   void remove(uint32_t name);
   bool isThis(uint32_t name, const std::array<uint32_t, 3>& corners, uint64_t order) const;

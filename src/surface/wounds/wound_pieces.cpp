@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What is shown of a triangle of the skin with crossed edges.
+// Shown pieces of a triangle with crossed edges.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -13,10 +13,10 @@ namespace viscera {
 
 namespace {
 
-constexpr double kOfTheWay = 0.6;     // on which a wound goes through the triangle in which it ends
-constexpr double kOtherwise = 0.25;   // of the way to the third corner, which leads away from the blade's path
-constexpr double kLeastAlong = 0.05;  // of its longest share: a way less away from the edge is not to be trusted
-constexpr double kBeside = 0.02;      // cells: how far from a lip its side is asked for where no node of it says so
+constexpr double kOfTheWay = 0.6;     // share of the path through the triangle in which a wound ends
+constexpr double kOtherwise = 0.25;   // share of the path to the third corner, where the blade's direction is unusable
+constexpr double kLeastAlong = 0.05;  // of its longest share: a direction with less away from the edge is not reliable
+constexpr double kBeside = 0.02;      // cells: distance from a lip at which its side is found, where no node shows it
 
 }  // namespace
 
@@ -24,20 +24,20 @@ uint32_t WoundSkin::copyAt(uint32_t edge, uint32_t vertex) const {
   return copies_[edge] + (index_.edges[edge][0] == vertex ? 0 : 1);
 }
 
-/// A bit for each of a triangle's edges.
+/// Returns a bit for each crossed edge of a triangle.
 uint32_t WoundSkin::crossedEdges(uint32_t triangle) const {
   uint32_t crossed = 0;
   for (uint32_t i = 0; i < 3; ++i) crossed |= (copies_[index_.triangle_edges[triangle][i]] != kNoEdge ? 1U : 0U) << i;
   return crossed;
 }
 
-void WoundSkin::addPiece(const CutCells& cells, std::initializer_list<uint32_t> vertices, ShownPieces& out) const {
+void WoundSkin::addPiece(const CutCells& cells, std::initializer_list<uint32_t> vertices, VisiblePieces& out) const {
   const uint32_t* const v = vertices.begin();
   if (!isShown(cells, v[0])) return;
   for (size_t i = 2; i < vertices.size(); ++i) out.pieces[out.count++] = {v[0], v[i - 1], v[i]};
 }
 
-void WoundSkin::addLip(const CutCells& cells, uint32_t from, uint32_t to, uint32_t corner, ShownPieces& out) const {
+void WoundSkin::addLip(const CutCells& cells, uint32_t from, uint32_t to, uint32_t corner, VisiblePieces& out) const {
   if (!isShown(cells, corner)) return;
   const Vector3d middle = (pointOf(from) + pointOf(to)) / 2;
   const CutCell* cell = cells.find(cells.placeOf(middle).cell);
@@ -62,7 +62,8 @@ void WoundSkin::addLip(const CutCells& cells, uint32_t from, uint32_t to, uint32
   }
 }
 
-/// Where the wound ends in a triangle into which it comes across its edge `first`: on as it ran in the triangle before.
+/// Returns where the wound ends in a triangle that it enters across edge `first`. It continues in the direction that it
+/// had in the triangle before.
 Vector3d WoundSkin::endOf(uint32_t triangle, uint32_t first) const {
   const auto& corners = skin_.mesh.triangles[triangle];
   const uint32_t edge = index_.triangle_edges[triangle][first];
@@ -82,7 +83,7 @@ Vector3d WoundSkin::endOf(uint32_t triangle, uint32_t first) const {
     }
     if (count > 0) way = at - from / count;
   }
-  // In shares of the corners: the way ends before it leaves the triangle.
+  // In shares of the corners: the path ends before it leaves the triangle.
   const Vector3d vw = w - v, vt = tip - v, normal = vw.cross(vt);
   const double area2 = normal.squaredNorm();
   if (area2 == 0) return at + kOtherwise * (tip - at);
@@ -99,8 +100,8 @@ Vector3d WoundSkin::endOf(uint32_t triangle, uint32_t first) const {
   return v + end.x() * vw + end.y() * vt;
 }
 
-/// With the number that it had before, if there was one.
-uint32_t WoundSkin::addInside(ShownPieces& out, const WoundVertex& vertex, bool is_end) {
+/// Adds a vertex within a triangle, with its old number if it had one.
+uint32_t WoundSkin::addInside(VisiblePieces& out, const WoundVertex& vertex, bool is_end) {
   const uint32_t known = shown_of_[out.triangle], place = out.inside_count;
   const bool was_there = known != kNone && place < shown_[known].inside_count;
   const uint32_t number = was_there ? shown_[known].inside[place] : newVertices(1, free_vertices_);
@@ -109,7 +110,7 @@ uint32_t WoundSkin::addInside(ShownPieces& out, const WoundVertex& vertex, bool 
   return number;
 }
 
-void WoundSkin::showTapered(const CutCells& cells, uint32_t first, ShownPieces& out) {
+void WoundSkin::showTapered(const CutCells& cells, uint32_t first, VisiblePieces& out) {
   const auto& corners = skin_.mesh.triangles[out.triangle];
   const uint32_t v = corners[first], w = corners[(first + 1) % 3], tip = corners[(first + 2) % 3];
   const uint32_t edge = index_.triangle_edges[out.triangle][first], of_v = copyAt(edge, v), of_w = copyAt(edge, w);
@@ -123,7 +124,7 @@ void WoundSkin::showTapered(const CutCells& cells, uint32_t first, ShownPieces& 
   addPiece(cells, {tip, v, end}, out);
 }
 
-void WoundSkin::showParted(const CutCells& cells, uint32_t corner, ShownPieces& out) {
+void WoundSkin::showParted(const CutCells& cells, uint32_t corner, VisiblePieces& out) {
   const auto& corners = skin_.mesh.triangles[out.triangle];
   const auto& edges = index_.triangle_edges[out.triangle];
   const uint32_t a = corners[corner], b = corners[(corner + 1) % 3], c = corners[(corner + 2) % 3];
@@ -134,7 +135,7 @@ void WoundSkin::showParted(const CutCells& cells, uint32_t corner, ShownPieces& 
   addLip(cells, copyAt(ca, c), copyAt(ab, b), b, out);
 }
 
-void WoundSkin::showStar(const CutCells& cells, ShownPieces& out) {
+void WoundSkin::showStar(const CutCells& cells, VisiblePieces& out) {
   const auto& corners = skin_.mesh.triangles[out.triangle];
   const auto& edges = index_.triangle_edges[out.triangle];
   Vector3d middle = Vector3d::Zero(), normal = Vector3d::Zero();
@@ -151,7 +152,7 @@ void WoundSkin::showStar(const CutCells& cells, ShownPieces& out) {
   }
 }
 
-void WoundSkin::cutUp(const CutCells& cells, uint32_t crossed, ShownPieces& out) {
+void WoundSkin::cutUp(const CutCells& cells, uint32_t crossed, VisiblePieces& out) {
   if (crossed == 1 || crossed == 2 || crossed == 4) showTapered(cells, crossed >> 1U, out);
   if (crossed == 3) showParted(cells, 1, out);
   if (crossed == 6) showParted(cells, 2, out);
@@ -160,8 +161,8 @@ void WoundSkin::cutUp(const CutCells& cells, uint32_t crossed, ShownPieces& out)
   for (uint32_t i = 0; i < out.inside_count; ++i) noteLookedAt(out.inside[i]);
 }
 
-/// Do walls have to follow?
-bool WoundSkin::isOtherThan(const ShownPieces& before, const ShownPieces& now) const {
+/// Returns whether walls must be updated.
+bool WoundSkin::isOtherThan(const VisiblePieces& before, const VisiblePieces& now) const {
   if (before.lip_count != now.lip_count) return true;
   for (size_t i = 0; i < now.lip_count; ++i) {
     const Lip &a = before.lips[i], &b = now.lips[i];
@@ -178,18 +179,18 @@ void WoundSkin::show(const CutCells& cells, uint32_t triangle) {
   const bool is_whole = crossed == 0 && corner_is_shown;
   uint32_t& known = shown_of_[triangle];
   if (is_whole && known == kNone) return;
-  ShownPieces now;
+  VisiblePieces now;
   now.triangle = is_whole ? kNone : triangle;
   if (!is_whole) cutUp(cells, crossed, now);
   if (known == kNone) {
     if (free_shown_.empty()) {
       appendTo(free_shown_, static_cast<uint32_t>(shown_.size()));
-      appendTo(shown_, ShownPieces());
+      appendTo(shown_, VisiblePieces());
     }
     known = free_shown_.back();
     free_shown_.pop_back();
   }
-  ShownPieces& before = shown_[known];
+  VisiblePieces& before = shown_[known];
   if (isOtherThan(before, now)) appendTo(changed_, known);
   for (size_t i = now.inside_count; i < before.inside_count; ++i) {
     free(before.inside[i]);

@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Points of walls give way where triangles are folded, cell by cell in their order, in a few rounds. What a point comes
-// to in a round follows from where those before it have come to in that round, and the others in the last one: asked
-// again are those of which any of that has changed.
+// Relaxes points of walls where triangles are folded, cell by cell in their order, in a few rounds. A point's new place
+// depends on the places of earlier points in this round, and of later ones in the last round. A point is relaxed again
+// if any of these has changed.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -15,18 +15,19 @@ namespace viscera {
 
 namespace {
 
-// Of a triangle at a point, signed by the side that its wall faces: the sine of the angle between its shortest and
-// longest side, or if that is less how far the point is from the side across, in kTall cells. Below the first a point
-// is moved, above the second nothing is to be won. Neighbours on other nodes do not turn it over then.
+// Shape of a triangle at a point, with the sign of the side that its wall faces: the sine of the angle between its
+// shortest and longest side or, if that is less, the distance of the point from the opposite side in kTall cells. Below
+// the first limit a point is moved, above the second it is good enough. Neighbours bound to other nodes do not turn
+// such a triangle over then.
 constexpr double kFolded = 0.2, kWellShaped = 0.5, kTall = 0.3;
-constexpr double kNoSide = 1e-6;  // a sum of ways across a wound that are of both sides
-constexpr double kAll = 0.05;  // what the mean of all triangles counts beside the worst: ways lead out of two bad ones
-constexpr int kMoves = 4;      // of a point in a round
+constexpr double kNoSide = 1e-6;  // square of a sum of outward directions that cancel: both sides
+constexpr double kAll = 0.05;     // weight of the mean of all triangles next to the worst, to get past two bad ones
+constexpr int kMoves = 4;         // of a point in a round
 constexpr double kSteps[] = {0.5, 0.2, -0.2,
-                             -0.5};  // of the way to a neighbour: in a flat cut all of them in its plane
-constexpr double kFarthest = 0.7;    // cells that a point may leave its place by
+                             -0.5};  // of the path to a neighbour: in a flat cut all points stay in its plane
+constexpr double kFarthest = 0.7;    // cells that a point may move from its place
 
-/// @param at  the point
+/// Returns the shape of a triangle. @param at  the point
 double shapeOf(const Vector3d& at, const Vector3d& b, const Vector3d& c, const Vector3d& outward) {
   const Vector3d ab = b - at, ac = c - at, bc = c - b, area = ab.cross(ac);
   const double ab2 = ab.squaredNorm(), ac2 = ac.squaredNorm(), bc2 = bc.squaredNorm();
@@ -49,12 +50,12 @@ void WoundWalls::askAlways(uint32_t cell) {
   for (size_t round = 1; round <= kRounds; ++round) ask(cell, round);
 }
 
-/// Points of all triangles at a vertex.
+/// Notes the points of all triangles at a vertex.
 void WoundWalls::askAround(uint32_t vertex) {
   mesh_.forEachAt(vertex, [&](uint32_t triangle, uint32_t) { noteCorners(triangle); });
 }
 
-/// Those who see that a point has come to another place in a round.
+/// Notes the points that depend on a point that has moved in a round.
 void WoundWalls::askOthersAround(uint32_t cell, size_t round) {
   ask(cell, round + 1);
   forEachTriangleOf(cell, [&](uint32_t triangle) {
@@ -66,7 +67,7 @@ void WoundWalls::askOthersAround(uint32_t cell, size_t round) {
   });
 }
 
-/// Where a point sees a vertex in a round.
+/// Returns the position of a vertex that a point uses in a round.
 Vector3d WoundWalls::placeSeen(uint32_t vertex, uint32_t from_cell, size_t round) const {
   const uint32_t cell = cell_of_[vertex];
   if (cell == kNone) return vertices_[vertex].point;
@@ -74,7 +75,7 @@ Vector3d WoundWalls::placeSeen(uint32_t vertex, uint32_t from_cell, size_t round
   return points_[cell].at[was_before ? round : round - 1];
 }
 
-/// Triangles with one corner at the point, and the vertices across.
+/// Finds the triangles with one corner at the point, and the vertices across.
 void WoundWalls::findFacets(uint32_t cell, size_t round) {
   facets_.clear();
   ring_.clear();
@@ -91,14 +92,14 @@ void WoundWalls::findFacets(uint32_t cell, size_t round) {
     }
     if (own != 1) return;
     const Vector3d outward = outward_[corners[0]] + outward_[corners[1]] + outward_[corners[2]];
-    if (outward.squaredNorm() < kNoSide) return;  // where a cut ends inside: it may face either way
+    if (outward.squaredNorm() < kNoSide) return;  // where a cut ends inside: it may face either side
     appendTo(facets_, Facet{mesh_.orderOf(triangle), placeSeen(corners[(moving + 1) % 3], cell, round),
                             placeSeen(corners[(moving + 2) % 3], cell, round), outward});
   });
   std::sort(facets_.begin(), facets_.end());
 }
 
-/// How well a point's triangles were shaped if it were there.
+/// Returns the shape of a point's triangles with the point at a place.
 WoundWalls::Shape WoundWalls::shapeAt(const Vector3d& at) const {
   Shape shape;
   double sum = 0;
@@ -111,7 +112,7 @@ WoundWalls::Shape WoundWalls::shapeAt(const Vector3d& at) const {
   return shape;
 }
 
-/// Where a point comes to in a round.
+/// Returns the place of a point after a round.
 Vector3d WoundWalls::relaxed(uint32_t cell, size_t round) {
   ++points_tried_;
   const Vector3d first = points_[cell].at[round - 1];
@@ -143,7 +144,7 @@ Vector3d WoundWalls::relaxed(uint32_t cell, size_t round) {
   return at;
 }
 
-/// Brings a point's vertices to where it has come to.
+/// Moves a point's vertices to its final place.
 void WoundWalls::setDown(uint32_t cell) {
   const Vector3d& at = points_[cell].at[kRounds];
   for (size_t component = 0; component < 8; ++component) {

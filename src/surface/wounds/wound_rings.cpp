@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What quads and fans of a wound's walls leave open is filled.
+// Fills what quads and fans of a wound's walls leave open.
 #include <algorithm>
 #include <limits>
 
@@ -12,9 +12,9 @@ namespace viscera {
 
 namespace {
 
-constexpr uint64_t kFills = uint64_t{3} << 62U;    // of triangles among each other: behind fans (wound_fans.cpp)
-constexpr uint64_t kLips = uint64_t{1} << 62U;     // of vertices: behind those of points
-constexpr uint64_t kMiddles = uint64_t{2} << 62U;  // ... and behind those of lips
+constexpr uint64_t kFills = uint64_t{3} << 62U;    // order of triangles: after fans (wound_fans.cpp)
+constexpr uint64_t kLips = uint64_t{1} << 62U;     // order of vertices: after those of points
+constexpr uint64_t kMiddles = uint64_t{2} << 62U;  // ... and after those of lips
 
 bool isFill(uint64_t order) {
   return order >= kFills;
@@ -22,7 +22,7 @@ bool isFill(uint64_t order) {
 
 }  // namespace
 
-/// Of vertices among each other, whatever was cut first.
+/// Returns the order of a vertex, which does not depend on the order of cuts.
 uint64_t WoundWalls::orderOf(uint32_t vertex) const {
   const uint32_t cell = cell_of_[vertex];
   if (cell != kNone) {
@@ -35,7 +35,8 @@ uint64_t WoundWalls::orderOf(uint32_t vertex) const {
   return kMiddles | (first & ~kFills);
 }
 
-/// Edges that lead away from a vertex and have no triangle on the other hand; what they lead to is along the hole too.
+/// Gathers the edges that lead away from a vertex and have no triangle on the other side. Their ends are on the hole
+/// too.
 void WoundWalls::gatherOpen(uint32_t vertex) {
   ends_.clear();
   const auto note = [&](uint32_t end, int way) { appendTo(ends_, std::make_pair(end, way)); };
@@ -64,7 +65,7 @@ void WoundWalls::gatherOpen(uint32_t vertex) {
   }
 }
 
-/// Takes what fills holes at a vertex away.
+/// Removes the triangles at a vertex that fill holes.
 void WoundWalls::dropFill(uint32_t vertex) {
   around_.clear();
   mesh_.forEachAt(vertex, [&](uint32_t triangle, uint32_t) {
@@ -83,12 +84,13 @@ void WoundWalls::dropFill(uint32_t vertex) {
   }
 }
 
-/// @returns whether the way goes on; rings that it closes are filled and taken out of it
+/// Goes one edge on along a hole. Fills rings that the path closes, and removes them from it.
+/// @returns whether the path continues
 bool WoundWalls::stepAlongHole() {
   const OpenEdge first_there{orderOf(way_.back()), 0};
   auto next = static_cast<size_t>(std::lower_bound(open_.begin(), open_.end(), first_there) - open_.begin());
   while (next < open_.size() && open_[next].from == way_.back() && walked_[next]) ++next;
-  if (next == open_.size() || open_[next].from != way_.back()) {  // at a border of the skin: nothing closes there
+  if (next == open_.size() || open_[next].from != way_.back()) {  // at a border of the mesh: nothing closes there
     appendTo(hole_ends_, way_.back());
     return false;
   }
@@ -105,8 +107,8 @@ bool WoundWalls::stepAlongHole() {
   return way_.size() > 1;
 }
 
-/// What is still open: where lips step from cell to cell across an edge of the lattice, where they end before the cut
-/// inside does. Such holes are rings of a few edges between points of neighbouring cells. Those along which something
+/// Fills what is still open: where lips step from cell to cell across an edge of the lattice, or end before the cut
+/// inside does. Such holes are rings of a few edges between points of neighbouring cells. Rings along which something
 /// has changed are filled again.
 void WoundWalls::closeHoles() {
   for (const uint32_t vertex : touched_.list) around_hole_.note(vertex, mark_);
@@ -156,9 +158,9 @@ void WoundWalls::fillFromMiddle(const uint32_t* ring, size_t count) {
   for (size_t i = 0; i < count; ++i) addFill(centre, ring[(i + 1) % count], ring[i]);
 }
 
-/// A fan from the least point of a ring, the end of the way, so that the two sides of a wound are filled alike; but not
-/// from one that the other side has in the ring as well, which would span a web from lip to lip. Where an edge of the
-/// fan is one already, which would get four triangles, from the middle of the ring.
+/// Fills a ring, the end of the path, with a fan from its least point, so that both sides of a wound are filled alike.
+/// That point must not be one that the other side has in the ring as well, as the fan would span a web from lip to lip.
+/// If an edge of the fan exists already, and would get four triangles, fills from the middle of the ring.
 void WoundWalls::closeRing(size_t first) {
   const auto begin = way_.begin() + static_cast<ptrdiff_t>(first), end = way_.end();
   const auto point = [&](uint32_t vertex) { return firstPlace(vertex); };
@@ -182,7 +184,7 @@ void WoundWalls::closeRing(size_t first) {
     for (size_t i = 2; i < count; ++i)
       addFill(*begin, begin[static_cast<ptrdiff_t>(i)], begin[static_cast<ptrdiff_t>(i - 1)]);
   }
-  *begin = start;  // where the way goes on
+  *begin = start;  // where the path continues
 }
 
 }  // namespace viscera

@@ -13,14 +13,13 @@ namespace viscera {
 namespace {
 
 // In cells.
-constexpr double kStep = 0.125;  // an edge is looked at this finely, so that a wedge thinner than it may be passed over
-constexpr double kFine = 1e-4;   // and a crossing is found to this
+constexpr double kStep = 0.125;  // step along an edge; a wedge thinner than it may be passed over
+constexpr double kFine = 1e-4;   // precision of a crossing
 constexpr double kLeastPiece =
-    0.05;  // an edge is not crossed nearer to its end: what is thinner turns over when pulled
-constexpr double kLeastShare = 0.25;  // but as far as this of a short edge
-constexpr int kReach = 2;             // from a cell to those whose edges between nodes it may part, and one more
-constexpr double kSamples = 4;        // by which its longest edge is farther than places of a triangle from the nearest
-                                      // of those that WoundSkinIndex lists
+    0.05;  // least distance of a crossing from the end of an edge: thinner pieces turn over when pulled
+constexpr double kLeastShare = 0.25;  // but at most this share of a short edge
+constexpr int kReach = 2;             // cells: from a cell to those with edges that its change may split, and one more
+constexpr double kSamples = 4;        // WoundSkinIndex samples triangles at 1 / kSamples of their longest edge
 
 }  // namespace
 
@@ -43,8 +42,8 @@ WoundSkin::WoundSkin(const Skin& skin, const Lattice& lattice)
   }
 }
 
-/// The skin is whole again.
-void WoundSkin::forget() {
+/// Makes the mesh whole again.
+void WoundSkin::clear() {
   changed_.clear();
   near_.clear();
   looked_at_.clear();
@@ -59,7 +58,7 @@ void WoundSkin::forget() {
     found_[owner.edge] = copies_[owner.edge] = kNoEdge;
     is_sliver_[owner.edge] = false;
   }
-  for (const ShownPieces& pieces : shown_) {
+  for (const VisiblePieces& pieces : shown_) {
     if (pieces.triangle == kNone) continue;
     shown_of_[pieces.triangle] = kNone;
     moved_.push_back(pieces.triangle);
@@ -77,7 +76,7 @@ void WoundSkin::forget() {
   slivers_ = 0;
 }
 
-/// Triangles where the cells have changed, or where what carries their vertices has.
+/// Finds triangles where the cells, or the nodes that carry their vertices, have changed.
 void WoundSkin::findNear(const CutCells& cells) {
   near_.clear();
   const auto note = [&](uint32_t cell) {
@@ -90,14 +89,14 @@ void WoundSkin::findNear(const CutCells& cells) {
     index_.of_slots.forEach(slot, [&](uint32_t v) { note(index_.places[v].cell); });
 }
 
-/// Does it lie in a cut cell?
+/// Returns whether a triangle lies in a cut cell.
 bool WoundSkin::isNear(const CutCells& cells, uint32_t triangle) const {
   bool near = false;
   index_.cells_of.forEach(triangle, [&](uint32_t cell) { near = near || cells.find(cell) != nullptr; });
   return near;
 }
 
-/// Does it lie in a cell at a node that has lost all of its springs?
+/// Returns whether a triangle lies in a cell at a node that has lost all of its springs.
 bool WoundSkin::isNearGone(const CutCells& cells, uint32_t triangle) const {
   bool gone = false;
   index_.cells_of.forEach(triangle, [&](uint32_t cell) {
@@ -154,7 +153,7 @@ void WoundSkin::findSteps(const CutCells& cells, uint32_t edge, double first, co
   findSteps(cells, edge, middle, at, last, to);
 }
 
-/// @returns whether a wound crosses an edge: where is in crossing_ then
+/// Returns whether a wound crosses an edge; writes the position to crossing_.
 bool WoundSkin::findCrossing(const CutCells& cells, uint32_t edge, bool& sliver) {
   const auto [a, b] = index_.edges[edge];
   steps_.clear();
@@ -166,7 +165,7 @@ bool WoundSkin::findCrossing(const CutCells& cells, uint32_t edge, bool& sliver)
     if (from == to || (apart.cwiseAbs().maxCoeff() <= 1 && !cells.areParted(from, to))) return false;  // in and out
     sliver = true;
   }
-  // A sliver is given to what lies beyond it.
+  // The sliver is shown as part of its neighbours.
   const double least = std::min(kLeastShare, kLeastPiece / (index_.points[b] - index_.points[a]).norm());
   const double share = std::clamp((steps_.front().before + steps_.back().behind) / 2, least, 1 - least);
   const Vector3d point = index_.points[a] + share * (index_.points[b] - index_.points[a]);
@@ -212,7 +211,7 @@ void WoundSkin::lookAtEdges(const CutCells& cells) {
   }
 }
 
-/// The edge where a wound comes into a triangle without going on; kNoEdge in others.
+/// Returns the only crossed edge of a triangle, where a wound ends; kNoEdge for other triangles.
 uint32_t WoundSkin::onlyFound(uint32_t triangle) const {
   uint32_t only = kNoEdge;
   for (const uint32_t edge : index_.triangle_edges[triangle]) {
@@ -223,13 +222,13 @@ uint32_t WoundSkin::onlyFound(uint32_t triangle) const {
   return only;
 }
 
-/// What comes from nowhere and goes nowhere on either side of an edge is no wound.
+/// Returns whether no other edge on either side is crossed: then it is not a wound.
 bool WoundSkin::isLonely(uint32_t edge) const {
   const auto [one, other] = index_.edge_triangles[edge];
   return other != WoundSkinIndex::kNone && onlyFound(one) == edge && onlyFound(other) == edge;
 }
 
-/// Triangles around what changes are looked at as well: where a wound ends in one follows from those beside it.
+/// Drops lonely crossings. Also visits triangles around those that change, as the end of a wound depends on them.
 void WoundSkin::dropLonely() {
   const auto visit = [&](uint32_t edge, auto of_triangle) {
     for (const uint32_t triangle : index_.edge_triangles[edge])
@@ -263,7 +262,7 @@ uint64_t WoundSkin::orderOf(uint32_t vertex) const {
                                : kInside + 4 * uint64_t{owner.triangle} + owner.which;
 }
 
-/// @param freed  the first ones of as many that are free   @returns the first one
+/// Returns the first of `count` new vertices. @param freed  first ones of groups of as many that are free
 uint32_t WoundSkin::newVertices(size_t count, std::vector<uint32_t>& freed) {
   if (!freed.empty()) {
     const uint32_t first = freed.back();
@@ -297,7 +296,7 @@ void WoundSkin::setVertex(uint32_t vertex, const WoundVertex& to, const Owner& o
   changed_marks_[i] = mark_;
 }
 
-/// The vertex is free: it stays where it is until it is another.
+/// Frees the vertex. It stays where it is until it is used again.
 void WoundSkin::free(uint32_t vertex) {
   is_end_[vertex - own_] = true;
   changed_marks_[vertex - own_] = mark_;
@@ -314,7 +313,7 @@ void WoundSkin::setTriangle(size_t at, uint32_t source, const uint32_t* corners)
   sources_[at] = source;
 }
 
-/// One piece of each triangle in its place, the others behind all.
+/// Writes one piece of each triangle in its place, and the others after all.
 void WoundSkin::writeTriangles() {
   const size_t whole = index_.triangle_edges.size();
   triangles_.resize(3 * whole);
@@ -322,7 +321,7 @@ void WoundSkin::writeTriangles() {
   for (const uint32_t t : moved_) setTriangle(t, t, skin_.mesh.triangles[t].data());
   moved_.clear();
   gaps_.clear();
-  for (const ShownPieces& pieces : shown_) {
+  for (const VisiblePieces& pieces : shown_) {
     if (pieces.triangle == kNone) continue;
     if (pieces.count == 0) appendTo(gaps_, pieces.triangle);
     if (pieces.count > 0) setTriangle(pieces.triangle, pieces.triangle, pieces.pieces[0].data());
@@ -335,10 +334,10 @@ void WoundSkin::writeTriangles() {
   closeGaps();
 }
 
-/// In the places of triangles of which nothing is shown.
+/// Moves triangles into the places of those of which nothing is shown.
 void WoundSkin::closeGaps() {
   std::sort(gaps_.begin(), gaps_.end());
-  for (auto gap = gaps_.rbegin(); gap != gaps_.rend(); ++gap) {  // from behind: what is last is never one itself
+  for (auto gap = gaps_.rbegin(); gap != gaps_.rend(); ++gap) {  // from the end: the last triangle is never a gap
     const size_t last = sources_.size() - 1;
     const std::array<uint32_t, 3> corners = {triangles_[3 * last], triangles_[3 * last + 1], triangles_[3 * last + 2]};
     const uint32_t source = sources_[last];
@@ -351,7 +350,7 @@ void WoundSkin::closeGaps() {
 }
 
 void WoundSkin::update(const CutCells& cells) {
-  if (cells.isWhole()) return forget();
+  if (cells.isWhole()) return clear();
   ++mark_;
   changed_.clear();
   looked_at_added_.clear();

@@ -13,44 +13,41 @@
 
 namespace viscera {
 
-/// A stretch of a skin piece's border along a wound: the wall that begins there has its other end on the same nodes.
+/// A piece of the border of the surface mesh along a wound. The wall begins there, bound to the same nodes.
 struct Lip {
-  uint32_t from = 0, to = 0;  ///< vertices, in the order in which the piece has them
-  uint32_t triangle = 0;      ///< of the uncut skin
-  uint32_t cell = kNoCell;    ///< slot of the lowest corner of the cut cell that holds it; kNoCell where none does
-  uint32_t node = 0;          ///< a corner of that cell, on the side of the piece
+  uint32_t from = 0, to = 0;            ///< vertices, in the order in which the piece has them
+  uint32_t triangle = 0;                ///< of the uncut mesh
+  uint32_t cell = kNoCell;              ///< slot of the lowest corner of its cut cell; kNoCell where there is none
+  uint32_t node = 0;                    ///< a corner of that cell, on the side of the piece
   Vector3d outward = Vector3d::Zero();  ///< unit, from the piece across the wound
 
   static constexpr uint32_t kNoCell = UINT32_MAX;
 };
 
-/// A vertex of a wounded skin beyond the skin's own.
+/// A vertex of a wounded surface mesh in addition to the mesh's own.
 struct WoundVertex {
   Vector3d point = Vector3d::Zero();  ///< at rest, in cells from the lattice's origin
   Vector3d normal = Vector3d::Zero();
   WoundPlace place;
-  uint32_t skin_vertex =
-      kNone;  ///< of a wall's border: the vertex of the skin that it goes with; of a lip: one that it looks like
+  uint32_t skin_vertex = kNone;  ///< of a wall: its vertex on the surface mesh; of a lip: one with the same look
 
   static constexpr uint32_t kNone = UINT32_MAX;
 };
 
-/// What is shown of a triangle of the skin that is not whole.
-struct ShownPieces {
-  uint32_t triangle = UINT32_MAX;  ///< none: of no triangle now
+/// Shown pieces of a triangle of the surface mesh that is not whole.
+struct VisiblePieces {
+  uint32_t triangle = UINT32_MAX;  ///< kNone: of no triangle now
   uint8_t count = 0, lip_count = 0, inside_count = 0;
   std::array<std::array<uint32_t, 3>, 6> pieces{};  ///< [count]
   std::array<Lip, 6> lips;                          ///< [lip_count]
-  std::array<uint32_t, 3>
-      inside{};  ///< [inside_count] its vertices within the triangle: where a wound ends, or middles
+  std::array<uint32_t, 3> inside{};  ///< [inside_count] its vertices within the triangle: ends of wounds, or middles
 };
 
-/// The skin of one body, split where its edges cross from one side of a wound to the other (docs/wounds.md 2). An edge
-/// that does has two vertices at the crossing, one of either side. A triangle with two such edges is parted into a
-/// corner and the rest, one with three into three corners that meet in its middle. In one with a single crossed edge
-/// the wound ends, at a vertex of both sides in the direction in which it comes. An update looks at what lies around
-/// the cells that have changed, but for copies of what is shown; what it shows does not depend on the updates before.
-/// All memory is kept.
+/// The surface mesh of one body, split where its edges cross a wound (docs/surface.md). A crossed edge gets two
+/// vertices at the crossing, one per side. A triangle with two such edges is split into a corner and the rest, one with
+/// three into three corners that meet in its middle. In a triangle with a single crossed edge the wound ends, at a
+/// vertex that both sides share. An update visits triangles around changed cells, and copies the rest. Its result does
+/// not depend on earlier updates. It keeps its memory for reuse.
 class WoundSkin {
  public:
   static constexpr uint32_t kNoEdge = UINT32_MAX, kNone = UINT32_MAX;
@@ -60,39 +57,40 @@ class WoundSkin {
 
   void update(const CutCells& cells);
 
-  /// [3 * n] vertices: below own() they are the skin's, the others follow in added(). Whole triangles are where they
-  /// are in the skin, so is one piece of each split one, others follow; where there are fewer than before, the last
+  /// Returns triangles [3 * n]: vertices below own() are the mesh's, the others follow in added(). Whole triangles keep
+  /// their place, as does one piece of each split one; other pieces follow. Where there are fewer than before, the last
   /// ones fill the gaps.
   const std::vector<uint32_t>& triangles() const { return triangles_; }
-  /// [n] which triangle of the uncut skin each of triangles() is a piece of.
+  /// Returns the triangle of the uncut mesh [n] that each of triangles() is a piece of.
   const std::vector<uint32_t>& sources() const { return sources_; }
-  /// Triangles that are not whole: where they are listed they stay.
-  const std::vector<ShownPieces>& shown() const { return shown_; }
-  /// Of them those whose lips, or where these lie, the last update has changed; some of no triangle any more.
+  /// Returns the triangles that are not whole. Their indices do not change.
+  const std::vector<VisiblePieces>& shown() const { return shown_; }
+  /// Returns those of them with lips, or places of lips, that the last update has changed; some are of no triangle any
+  /// more.
   const std::vector<uint32_t>& changed() const { return changed_; }
-  /// [triangle] index into shown(), or kNone.
+  /// Returns the index of a triangle in shown(), or kNone.
   uint32_t shownOf(uint32_t triangle) const { return shown_of_[triangle]; }
   const std::array<uint32_t, 2>& trianglesAt(uint32_t edge) const { return index_.edge_triangles[edge]; }
   const std::array<uint32_t, 3>& edgesOf(uint32_t triangle) const { return index_.triangle_edges[triangle]; }
-  /// Where they are listed they stay; some are of nothing any more.
+  /// Returns the added vertices. Their indices do not change; some are unused.
   const std::vector<WoundVertex>& added() const { return added_; }
-  /// The skin's own vertices that have to be bound again: their triangle of nodes is on two sides, or the other.
+  /// Returns the mesh's own vertices that must be bound again: their triangle of nodes is cut, or on the other side.
   const std::vector<uint32_t>& rebound() const { return rebound_; }
   bool isRebound(uint32_t own) const { return rebound_at_[own] != kNone; }
-  /// Own vertices, and added ones by their index in added(), that the last update has looked at: those of all others
-  /// are bound as they were.
+  /// Returns own vertices, and added ones by their index in added(), that the last update has visited. Bindings of all
+  /// others are unchanged.
   const std::vector<uint32_t>& lookedAt() const { return looked_at_; }
   const std::vector<uint32_t>& lookedAtAdded() const { return looked_at_added_; }
   WoundVertex own(uint32_t vertex) const {
     return {index_.points[vertex], index_.normals[vertex].cast<double>(), places_[vertex], vertex};
   }
-  /// Which edge's copy a vertex is, or kNoEdge: copies of an edge belong to its two triangles.
+  /// Returns the edge that a vertex belongs to, or kNoEdge. Vertices of an edge belong to its two triangles.
   uint32_t edgeOf(uint32_t vertex) const { return vertex < own_ ? kNoEdge : owners_[vertex - own_].edge; }
-  /// Within which triangle an added vertex lies that is no edge's copy.
+  /// Returns the triangle that contains an added vertex that belongs to no edge.
   uint32_t triangleOf(uint32_t vertex) const { return owners_[vertex - own_].triangle; }
-  /// Of an added vertex among all, whatever was cut first.
+  /// Returns the order of an added vertex, which does not depend on the order of cuts.
   uint64_t orderOf(uint32_t vertex) const;
-  /// Is it where a wound ends, a vertex of both of its sides, or of nothing any more?
+  /// Returns whether the vertex is the end of a wound, which both sides share, or is unused.
   bool isEnd(uint32_t vertex) const { return vertex >= own_ && is_end_[vertex - own_]; }
   const Vector3d& pointOf(uint32_t vertex) const {
     return vertex < own_ ? index_.points[vertex] : added_[vertex - own_].point;
@@ -101,20 +99,20 @@ class WoundSkin {
     return vertex < own_ ? places_[vertex] : added_[vertex - own_].place;
   }
   uint32_t ownCount() const { return own_; }
-  size_t looks() const { return near_.size(); }  ///< triangles that the last update has looked at
-  size_t slivers() const { return slivers_; }    ///< edges of which a piece between two wounds is not shown
+  size_t looks() const { return near_.size(); }  ///< triangles that the last update has visited
+  size_t slivers() const { return slivers_; }    ///< edges with a piece between two wounds that is not shown
 
  private:
   struct Step {
-    double before = 0, behind = 0;  ///< share of the edge
+    double before = 0, behind = 0;  ///< shares of the edge
     WoundPlace from, to;
   };
-  /// What an added vertex belongs to.
+  /// Owner of an added vertex.
   struct Owner {
     uint32_t edge = kNoEdge, triangle = kNone;
-    uint32_t which = 0;  ///< end of the edge, or place in ShownPieces::inside
+    uint32_t which = 0;  ///< end of the edge, or place in VisiblePieces::inside
   };
-  void forget();
+  void clear();
   void findNear(const CutCells& cells);
   void findPlaces(const CutCells& cells);
   void lookAtVertex(const CutCells& cells, uint32_t vertex);
@@ -134,22 +132,22 @@ class WoundSkin {
   void setVertex(uint32_t vertex, const WoundVertex& to, const Owner& owner, bool is_end);
   void free(uint32_t vertex);
   void noteLookedAt(uint32_t vertex);
-  uint32_t addInside(ShownPieces& out, const WoundVertex& vertex, bool is_end);
+  uint32_t addInside(VisiblePieces& out, const WoundVertex& vertex, bool is_end);
   void show(const CutCells& cells, uint32_t triangle);
-  void cutUp(const CutCells& cells, uint32_t crossed, ShownPieces& out);
-  void showTapered(const CutCells& cells, uint32_t first, ShownPieces& out);
-  void showParted(const CutCells& cells, uint32_t corner, ShownPieces& out);
-  void showStar(const CutCells& cells, ShownPieces& out);
-  bool isOtherThan(const ShownPieces& before, const ShownPieces& now) const;
+  void cutUp(const CutCells& cells, uint32_t crossed, VisiblePieces& out);
+  void showTapered(const CutCells& cells, uint32_t first, VisiblePieces& out);
+  void showParted(const CutCells& cells, uint32_t corner, VisiblePieces& out);
+  void showStar(const CutCells& cells, VisiblePieces& out);
+  bool isOtherThan(const VisiblePieces& before, const VisiblePieces& now) const;
   uint32_t copyAt(uint32_t edge, uint32_t vertex) const;
-  void addPiece(const CutCells& cells, std::initializer_list<uint32_t> vertices, ShownPieces& out) const;
-  void addLip(const CutCells& cells, uint32_t from, uint32_t to, uint32_t corner, ShownPieces& out) const;
+  void addPiece(const CutCells& cells, std::initializer_list<uint32_t> vertices, VisiblePieces& out) const;
+  void addLip(const CutCells& cells, uint32_t from, uint32_t to, uint32_t corner, VisiblePieces& out) const;
   void writeTriangles();
   void closeGaps();
   void setTriangle(size_t at, uint32_t source, const uint32_t* corners);
   bool isShown(const CutCells& cells, uint32_t vertex) const { return !cells.isGone(placeOf(vertex).node); }
 
-  /// What was seen in this update: no two updates have the same mark.
+  /// Set of numbers seen in this update: no two updates have the same mark.
   struct Seen {
     std::vector<uint32_t> marks;
     bool first(uint32_t i, uint32_t mark) { return marks[i] != mark && (marks[i] = mark, true); }
@@ -158,26 +156,26 @@ class WoundSkin {
   const Skin& skin_;
   const WoundSkinIndex index_;
   uint32_t own_ = 0, mark_ = 0;
-  int reach_ = 0;                   ///< cells from what has changed to what that may change
+  int reach_ = 0;                   ///< cells from a change to what it may affect
   std::vector<WoundPlace> places_;  ///< [own] of vertices
-  std::vector<uint32_t> near_;      ///< triangles that are looked at
+  std::vector<uint32_t> near_;      ///< triangles to visit
   Seen seen_triangles_, seen_vertices_, seen_edges_, judged_edges_;
-  std::vector<uint32_t> found_;          ///< [edges] the first of the two vertices where it is crossed, or kNoEdge
-  std::vector<uint32_t> copies_;         ///< [edges] as well, of wounds that are more than one crossing
+  std::vector<uint32_t> found_;          ///< [edges] the first of the two vertices of a crossing, or kNoEdge
+  std::vector<uint32_t> copies_;         ///< [edges] the same, of wounds with more than one crossing
   std::vector<bool> is_sliver_;          ///< [edges]
   std::vector<uint32_t> changed_edges_;  ///< in this update
   std::vector<Step> steps_;              ///< of one edge
   std::array<WoundVertex, 2> crossing_;  ///< of one edge
   std::vector<uint32_t> shown_of_;       ///< [triangles]
-  std::vector<ShownPieces> shown_;
+  std::vector<VisiblePieces> shown_;
   std::vector<uint32_t> free_shown_, changed_;
   std::vector<WoundVertex> added_;
   std::vector<Owner> owners_;                           ///< [added_]
   std::vector<bool> is_end_;                            ///< [added_]
-  std::vector<uint32_t> changed_marks_, looked_marks_;  ///< [added_] the last update that has
-  std::vector<uint32_t> free_vertices_, free_pairs_;    ///< vertices; the first ones of two
+  std::vector<uint32_t> changed_marks_, looked_marks_;  ///< [added_] the last update that has changed, or visited, it
+  std::vector<uint32_t> free_vertices_, free_pairs_;    ///< free vertices; first ones of free pairs
   std::vector<uint32_t> triangles_, sources_;
-  std::vector<uint32_t> moved_;  ///< whole triangles whose places are cut off or taken
+  std::vector<uint32_t> moved_;  ///< whole triangles with places that are cut off or taken
   std::vector<uint32_t> gaps_;   ///< places of triangles of which nothing is shown
   std::vector<uint32_t> rebound_, rebound_at_, looked_at_, looked_at_added_;
   size_t slivers_ = 0;

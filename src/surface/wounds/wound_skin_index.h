@@ -11,11 +11,11 @@
 
 namespace viscera {
 
-/// Numbers that belong to numbers: those of i are values[starts[i]] to values[starts[i + 1] - 1].
+/// Lists of numbers: list i is values[starts[i]] to values[starts[i + 1] - 1].
 struct NumberLists {
   std::vector<uint32_t> starts, values;
 
-  /// @param pairs  (i, value), in any order   @param count  of lists
+  /// Fills the lists. @param pairs  (i, value), in any order   @param count  of lists
   void fill(std::vector<std::array<uint32_t, 2>> pairs, size_t count);
   template <class Visit>
   void forEach(uint32_t list, Visit visit) const {
@@ -23,7 +23,7 @@ struct NumberLists {
   }
 };
 
-/// What of an uncut skin lies where, so that a wound looks at no more than what is around it.
+/// Spatial index of an uncut surface mesh, so that a wound visits only what is around it.
 struct WoundSkinIndex {
   static constexpr uint32_t kNone = UINT32_MAX;
 
@@ -35,7 +35,7 @@ struct WoundSkinIndex {
   std::vector<std::array<uint32_t, 2>> edges;           ///< lower vertex first
   std::vector<std::array<uint32_t, 3>> triangle_edges;  ///< 01, 12, 20
   std::vector<std::array<uint32_t, 2>> edge_triangles;  ///< [edges] the first two that have it, or kNone
-  NumberLists of_cells;                                 ///< triangles that lie in a cell, by its lowest corner's slot
+  NumberLists of_cells;                                 ///< triangles in a cell, by its lowest corner's slot
   NumberLists cells_of;                                 ///< those cells, by triangle
   NumberLists of_slots;                                 ///< vertices that depend on springs of a slot
   double longest = 0;                                   ///< edge, in cells

@@ -13,20 +13,21 @@ namespace {
 
 constexpr uint32_t kNone = WoundMesh::kNone;
 
-/// The number of the cut cell there, or kNone.
+/// Returns the number of the cut cell there, or kNone.
 uint32_t cellAt(const CutCells& cells, const Vector3i& at) {
   const int64_t lowest = cells.slotAt(at);
   if (lowest < 0 || cells.find(static_cast<uint32_t>(lowest)) == nullptr) return kNone;
   return cells.numberOf(static_cast<uint32_t>(lowest));
 }
 
-/// The four cells around the spring from a cell's lowest corner along an axis, counter-clockwise from its far end.
+/// Returns the four cells around the spring from a cell's lowest corner along an axis, counter-clockwise from its far
+/// end.
 std::array<Vector3i, 4> cellsAround(const Vector3i& at, int axis) {
   const Vector3i u = Vector3i::Unit((axis + 1) % 3), v = Vector3i::Unit((axis + 2) % 3);
   return {at, at - u, at - u - v, at - v};
 }
 
-/// Across the wound, from the side of a component: the sum of its cut edges.
+/// Returns the direction across the wound from the side of a component: the sum of its cut edges.
 Vector3d outwardOf(const CutCell& cut, uint8_t component) {
   Vector3d outward = Vector3d::Zero();
   for (int e = 0; e < 12; ++e) {
@@ -66,7 +67,7 @@ uint32_t WoundWalls::newVertex(const WoundVertex& vertex, uint32_t cell) {
   return number;
 }
 
-/// Which node's side a point's vertex lies on, and the way from there. @returns whether that has changed
+/// Finds the node and the outward direction from it for a point's vertex. @returns whether that has changed
 bool WoundWalls::place(uint32_t v, const CutCell& cut, uint8_t component) {
   WoundVertex& vertex = vertices_[v];
   const Vector3d point = firstPlace(v);
@@ -103,13 +104,13 @@ uint32_t WoundWalls::lipVertex(uint32_t skin_vertex) {
   return known;
 }
 
-/// Before points give way.
+/// Returns the place of a vertex before points are relaxed.
 Vector3d WoundWalls::firstPlace(uint32_t vertex) const {
   const uint32_t cell = cell_of_[vertex];
   return cell == kNone ? vertices_[vertex].point : points_[cell].at[0];
 }
 
-/// What a triangle at these corners has to do with.
+/// Notes what depends on a triangle's corners.
 void WoundWalls::noteCorners(uint32_t triangle) {
   for (const uint32_t vertex : mesh_.cornersOf(triangle)) {
     to_shade_.note(vertex, mark_);
@@ -125,7 +126,7 @@ void WoundWalls::dropTriangle(uint32_t& known) {
   known = kNone;
 }
 
-/// Of quads and fans. @param known  what was there; is now, unless two corners are one
+/// Sets a triangle of a quad or fan. @param known  the old one; becomes the new one, unless two corners are equal
 void WoundWalls::setTriangle(const std::array<uint32_t, 3>& corners, uint64_t order, uint32_t& known) {
   if (known != kNone && mesh_.isThis(known, corners, order)) return;
   dropTriangle(known);
@@ -135,8 +136,8 @@ void WoundWalls::setTriangle(const std::array<uint32_t, 3>& corners, uint64_t or
   for (const uint32_t vertex : corners) touched_.note(vertex, mark_);
 }
 
-/// Does the spring from a node along an axis cross the wound inside the tissue? Not where the lattice ends: there the
-/// skin does.
+/// Returns whether the spring from a node along an axis crosses the wound inside the tissue. At the end of the lattice
+/// the surface mesh does.
 bool WoundWalls::isInside(uint32_t slot, int axis) const {
   const Lattice& lattice = cells_->lattice();
   const Vector3i at = lattice.nodeAt(slot);
@@ -150,7 +151,7 @@ bool WoundWalls::isInside(uint32_t slot, int axis) const {
   return (1 - share) * lattice.depth_m[slot] + share * lattice.depth_m[far] > 0;
 }
 
-/// The mean of where springs inside the tissue and the skin are cut.
+/// Computes a cell's point, the mean of the cuts of springs inside the tissue and of the surface mesh.
 void WoundWalls::findPoint(uint32_t number) {
   const CutCell& cell = cells_->cells()[number];
   Vector3d sum = Vector3d::Zero();
@@ -195,7 +196,7 @@ void WoundWalls::findPoint(uint32_t number) {
   }
 }
 
-/// Of cells that have changed, or in which lips have, or springs between them and such.
+/// Computes the points of cells in which springs or lips have changed.
 void WoundWalls::findPoints() {
   for (const uint32_t lowest : cells_->changedCells()) {
     if (cells_->numberOf(lowest) != kNone) cells_changed_.note(cells_->numberOf(lowest), mark_);
@@ -218,7 +219,7 @@ void WoundWalls::findPoints() {
 
 void WoundWalls::addQuad(uint32_t number, int axis) {
   const CutCell& cell = cells_->cells()[number];
-  std::array<std::array<uint32_t, 3>, 4> now{};  // of no area: none
+  std::array<std::array<uint32_t, 3>, 4> now{};  // without area: no triangle
   if ((cell.cut >> (4 * axis) & 1U) != 0 && isInside(cell.slots[0], axis)) {
     const uint32_t low = cell.slots[0];
     const auto high = static_cast<uint32_t>(cells_->slotAt(cell.at + Vector3i::Unit(axis)));
@@ -244,7 +245,7 @@ void WoundWalls::addQuad(uint32_t number, int axis) {
   }
 }
 
-/// Around springs beside which cells have changed.
+/// Adds quads around springs next to changed cells.
 void WoundWalls::addQuads() {
   for (const uint32_t number : cells_changed_.list) {
     const Vector3i at = cells_->cells()[number].at;
@@ -260,7 +261,7 @@ void WoundWalls::addQuads() {
   for (const uint32_t quad : quads_to_make_.list) addQuad(quad / 3, static_cast<int>(quad % 3));
 }
 
-/// Are the triangles of a quad better shaped with the diagonal from its second corner?
+/// Returns whether the triangles of a quad have a better shape with the diagonal from its second corner.
 bool WoundWalls::isBetterAcross(const std::array<uint32_t, 4>& around) const {
   std::array<Vector3d, 4> at;
   Vector3d outward = Vector3d::Zero();
@@ -272,13 +273,13 @@ bool WoundWalls::isBetterAcross(const std::array<uint32_t, 4>& around) const {
   return std::min(area(1, 2, 3), area(1, 3, 0)) > std::min(area(0, 1, 2), area(0, 2, 3));
 }
 
-/// The component of a node in a cut cell.
+/// Returns the component of a node in a cut cell.
 uint8_t WoundWalls::sideOf(uint32_t cell, uint32_t node) const {
   const CutCell& cut = cells_->cells()[cell];
   return cut.component[static_cast<size_t>(cut.cornerOf(node))];
 }
 
-void WoundWalls::forget() {
+void WoundWalls::clear() {
   mesh_.clear();
   vertices_.clear();
   cell_of_.clear();
@@ -290,7 +291,7 @@ void WoundWalls::forget() {
     list->clear();
 }
 
-/// For as many cells and lips as there are.
+/// Reserves memory for the current number of cells and lips.
 void WoundWalls::makeRoom() {
   const auto room = [](auto& list, size_t count, const auto& with) {
     keepRoom(list, count);
@@ -313,7 +314,7 @@ void WoundWalls::update(const CutCells& cells, const WoundSkin& skin) {
   skin_ = &skin;
   changed_.clear();
   points_tried_ = 0;
-  if (cells.isWhole()) return forget();
+  if (cells.isWhole()) return clear();
   ++mark_;
   for (Seen* seen : {&fans_to_make_, &quads_to_make_, &points_to_find_, &cells_changed_, &touched_, &around_hole_,
                      &to_shade_, &to_bind_})

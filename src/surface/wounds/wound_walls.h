@@ -13,46 +13,49 @@
 
 namespace viscera {
 
-/// The walls of the wounds of one body (docs/wounds.md 3): surface nets of its cut springs, sewn to the lips of the
-/// skin. A cut cell has one point, the mean of where its springs and the skin in it are cut, and a vertex there for
-/// each side; a cut spring inside the tissue has two quads between the points of the four cells around it; a lip is
-/// joined to its cell's point, and where lips go on in another cell, both cells' points to the vertex between; small
-/// rings that this leaves are filled. Points then give way until no triangle of theirs is folded or as good as a line.
-/// Both sides are in one place at rest, and every edge has one triangle on either hand. An update makes again what lies
-/// around the cells and lips that have changed, and goes on as far as that changes what is beside it; what comes of it
-/// does not depend on the updates before. All memory is kept.
+/// The walls of the wounds of one body (docs/surface.md): surface nets of its cut springs, joined to the lips of the
+/// surface mesh.
+///
+/// A cut cell has one point, the mean of where its springs and the surface mesh in it are cut, and a vertex there for
+/// each side. A cut spring inside the tissue has two quads between the points of the four cells around it. A lip is
+/// joined to its cell's point. Where lips continue in another cell, both cells' points are joined to the vertex
+/// between. Small rings that remain open are filled. Then points are relaxed until none of their triangles is folded or
+/// degenerate. Both sides coincide at rest, and every edge has one triangle on either side.
+///
+/// An update recomputes what is around changed cells and lips, and continues as far as that changes neighbours. Its
+/// result does not depend on earlier updates. It keeps its memory for reuse.
 class WoundWalls {
  public:
-  /// After the skin's own update of the same cells.
+  /// Updates the walls, after the surface mesh has been updated for the same cells.
   void update(const CutCells& cells, const WoundSkin& skin);
 
-  /// [3 * n] indices into vertices().
+  /// Returns triangles as indices [3 * n] into vertices().
   const std::vector<uint32_t>& triangles() const { return mesh_.corners(); }
-  /// Where they are listed they stay; some are of no triangle any more.
+  /// Returns the vertices. Their indices do not change; some are unused.
   const std::vector<WoundVertex>& vertices() const { return vertices_; }
-  /// Of them those that the last update has changed or may have bound to other nodes.
+  /// Returns the vertices that the last update has changed or may have bound to other nodes.
   const std::vector<uint32_t>& changed() const { return changed_; }
-  /// The vertex that goes with one of the skin's added() ones, or WoundMesh::kNone.
+  /// Returns the vertex that belongs to one of WoundSkin::added(), or WoundMesh::kNone.
   uint32_t alongLip(uint32_t added) const { return added < lip_vertices_.size() ? lip_vertices_[added] : kNone; }
-  /// Wounds that cannot be closed since they run out of the skin at a border of it.
+  /// Returns the number of wounds that stay open because they reach a border of the surface mesh.
   size_t holes() const { return hole_ends_.size(); }
-  /// How many points the last update has asked for a better place, as often as it did.
+  /// Returns how many points the last update has relaxed, counted once per try.
   size_t pointsTried() const { return points_tried_; }
   size_t trianglesMade() const { return mesh_.made(); }  ///< by all updates
 
  private:
   static constexpr uint32_t kNone = WoundMesh::kNone;
-  static constexpr size_t kRounds = 3;  ///< in which points give way: those around one move too
+  static constexpr size_t kRounds = 3;  ///< of relaxation: points around one move too
 
   struct Point {
     std::array<Vector3d, kRounds + 1> at;  ///< before, and after each round
-    uint32_t marks = 0;                    ///< how many the first is the mean of
+    uint32_t marks = 0;                    ///< number of cuts that the first is the mean of
     uint64_t order = 0;                    ///< the cell's
   };
   /// The triangles of a lip.
   struct Fan {
-    uint32_t triangle = kNone;          ///< of the skin; kNone: there is no lip
-    uint32_t cell = kNone;              ///< the number of its cell, in whose list it is; kNone where it lies in none
+    uint32_t triangle = kNone;          ///< of the surface mesh; kNone: there is no lip
+    uint32_t cell = kNone;              ///< the number of its cell, which lists it; kNone where it is in none
     uint32_t next = kNone;              ///< of that cell's fans
     uint32_t from = kNone, to = kNone;  ///< vertices of its ends
     std::array<uint32_t, 2> triangles{kNone, kNone};
@@ -60,7 +63,7 @@ class WoundWalls {
   struct Shape {
     double worst = 1, all = 1;  ///< of the triangles of a point
   };
-  /// A triangle around a point, as it looks from there.
+  /// A triangle around a point, seen from the point.
   struct Facet {
     uint64_t order = 0;
     Vector3d b, c, outward;
@@ -73,14 +76,14 @@ class WoundWalls {
       return from_order < other.from_order || (from_order == other.from_order && to_order < other.to_order);
     }
   };
-  /// What was seen in this update.
+  /// Set of numbers seen in this update.
   struct Seen {
     std::vector<uint32_t> marks, list;
     void note(uint32_t i, uint32_t mark);
     bool has(uint32_t i, uint32_t mark) const { return i < marks.size() && marks[i] == mark; }
   };
 
-  void forget();
+  void clear();
   void makeRoom();
   // Points, quads and fans.
   void takeFans();
@@ -110,7 +113,7 @@ class WoundWalls {
   void addFill(uint32_t a, uint32_t b, uint32_t c);
   void fillFromMiddle(const uint32_t* ring, size_t count);
   bool isEdge(uint32_t a, uint32_t b) const;
-  // Points give way.
+  // Relaxation of points.
   void relax();
   void askAround(uint32_t vertex);
   void ask(uint32_t cell, size_t round);
@@ -140,8 +143,8 @@ class WoundWalls {
   uint32_t mark_ = 0;
   WoundMesh mesh_;
   std::vector<WoundVertex> vertices_;
-  std::vector<uint32_t> cell_of_;                ///< [vertices] number of the cut cell whose point it is, or kNone
-  std::vector<Vector3d> outward_;                ///< [vertices] from its side across the wound; 0 where it has two
+  std::vector<uint32_t> cell_of_;                ///< [vertices] number of the cut cell of its point, or kNone
+  std::vector<Vector3d> outward_;                ///< [vertices] direction across the wound; 0 where it has two sides
   std::vector<Point> points_;                    ///< [cells]
   std::vector<uint32_t> point_vertices_;         ///< [8 * cells] by component
   std::vector<std::array<uint32_t, 12>> quads_;  ///< [cells] triangles: 4 by axis
@@ -149,14 +152,14 @@ class WoundWalls {
   std::vector<Fan> fans_;                        ///< [6 * WoundSkin::shown()]
   std::vector<uint32_t> lip_vertices_;           ///< [WoundSkin::added()]
   std::vector<uint32_t> free_vertices_, changed_;
-  std::vector<uint32_t> hole_ends_;                       ///< where ways along holes end
+  std::vector<uint32_t> hole_ends_;                       ///< vertices where open paths end
   std::vector<std::pair<uint64_t, uint32_t>> cell_lips_;  ///< of one cell: order, fan
   Seen fans_to_make_, quads_to_make_, points_to_find_;    ///< of this update: fans, 3 * cells + axis, cells
-  Seen cells_changed_;                                    ///< their springs or their points' first places
-  Seen touched_;                                ///< vertices whose triangles, lips or first places have changed
+  Seen cells_changed_;                                    ///< with springs or first places of points that have changed
+  Seen touched_;                                ///< vertices with triangles, lips or first places that have changed
   Seen around_hole_;                            ///< and those along the holes that these belong to
   Seen to_shade_;                               ///< vertices
-  Seen to_bind_;                                ///< as well
+  Seen to_bind_;                                ///< likewise
   std::vector<std::pair<uint32_t, int>> ends_;  ///< of the edges of one vertex
   std::vector<OpenEdge> open_;                  ///< ascending
   std::vector<bool> walked_;                    ///< [open_]
@@ -165,17 +168,17 @@ class WoundWalls {
   std::array<std::vector<std::pair<uint64_t, uint32_t>>, kRounds + 1> asked_;  ///< heaps of cells by their order
   std::array<std::vector<uint32_t>, kRounds + 1> asked_marks_;                 ///< [cells]
   std::vector<Facet> facets_;
-  std::vector<std::pair<uint64_t, uint32_t>> ring_, around_;  ///< vertices, triangles: after their order
+  std::vector<std::pair<uint64_t, uint32_t>> ring_, around_;  ///< vertices, triangles: by their order
   size_t points_tried_ = 0;
 };
 
-/// The lips that begin or end at a vertex of the skin: visit(lip).
+/// Visits the lips that begin or end at a vertex of the surface mesh: visit(lip).
 template <class Visit>
 void WoundWalls::forEachLipAt(uint32_t skin_vertex, Visit visit) const {
   const auto of_triangle = [&](uint32_t triangle) {
     const uint32_t shown = triangle == kNone ? kNone : skin_->shownOf(triangle);
     if (shown == kNone) return;
-    const ShownPieces& pieces = skin_->shown()[shown];
+    const VisiblePieces& pieces = skin_->shown()[shown];
     for (uint32_t i = 0; i < pieces.lip_count; ++i) {
       if (pieces.lips[i].from == skin_vertex || pieces.lips[i].to == skin_vertex) visit(pieces.lips[i]);
     }
@@ -185,7 +188,7 @@ void WoundWalls::forEachLipAt(uint32_t skin_vertex, Visit visit) const {
   for (const uint32_t triangle : skin_->trianglesAt(edge)) of_triangle(triangle);
 }
 
-/// The triangles at a cell's point, those between two of its vertices twice: visit(name).
+/// Visits the triangles at a cell's point: visit(name). Visits those between two of its vertices twice.
 template <class Visit>
 void WoundWalls::forEachTriangleOf(uint32_t cell, Visit visit) const {
   for (size_t component = 0; component < 8; ++component) {

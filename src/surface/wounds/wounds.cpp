@@ -9,7 +9,7 @@
 
 #include "surface/skins/keep_room.h"
 #include "surface/skins/part_colors.h"
-#include "viscera/surface/shown_mesh.h"
+#include "viscera/surface/visible_mesh.h"
 
 namespace viscera {
 
@@ -27,7 +27,7 @@ bool canBeWounded(const Body& body) {
   return body.skin.can_be_cut && !isOneToOne(body);
 }
 
-/// A binding of a body among those of all. @param slot  where the body's begin
+/// Returns a binding of a body with global slots. @param slot  first one of the body
 layout::SkinBinding numbered(uint32_t slot, layout::SkinBinding binding) {
   binding.slot0 += slot;
   binding.slot1 += slot;
@@ -69,15 +69,15 @@ Wounds::Wounds(const Model& model, const JoinedSkins& skins)
 
 void Wounds::reset() {
   springs_.clear();
-  forget();
+  clear();
   for (const Place& place : places_) {
     if (place.wound) place.wound->makeWhole();
   }
   shown_ = next();
 }
 
-/// Skins are whole again.
-void Wounds::forget() {
+/// Makes all surface meshes whole again.
+void Wounds::clear() {
   for (const Place& place : places_) {
     if (!place.wound) continue;
     for (const uint32_t own : place.wound->rebound())
@@ -88,19 +88,19 @@ void Wounds::forget() {
   added_rests_.clear();
 }
 
-/// One that is not shown any more, with its memory, or a new one; all bodies in it are whole.
-std::shared_ptr<ShownWounds> Wounds::next() {
-  const auto is_free = [](const std::shared_ptr<ShownWounds>& wounds) { return wounds.use_count() == 1; };
+/// Returns a result that is not shown any more, with its memory, or a new one. All bodies in it are whole.
+std::shared_ptr<VisibleWounds> Wounds::next() {
+  const auto is_free = [](const std::shared_ptr<VisibleWounds>& wounds) { return wounds.use_count() == 1; };
   shown_.reset();
   auto found = std::find_if(kept_.begin(), kept_.end(), is_free);
-  if (found == kept_.end()) found = kept_.insert(kept_.end(), std::make_shared<ShownWounds>());
-  std::atomic_thread_fence(std::memory_order_acquire);  // who let go of it has read it
-  ShownWounds& out = **found;
+  if (found == kept_.end()) found = kept_.insert(kept_.end(), std::make_shared<VisibleWounds>());
+  std::atomic_thread_fence(std::memory_order_acquire);  // pairs with the release of the last user
+  VisibleWounds& out = **found;
   out.revision = revisions_++;
   out.vertices = bindings_.size();
   out.holes = out.slivers = 0;
   out.bodies.resize(places_.size());
-  for (ShownWounds::OfBody& body : out.bodies) {
+  for (VisibleWounds::OfBody& body : out.bodies) {
     body.wounded = false;
     body.skin.clear();
     body.walls.clear();
@@ -109,8 +109,9 @@ std::shared_ptr<ShownWounds> Wounds::next() {
   return *found;
 }
 
-/// Vertices of a wound are the body's own, then those that it has added, which follow all others here.
-void Wounds::appendTriangles(const Place& place, const BodyWound& wound, ShownWounds::OfBody& out) const {
+/// Appends triangles with global vertex numbers: a wound numbers the body's own vertices first, then those it has
+/// added, which follow all others here.
+void Wounds::appendTriangles(const Place& place, const BodyWound& wound, VisibleWounds::OfBody& out) const {
   const auto own = static_cast<uint32_t>(wound.ownVertices()), first_added = static_cast<uint32_t>(bindings_.size());
   const auto number = [&](const std::vector<uint32_t>& triangles, std::vector<uint32_t>& all) {
     keepRoom(all, triangles.size());
@@ -124,7 +125,7 @@ void Wounds::appendTriangles(const Place& place, const BodyWound& wound, ShownWo
   out.skin_sources = wound.skinSources();
 }
 
-void Wounds::append(Place& place, ShownWounds::OfBody& out) {
+void Wounds::append(Place& place, VisibleWounds::OfBody& out) {
   const BodyWound& wound = *place.wound;
   const auto own = static_cast<uint32_t>(wound.ownVertices());
   appendTriangles(place, wound, out);
@@ -152,7 +153,7 @@ void Wounds::addRest(const Place& place, const WoundVertex& vertex, double depth
   added_rests_.push_back({at.x(), at.y(), at.z(), static_cast<float>(depth_m)});
 }
 
-/// Are these the springs of the last update? A blade that moves through the air changes none.
+/// Returns whether these are the springs of the last update. A blade in the air changes none.
 bool Wounds::isKnown(const layout::NodeBits* nodes) {
   const bool first = springs_.empty();
   springs_.resize(slots_);
@@ -168,8 +169,8 @@ bool Wounds::isKnown(const layout::NodeBits* nodes) {
 
 bool Wounds::update(const CutSprings& cuts) {
   if (isKnown(cuts.nodes.data())) return false;
-  forget();
-  const std::shared_ptr<ShownWounds> now = next();
+  clear();
+  const std::shared_ptr<VisibleWounds> now = next();
   const float* const axial_cut = cuts.axial_cut.empty() ? nullptr : cuts.axial_cut.data();
   for (size_t b = 0; b < places_.size(); ++b) {
     Place& place = places_[b];

@@ -14,56 +14,55 @@
 
 namespace viscera {
 
-/// What cuts have made of the skins of bodies on lattices: not changed while anybody shows it, so that who does
-/// shares it.
-struct ShownWounds {
-  /// Triangles of one body, [3 * n] vertex indices as in JoinedSkins, and beyond its vertices those added by cuts.
+/// Surface meshes of bodies on lattices after cuts. It does not change while anyone uses it, so users share it.
+struct VisibleWounds {
+  /// Triangles of one body, [3 * n] vertex indices as in JoinedSkins; vertices that cuts have added follow all others.
   struct OfBody {
-    bool wounded = false;  ///< else its skin is whole, and the lists are empty
+    bool wounded = false;  ///< else its surface mesh is whole, and the lists are empty
     std::vector<uint32_t> skin, walls;
-    std::vector<uint32_t> skin_sources;  ///< [n] which triangle of the body's whole skin each of `skin` is a piece of
+    std::vector<uint32_t> skin_sources;  ///< [n] triangle of the body's uncut mesh that each of `skin` is a piece of
   };
   uint64_t revision = 0;
-  size_t vertices = 0;         ///< of the whole skins and added ones
-  size_t holes = 0;            ///< wounds left open, as they run out of a skin at a border of it
-  size_t slivers = 0;          ///< edges of skins of which a piece between two wounds is not shown
+  size_t vertices = 0;         ///< of the uncut meshes and added ones
+  size_t holes = 0;            ///< wounds left open because they reach a border of the mesh
+  size_t slivers = 0;          ///< edges with a piece between two wounds that is not shown
   std::vector<OfBody> bodies;  ///< in the model's order
 };
 
-/// The wounds of a model's bodies on lattices that can be cut (docs/wounds.md). Vertices and slots are numbered
-/// through as in JoinedSkins.
+/// The wounds of a model's bodies on lattices that can be cut (docs/surface.md). Vertices and slots are numbered
+/// globally as in JoinedSkins.
 class Wounds {
  public:
   /// @param model  must outlive this   @param skins  of this model
   Wounds(const Model& model, const JoinedSkins& skins);
-  /// Can any body get one?
+  /// Returns whether any body can have one.
   static bool possible(const Model& model);
 
-  /// @returns whether anything is cut now that was not: else nothing has changed
+  /// Updates the wounds. @returns whether anything is newly cut; if not, nothing has changed
   bool update(const CutSprings& cuts);
   void reset();
 
-  const std::shared_ptr<const ShownWounds>& shown() const { return shown_; }
+  const std::shared_ptr<const VisibleWounds>& shown() const { return shown_; }
   const std::vector<layout::SkinBinding>& bindings() const { return bindings_; }  ///< [shown()->vertices]
   const std::vector<uint32_t>& colors() const { return colors_; }                 ///< [shown()->vertices] RGBA8
-  /// [added] of the vertices beyond the whole skins', as JoinedSkins::rests; w: depth below the skin [m]
+  /// Returns rest positions of added vertices [added], as JoinedSkins::rests; w: depth below the surface [m]
   const std::vector<layout::vec4>& addedRests() const { return added_rests_; }
 
  private:
   struct Place {
-    std::unique_ptr<BodyWound> wound;  ///< none where the body is no lattice or cannot be cut
-    uint32_t slot = 0, vertex = 0;     ///< where the body's begin
+    std::unique_ptr<BodyWound> wound;  ///< null where the body is no lattice or cannot be cut
+    uint32_t slot = 0, vertex = 0;     ///< first ones of the body
     Vector3d color, origin_m;
     double spacing_m = 1;
     std::unique_ptr<WoundDepths> depths;  ///< where there is a wound
-    std::vector<double> wall_depths_m;    ///< [wall vertices] of it
+    std::vector<double> wall_depths_m;    ///< [wall vertices] of wound
     uint32_t number = 0;                  ///< of the body
   };
-  void appendTriangles(const Place& place, const BodyWound& wound, ShownWounds::OfBody& out) const;
-  void append(Place& place, ShownWounds::OfBody& out);
+  void appendTriangles(const Place& place, const BodyWound& wound, VisibleWounds::OfBody& out) const;
+  void append(Place& place, VisibleWounds::OfBody& out);
   void addRest(const Place& place, const WoundVertex& vertex, double depth_m);
-  void forget();
-  std::shared_ptr<ShownWounds> next();
+  void clear();
+  std::shared_ptr<VisibleWounds> next();
   bool isKnown(const layout::NodeBits* nodes);
 
   size_t slots_ = 0;
@@ -72,8 +71,8 @@ class Wounds {
   std::vector<layout::SkinBinding> whole_bindings_, bindings_;
   std::vector<uint32_t> whole_colors_, colors_;
   std::vector<layout::vec4> added_rests_;
-  std::vector<std::shared_ptr<ShownWounds>> kept_;  ///< what was shown: used again when not shown any more
-  std::shared_ptr<const ShownWounds> shown_;
+  std::vector<std::shared_ptr<VisibleWounds>> kept_;  ///< results that were shown, for reuse when nothing shows them
+  std::shared_ptr<const VisibleWounds> shown_;
   uint64_t revisions_ = 1;
 };
 

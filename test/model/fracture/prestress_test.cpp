@@ -13,8 +13,8 @@
 namespace viscera::test {
 namespace {
 
-constexpr double kBalanced = 1e-6;  // forces of springs as float32 rest lengths leave them, of the largest
-constexpr double kExact = 1e-6;     // of strains: stiffness is float32
+constexpr double kBalanced = 1e-6;  // residual forces of springs over the largest, for float32 rest lengths
+constexpr double kExact = 1e-6;     // for strains: stiffness is float32
 constexpr double kHalf_m = 0.1, kThick_m = 0.005, kRim_m = 0.002;
 
 std::vector<FixedConfig> heldAround(double half_x_m, double half_y_m) {
@@ -28,7 +28,7 @@ std::vector<FixedConfig> heldAround(double half_x_m, double half_y_m) {
   return out;
 }
 
-/// Held all around: strains in its plane have nowhere to go.
+/// Returns a slab that is fixed all around: strains in its plane cannot relax.
 BodyConfig heldSlab(double nu, double strain) {
   BodyConfig config = boxConfig({2 * kHalf_m, 2 * kHalf_m, kThick_m}, kThick_m);
   config.material.poisson_ratio = nu;
@@ -37,7 +37,7 @@ BodyConfig heldSlab(double nu, double strain) {
   return config;
 }
 
-/// Skin that wants to shrink on fat that does not, in one mesh; held all around.
+/// Returns skin that would shrink on fat that would not, in one mesh; fixed all around.
 BodyConfig skinOnFat(double border_m, double nu) {
   TriangleMesh fat = boxMesh(Vector3f(-0.03f, -0.02f, 0), Vector3f(0.03f, 0.02f, static_cast<float>(border_m)));
   TriangleMesh skin = boxMesh(Vector3f(-0.03f, -0.02f, static_cast<float>(border_m)), Vector3f(0.03f, 0.02f, 0.02f));
@@ -52,7 +52,7 @@ BodyConfig skinOnFat(double border_m, double nu) {
   return config;
 }
 
-/// Of the cell whose lowest corner is a node, over its mu.
+/// Returns the stress over mu of the cell with this node as its lowest corner.
 Eigen::Matrix3d stressAt(const Body& body, const Vector3i& node) {
   const std::array<float, 6>& six = body.prestress.at(static_cast<size_t>(body.lattice.slotAt(node)));
   Eigen::Matrix3f out;
@@ -60,7 +60,7 @@ Eigen::Matrix3d stressAt(const Body& body, const Vector3i& node) {
   return out.cast<double>();
 }
 
-/// Largest force on a free node where it is, as kernels have it, over the largest of springs.
+/// Returns the largest force on a free node at its position, computed as in the kernels, over the largest spring force.
 double unbalanced(const Body& body) {
   const NetworkLinks links = linksOf(*body.network);
   double worst = 0, largest = 0;
@@ -97,9 +97,10 @@ TEST(Prestress, WithoutItTissueIsAtRestWhereItIs) {
   for (const layout::Link& link : linksOf(*body.network).links) EXPECT_EQ(link.prestrain_m2, 0);
 }
 
-/// In its plane the stress is that of the strain asked for while the slab is free to thin: E e / (1 - nu), whatever nu.
+/// In its plane the stress is that of the given strain while the slab is free to become thinner: E e / (1 - nu), for
+/// any nu.
 TEST(Prestress, AHeldSlabHasTheStressOfPlaneStress) {
-  constexpr double kStrain = 0.01;  // so small that the law is linear
+  constexpr double kStrain = 0.01;  // small enough for the law to be linear
   for (const double nu : {0.0, 0.25, 0.4, 0.45}) {
     SCOPED_TRACE(nu);
     const Body body = build(heldSlab(nu, kStrain));
@@ -107,7 +108,8 @@ TEST(Prestress, AHeldSlabHasTheStressOfPlaneStress) {
     const Vector3i middle(body.lattice.nodes_per_axis.x() / 2, body.lattice.nodes_per_axis.y() / 2, 0);
     const Eigen::Matrix3d stress = stressAt(body, middle);
     const double law = body.material.young_modulus_pa * kStrain / (1 - nu) / mu;
-    constexpr double kNearRim = 0.04;  // which cannot thin: a zone of about the thickness, of half a width of 20
+    // The rim cannot become thinner: a zone as wide as the thickness, of half a width of 20.
+    constexpr double kNearRim = 0.04;
     EXPECT_NEAR(stress(0, 0), law, kNearRim * law);
     EXPECT_NEAR(stress(1, 1), law, kNearRim * law);
     EXPECT_NEAR(stress(2, 2), 0, kNearRim * law);
@@ -125,11 +127,11 @@ TEST(Prestress, ASheetThatIsHeldKeepsAllOfIt) {
   config.fixed = heldAround(0.026, 0.021);
   const Body body = build(config);
   EXPECT_LT(unbalanced(body), kBalanced);
-  EXPECT_TRUE(contains(noteOf(body), "100 % of the strain")) << noteOf(body);
+  EXPECT_TRUE(contains(noteOf(body), "100 % of the requested strain")) << noteOf(body);
   for (const NetworkSpring& spring : body.network->springs) {
     const Vector3d way = body.network->positions_m[spring.b] - body.network->positions_m[spring.a];
     const Vector3d n = way.normalized();
-    const double strain = 0.02 * n.x() * n.x() + 0.1 * n.y() * n.y();  // turned by a quarter
+    const double strain = 0.02 * n.x() * n.x() + 0.1 * n.y() * n.y();  // rotated by a quarter turn
     EXPECT_NEAR(spring.rest_length_m / way.norm(), 1 - strain, kExact);
   }
 }
@@ -139,7 +141,7 @@ TEST(Prestress, WhatNothingHoldsKeepsNone) {
   BodyConfig config = boxConfig({0.04, 0.04, 0.04}, 0.01);
   config.material.prestress.strain = 0.1;
   const Body body = build(config);
-  EXPECT_TRUE(contains(noteOf(body), "prestress: 0 % of the strain")) << noteOf(body);
+  EXPECT_TRUE(contains(noteOf(body), "prestress: 0 % of the requested strain")) << noteOf(body);
   for (const std::array<float, 6>& six : body.prestress)
     for (const float s : six) EXPECT_NEAR(s, 0, kNone);
 }
@@ -151,8 +153,8 @@ TEST(Prestress, SkinPullsAtFatThatIsAtRestAndBothBalance) {
       SCOPED_TRACE(testing::Message() << border_m << " m, nu " << nu);
       const Body body = build(skinOnFat(border_m, nu));
       const double of_fat = stressAt(body, {6, 4, 1})(0, 0), of_skin = stressAt(body, {6, 4, 3})(0, 0);
-      EXPECT_GT(of_skin, 0.02);                    // skin is pulled
-      EXPECT_LT(std::abs(of_fat), 0.2 * of_skin);  // over mu, each its own
+      EXPECT_GT(of_skin, 0.02);                    // skin is under tension
+      EXPECT_LT(std::abs(of_fat), 0.2 * of_skin);  // each over its own mu
     }
   }
 }

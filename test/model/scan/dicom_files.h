@@ -11,7 +11,8 @@
 #include "model/scan/scan_files.h"
 #include "support/source_folder.h"
 
-// DICOM by the program viscera-dicom, which is built where GDCM is; files that tests make: explicit VR, little endian.
+// DICOM by the program viscera-dicom, which is built where GDCM is available; files made by tests: explicit VR, little
+// endian.
 namespace viscera::test::dicom {
 
 class Dicom : public ::testing::Test {
@@ -54,7 +55,7 @@ inline std::string head() {
   return std::string(128, '\0') + "DICM" + element(2, 0, "UL", number(syntax.size(), 4)) + syntax;
 }
 
-/// Of a slice: that of the volume's with a position of its own along the third axis.
+/// Returns the position of a slice: that of the volume with a coordinate of its own along the third axis.
 inline std::string position(const TestVolume& v, double place) {
   const Vector3d at = v.lps.col(3) + place * v.lps.col(2);
   std::ostringstream text;

@@ -5,7 +5,7 @@
 #include "model/scan/dicom_files.h"
 #include "model/scan/labels.h"
 
-// DICOM files of several frames: enhanced pictures and segments.
+// DICOM files of several frames: enhanced images and segments.
 namespace viscera {
 namespace {
 
@@ -15,8 +15,8 @@ using test::TestVolume;
 constexpr const char* kEnhancedCt = "1.2.840.10008.5.1.4.1.1.2.1";
 constexpr const char* kSegmentation = "1.2.840.10008.5.1.4.1.1.66.4";
 
-/// A file of frames. @param groups  of each frame   @param bits  a voxel: 16, or 1 of segments
-/// @param measures  elements beside PixelSpacing
+/// Returns a file of frames. @param groups  of each frame   @param bits  per voxel: 16, or 1 for segments
+/// @param measures  elements in addition to PixelSpacing
 std::string frames(const TestVolume& v, const std::string& kind, const std::string& segments,
                    const std::vector<std::string>& groups, unsigned bits, const std::string& pixels,
                    const std::string& measures = "") {
@@ -31,7 +31,7 @@ std::string frames(const TestVolume& v, const std::string& kind, const std::stri
          sequence(0x5200, 0x9230, groups) + element(0x7fe0, 0x10, bits > 1 ? "OW" : "OB", pixels);
 }
 
-/// @param places  of the frames, along the third axis
+/// @param places  positions of the frames along the third axis
 std::string enhanced(const TestVolume& v, const std::vector<double>& places, const std::string& pixels) {
   std::vector<std::string> groups;
   for (const double place : places)
@@ -68,7 +68,7 @@ TEST_F(Dicom, SegmentsOfBitsMayOverlap) {
   const auto group = [&](double place, unsigned value) {
     return sequence(0x20, 0x9113, {position(v, place)}) + sequence(0x62, 0xa, {element(0x62, 0xb, "US", us(value))});
   };
-  // Voxels 0 to 5 of the first slice are of 1, voxels 4 to 7 of it and 0 of the second one are of 7.
+  // Label 1: voxels 0 to 5 of the first slice. Label 7: voxels 4 to 7 of it, and voxel 0 of the second slice.
   const std::vector<std::string> groups = {group(0, 1), group(0, 7), group(1, 7)};
   const uint64_t bits = 0x3f | uint64_t{0xf0} << 12 | uint64_t{1} << 24;
   const std::string names =
@@ -94,7 +94,7 @@ TEST_F(Dicom, SegmentsOfBitsMayOverlap) {
   EXPECT_EQ(std::count(duct.labels.begin(), duct.labels.end(), 1), 5);
 }
 
-/// A file of one segment whose frames are at these heights, in steps of the volume's third axis.
+/// Returns a file of one segment with frames at these heights, in steps of the volume's third axis.
 std::string segmentAt(const TestVolume& v, const std::vector<double>& places, const std::string& measures) {
   std::vector<std::string> groups;
   for (const double place : places)

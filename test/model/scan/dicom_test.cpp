@@ -12,14 +12,14 @@
 #include "model/scan/labels.h"
 #include "model/scan/scan_files.h"
 
-// DICOM by the program viscera-dicom, which is built where GDCM is.
+// DICOM by the program viscera-dicom, which is built where GDCM is available.
 namespace viscera {
 namespace {
 
 using namespace test::dicom;
 using test::TestVolume;
 
-/// One slice, whose place is that of the volume's with a position of its own along the third axis.
+/// Returns one slice at the volume's position with a coordinate of its own along the third axis.
 std::string slice(const TestVolume& v, int k, double place, const std::string& series = "1.2.3") {
   const size_t bytes = 2 * static_cast<size_t>(v.size[0] * v.size[1]);
   return head() + element(8, 0x16, "UI", "1.2.840.10008.5.1.4.1.1.2") + element(8, 0x60, "CS", "CT") +
@@ -32,7 +32,7 @@ std::string slice(const TestVolume& v, int k, double place, const std::string& s
          element(0x7fe0, 0x10, "OW", v.bytes().substr(bytes * static_cast<size_t>(k), bytes));
 }
 
-/// A folder of slices at their places; file names run against these.
+/// Writes a folder of slices at their positions; file names have the reverse order.
 std::string series(const TestVolume& v, const std::vector<double>& places) {
   const std::string folder = test::temporaryPath("series");
   std::filesystem::remove_all(folder);
@@ -67,7 +67,7 @@ TEST_F(Dicom, MissingDoubledAndUnevenSlicesAreRefusedWithThePlace) {
   v.size[2] = 5;
   v.fill();
   expectError(series(v, {0, 1, 2, 4, 5}), "slices are missing, 1, between 36.00 and 42.00 mm");
-  expectError(series(v, {0, 1, 2, 2, 3}), "there twice, at 36.00 mm");
+  expectError(series(v, {0, 1, 2, 2, 3}), "two slices have the same position, 36.00 mm");
   expectError(series(v, {0, 1, 2, 3.3, 4}), "uneven slices");
   expectError(series(v, {0}), "SliceThickness");
 }
@@ -81,7 +81,8 @@ TEST_F(Dicom, SeveralSeriesAreListedAndChosen) {
   EXPECT_EQ(list[1].uid, "1.2.4");
   EXPECT_EQ(list[1].description, "made 1.2.4");
   EXPECT_EQ(list[1].files, 2);
-  expectError(folder, "accepted: all, which joins them, or a number or UID of: 0: 1.2.3, CT, 2 files, made 1.2.3; 1: ");
+  expectError(folder,
+              "accepted: all, which joins them, or the number or UID of one: 0: 1.2.3, CT, 2 files, made 1.2.3; 1: ");
   ScanOptions options;
   for (const char* chosen : {"1", "1.2.4"}) {
     options.series = chosen;
@@ -116,11 +117,11 @@ TEST_F(Dicom, MissingSlicesAreFilledWhereThatIsAsked) {
   const std::vector<float> all = test::allOf(series(v, {0, 1, 2, 5, 6}), options);
   const size_t pixels = 12;
   ASSERT_EQ(all.size(), 7 * pixels);
-  const int from[] = {0, 1, 2, 2, 3, 3, 4};  // which of the five each is
+  const int from[] = {0, 1, 2, 2, 3, 3, 4};  // index of the source slice of each
   for (size_t n = 0; n < all.size(); ++n)
     ASSERT_EQ(all[n], 2 * v.voxels[static_cast<size_t>(from[n / pixels]) * pixels + n % pixels] - 3) << n;
   ASSERT_EQ(notes.size(), 1U);
-  EXPECT_NE(notes[0].find("2 missing slices, of 7, are like the nearest"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[0].find("2 missing slices, of 7, repeat the nearest slice"), std::string::npos) << notes[0];
 }
 
 TEST_F(Dicom, MosaicsAreNamed) {
@@ -129,7 +130,7 @@ TEST_F(Dicom, MosaicsAreNamed) {
   std::string mosaic = slice(v, 0, 0);
   mosaic.insert(head().size(), element(8, 8, "CS", "ORIGINAL\\PRIMARY\\M\\ND\\MOSAIC"));
   test::written("series/100.dcm", mosaic);
-  expectError(folder, "100.dcm: is a mosaic of slices in one picture");
+  expectError(folder, "100.dcm: is a mosaic of slices in one image");
 }
 
 TEST_F(Dicom, ValuesInTheUpperBitsAreShifted) {
@@ -163,9 +164,9 @@ TEST_F(Dicom, WhatAFolderHasInsteadOfPicturesIsSaid) {
   test::written("disc/DICOMDIR", std::string(128, '\0') + "DICM" + element(2, 2, "UI", "1.2.840.10008.1.3.10") +
                                      element(2, 0x10, "UI", syntax) + element(4, 0x1130, "CS", "DISC"));
   expectError(folder, "DICOMDIR is the index of a medium");
-  expectError(folder, "folders in it are not read: name " + folder + "/ST0/SE1");
+  expectError(folder, "subfolders are not read; name " + folder + "/ST0/SE1");
   const std::string deflated = test::replaced(slice(TestVolume(), 0, 0), syntax + std::string(1, '\0'), syntax + ".99");
-  expectError(test::written("deflated.dcm", deflated), "deflated.dcm is deflated as a whole");
+  expectError(test::written("deflated.dcm", deflated), "deflated.dcm is a deflated file");
 }
 
 TEST_F(Dicom, AFileThatEndsInItsHeaderIsNamed) {
@@ -212,7 +213,7 @@ TEST_F(Dicom, AProgramThatIsMissingOrSilentIsSaid) {
   const std::string killer = test::written("killer", "#!/bin/sh\nkill -ABRT $$\n");
   std::filesystem::permissions(killer, std::filesystem::perms::owner_all);
   setenv("VISCERA_DICOM", killer.c_str(), 1);
-  EXPECT_NE(test::errorOf(folder, [&] { listDicom(folder, limits); }).find("was ended by it"), std::string::npos);
+  EXPECT_NE(test::errorOf(folder, [&] { listDicom(folder, limits); }).find("crashed on it"), std::string::npos);
 }
 
 TEST_F(Dicom, RealSeriesOfJpeg2000) {
@@ -223,7 +224,7 @@ TEST_F(Dicom, RealSeriesOfJpeg2000) {
   EXPECT_NEAR(source->frame().axes(2, 2), .002, 1e-9);  // 3 mm thick, 2 mm apart
   const std::vector<float> all = test::allOf(*source);
   EXPECT_LT(*std::min_element(all.begin(), all.end()), -1000);
-  // The map of organs of the same series lies in the same box.
+  // The map of organs of the same series has the same box.
   const VolumeFrame frame = source->frame(), map = openScan(labels)->frame();
   const auto middle = [](const VolumeFrame& f) -> Vector3d {
     return f.axes * (f.size.array() - 1).matrix().cast<double>() / 2 + f.origin;

@@ -15,9 +15,10 @@ namespace {
 
 constexpr int kSide = 24;                          // voxels
 constexpr double kVoxel_m = 0.002;                 // of 2 mm
-constexpr int kLow = 4, kHigh = 20, kBorder = 12;  // of a block of labels 3 below the border and 7 above
+constexpr int kLow = 4, kHigh = 20, kBorder = 12;  // of a block with label 3 below the border and 7 above
 constexpr double kHalf_m3 = 16 * 16 * 8 * kVoxel_m * kVoxel_m * kVoxel_m;
-constexpr double kRounded = 0.01;  // of a volume: borders of a net are smooth, and keep the voxels' volume within
+// Of a volume: borders of a net are smooth, and keep the voxels' volume to this accuracy.
+constexpr double kRounded = 0.01;
 
 class LabelBody : public ::testing::Test {
  protected:
@@ -60,7 +61,7 @@ TEST_F(LabelBody, LabelsThatTouchAreOneBodyInOneSkin) {
   EXPECT_EQ(body.lattice.part_names, (std::vector<std::string>{"bone", "liver"}));
   EXPECT_EQ(openEdges(body.skin.mesh), 0u);
   EXPECT_NEAR(signedVolume(body.skin.mesh), 2 * kHalf_m3, kRounded * 2 * kHalf_m3);
-  // The border between them is no skin: nothing of it lies amid the block.
+  // The border between them is not part of the surface mesh: no vertex is inside the block.
   const Vector3d middle(-12 * kVoxel_m, 12 * kVoxel_m, (kBorder - 0.5) * kVoxel_m);
   for (const Vector3f& p : body.skin.mesh.positions_m)
     EXPECT_GT((p.cast<double>() - middle).cwiseAbs().maxCoeff(), 6 * kVoxel_m) << p.transpose();
@@ -74,7 +75,7 @@ TEST_F(LabelBody, ALabelHasItsMaterialAndCellsOnTheBorderBoth) {
   for (size_t i = 0; i + 1 < body.lattice.shared.size(); i += 2) {
     const PartFill &a = body.lattice.shared[i], &b = body.lattice.shared[i + 1];
     ASSERT_EQ(a.cell, b.cell);
-    constexpr double kFull = 1e-3;  // what a cell may lack and be full
+    constexpr double kFull = 1e-3;  // a full cell may lack this share
     EXPECT_NEAR(a.fill.share + b.fill.share, fillOf(body.lattice, static_cast<uint32_t>(a.cell)).share, kFull);
   }
 }
@@ -107,7 +108,7 @@ TEST_F(LabelBody, ErrorsNameBodyFileAndWhatIsAccepted) {
   EXPECT_TRUE(
       says(refusal("scan: {file: scan.nrrd, labels: [9]}"), {"'organs'", "scan: ", "scan.nrrd", "9", "3 (bone)"}));
   EXPECT_TRUE(says(refusal("scan: {file: none.nii}"), {"'organs'", "none.nii"}));
-  EXPECT_TRUE(says(refusal("scan: {file: scan.nrrd, labels: [[3]]}"), {"labels", "list of texts"}));
+  EXPECT_TRUE(says(refusal("scan: {file: scan.nrrd, labels: [[3]]}"), {"labels", "list of strings"}));
   EXPECT_TRUE(says(refusal("scan: {file: scan.nrrd}, parts: [{part: lung}]"),
                    {"scene.yaml:1", "bodies[0].parts[0]", "'lung'", "bone, liver"}));
 }

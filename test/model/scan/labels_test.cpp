@@ -15,7 +15,7 @@ namespace {
 using test::TestVolume;
 using test::written;
 
-/// Labels 0, 10, 20, 30, 40 in order of i.
+/// Returns labels 0, 10, 20, 30, 40 in order of i.
 TestVolume organs() {
   TestVolume v;
   v.size[0] = 5;
@@ -48,12 +48,12 @@ TEST(Labels, AreRenumberedInTheOrderAskedFor) {
   options.labels = {"50"};
   EXPECT_NE(said(path, options).find("no voxel has label 50; accepted: 10, 20, 30, 40"), std::string::npos);
   options.labels = {"liver"};
-  EXPECT_NE(said(path, options).find("has no label 'liver'; accepted: 10, 20, 30, 40"), std::string::npos);
+  EXPECT_NE(said(path, options).find("there is no label 'liver'; accepted: 10, 20, 30, 40"), std::string::npos);
   options.labels = {"10", "10"};
-  EXPECT_NE(said(path, options).find("asked for twice; accepted: 10, 20"), std::string::npos);
+  EXPECT_NE(said(path, options).find("requested twice; accepted: 10, 20"), std::string::npos);
   options.labels = {"0"};
-  EXPECT_NE(said(path, options).find("is what is outside; accepted: 10, 20"), std::string::npos);
-  options.labels = {"10", " 20 "};  // as "10, 20 " on a command line is split
+  EXPECT_NE(said(path, options).find("is the background; accepted: 10, 20"), std::string::npos);
+  options.labels = {"10", " 20 "};  // split like "10, 20 " on a command line
   EXPECT_EQ(readLabels(path, options).names[2].value, 20);
 }
 
@@ -95,7 +95,7 @@ TEST(Labels, SegmentsOfSeveralLayersOverlap) {
       test::replaced(test::replaced(header, "dimension: 3", "dimension: 4"), "kinds: domain", "kinds: list domain");
   four = test::replaced(four, "sizes: 5", "sizes: 2 5");
   four = test::replaced(four, "space directions: ", "space directions: none ");
-  TestVolume both;  // layers side by side: liver where i > 0, tumour where i > 2
+  TestVolume both;  // two layers: liver where i > 0, tumour where i > 2
   both.size[0] = 10;
   both.fill();
   for (size_t n = 0; n < both.voxels.size(); ++n) both.voxels[n] = n / 2 % 5 > (n % 2 ? 2 : 0);
@@ -134,7 +134,7 @@ TEST(Labels, ThatAreNearlyWholeAreRoundedWithANote) {
   EXPECT_NE(notes[0].find("near.nii: values were rounded to labels, by up to 0.000"), std::string::npos) << notes[0];
   header.put<float>(112, 0, 0.2999F);
   const std::string far = said(written("far.nii", header.bytes() + v.bytes()), {});
-  EXPECT_NE(far.find("a voxel is 11.996, 0.00"), std::string::npos) << far;
+  EXPECT_NE(far.find("a voxel has the value 11.996, 0.00"), std::string::npos) << far;
   EXPECT_NE(far.find("--window"), std::string::npos) << far;
 }
 
@@ -163,7 +163,7 @@ TEST(Labels, TheRealLiver) {
   const LabelVolume liver = readLabels(path, options);
   EXPECT_EQ(count(liver, 1), 38634U);
   EXPECT_NEAR(std::abs(liver.frame.axes.determinant()) * 1e9, 27, 0.01);  // [mm3]
-  EXPECT_EQ(readLabels(path).names.size(), 42U);                          // 41 labels, and what is outside
+  EXPECT_EQ(readLabels(path).names.size(), 42U);                          // 41 labels, and the outside
 }
 
 }  // namespace

@@ -14,15 +14,15 @@
 
 namespace viscera::test {
 
-constexpr double kTurnsDeg[3] = {30, 24, 17};      ///< of phantoms against the voxels: nothing is aligned
-constexpr double kOffCentre[3] = {.31, .17, .43};  ///< of the phantom's middle from a voxel's [voxels]
+constexpr double kTurnsDeg[3] = {30, 24, 17};      ///< rotation of phantoms against the voxels: nothing is aligned
+constexpr double kOffCentre[3] = {.31, .17, .43};  ///< offset of the phantom's centre from a voxel's [voxels]
 
-/// A shape whose surface is known everywhere. Lengths in mm.
+/// Shape with an analytical surface. Lengths in mm.
 struct NetPhantom {
   std::function<double(const Vector3d&)> distance;  ///< negative inside
   double volume;
   int euler;
-  Vector3d half;                                ///< of a box that holds it
+  Vector3d half;                                ///< half edges of a box around it
   std::function<int(const Vector3d&)> label{};  ///< empty: 1 inside
 
   int labelAt(const Vector3d& p) const { return label ? label(p) : distance(p) < 0 ? 1 : 0; }
@@ -32,7 +32,7 @@ inline NetPhantom ballPhantom() {
   return {[](const Vector3d& p) { return p.norm() - 12; }, 4 * M_PI / 3 * 1728, 2, Vector3d::Constant(12)};
 }
 
-/// Radius 10, length 28.
+/// Returns a tube of radius 10 and length 28.
 inline NetPhantom tubePhantom(double wall) {
   const auto distance = [wall](const Vector3d& p) {
     const double across = std::abs(p.head<2>().norm() - 10) - wall / 2, along = std::abs(p.z()) - 14;
@@ -51,7 +51,7 @@ inline NetPhantom platePhantom(double thickness) {
   return {distance, 24 * thickness * 18, 2, {12, thickness, 9}};
 }
 
-/// Three capsules that meet.
+/// Returns the distance to three capsules that meet.
 inline double vesselDistance(const Vector3d& p) {
   const auto capsule = [&](const Vector3d& a, const Vector3d& b, double radius) {
     const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0., 1.);
@@ -64,7 +64,8 @@ inline double vesselDistance(const Vector3d& p) {
 inline NetPhantom vesselPhantom() {
   const Vector3d half(12, 8, 20);
   static const double volume = [&] {
-    constexpr double h = 0.2;  // of a lattice of samples, which are shares of their cells: 1e-3 of the volume at most
+    // Spacing of samples, which count as shares of their cells: an error of at most 1e-3 of the volume.
+    constexpr double h = 0.2;
     double sum = 0;
     for (double z = -half.z() + h / 2; z < half.z(); z += h) {
       for (double y = -half.y() + h / 2; y < half.y(); y += h) {
@@ -78,7 +79,7 @@ inline NetPhantom vesselPhantom() {
   return {vesselDistance, volume, 2, half};
 }
 
-/// Two balls of R 10 at x = -8 and 8, each ending at the plane x = 0, where they touch in a disc.
+/// Returns one of two balls of R 10 at x = -8 and 8, each ending at the plane x = 0, where they touch in a disc.
 inline NetPhantom touchingBalls(int which) {
   const double side = which == 1 ? -1 : 1;
   const auto ball = [](const Vector3d& p, double middle) { return (p - Vector3d(middle, 0, 0)).norm() - 10; };
@@ -93,7 +94,8 @@ inline NetPhantom touchingBalls(int which) {
   return out;
 }
 
-/// A frame whose voxels hold the phantom with some to spare; its axes are these, each as long as the spacing.
+/// Returns a frame with voxels around the phantom and a margin; its axes have these directions, each as long as the
+/// spacing.
 inline VolumeFrame frameAround(const NetPhantom& phantom, const Vector3d& spacing_mm, const Matrix3d& directions) {
   VolumeFrame frame;
   frame.axes = directions * (spacing_mm / 1000).asDiagonal();
@@ -114,7 +116,7 @@ inline Vector3d placeMm(const VolumeFrame& frame, const Vector3d& voxel) {
   return 1000 * (frame.axes * voxel + frame.origin);
 }
 
-/// Calls visit(voxel number, place in mm) for all voxels.
+/// Calls visit(voxel number, position in mm) for all voxels.
 template <class Visit>
 void forEachVoxel(const VolumeFrame& frame, Visit visit) {
   size_t at = 0;
@@ -131,11 +133,11 @@ inline LabelVolume sampled(const NetPhantom& phantom, const VolumeFrame& frame) 
   return volume;
 }
 
-/// How a label's surface differs from the true one. Lengths in voxels (cube root of a voxel's volume).
+/// Deviation of a label's surface from the true one. Lengths in voxels (cube root of a voxel's volume).
 struct NetScore {
   double rms = 0, largest = 0;
   double volume_percent = 0;
-  double normals_deg = 0;  ///< RMS over the area, but where the true surface has an edge
+  double normals_deg = 0;  ///< RMS over the area, except where the true surface has an edge
 };
 
 inline NetScore score(const SurfaceNet& net, uint8_t label, const NetPhantom& phantom, double voxel_mm) {
@@ -173,11 +175,11 @@ inline NetScore score(const SurfaceNet& net, uint8_t label, const NetPhantom& ph
   return out;
 }
 
-/// What the edges of a closed surface say.
+/// Topology of a closed surface, from its edges.
 struct NetTopology {
   int euler = 0;
-  size_t open = 0;      ///< edges that are not run along as often one way as the other
-  size_t touching = 0;  ///< of four triangles
+  size_t open = 0;      ///< edges with unequal numbers of triangles in both directions
+  size_t touching = 0;  ///< edges of four triangles
 };
 
 inline NetTopology topology(const TriangleMesh& mesh) {

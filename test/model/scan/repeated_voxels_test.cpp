@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kSide = 20;
 
-/// A ball of two labels, k below the middle and above.
+/// Returns a ball of two labels, below and above the middle of k.
 LabelVolume ball() {
   LabelVolume map;
   map.frame.size = Vector3i::Constant(kSide);
@@ -25,7 +25,7 @@ LabelVolume ball() {
   return map;
 }
 
-/// Every voxel so often along each axis, without the first `cut` of the result.
+/// Returns the map with every voxel repeated along each axis, without the first `cut` voxels of the result.
 LabelVolume repeated(const LabelVolume& map, const Vector3i& times, const Vector3i& cut) {
   LabelVolume out = map;
   out.labels.clear();

@@ -15,12 +15,12 @@
 #include "model/scan/scan_source.h"
 #include "viscera/math/error.h"
 
-// Small writers of the formats of scans: what tests read, they write themselves.
+// Small writers of scan formats, independent of the readers.
 namespace viscera::test {
 
 using Affine = Eigen::Matrix<double, 3, 4>;
 
-/// Signed 16-bit voxels, i fastest, and where they are in LPS [mm].
+/// Signed 16-bit voxels, i fastest, and their positions in LPS [mm].
 struct TestVolume {
   int size[3] = {4, 3, 2};
   Affine lps = (Affine() << 1, 0, 0, -10, 0, 2, 0, -20, 0, 0, 3, 30).finished();
@@ -52,7 +52,7 @@ inline std::string written(const std::string& name, const std::string& bytes) {
   return path;
 }
 
-/// As gzip, or as zlib does without a header of gzip.
+/// Compresses bytes as gzip, or as zlib without a gzip header.
 inline std::string packed(const std::string& bytes, bool gzip = true) {
   z_stream z{};
   deflateInit2(&z, 6, Z_DEFLATED, gzip ? 31 : 15, 8, Z_DEFAULT_STRATEGY);
@@ -67,7 +67,7 @@ inline std::string packed(const std::string& bytes, bool gzip = true) {
   return out;
 }
 
-/// A NIfTI header whose fields tests may spoil.
+/// NIfTI header with fields that tests may corrupt.
 class NiftiHeader {
  public:
   explicit NiftiHeader(const TestVolume& v, int version = 1, bool big = false) : second_(version == 2), big_(big) {
@@ -114,7 +114,8 @@ inline std::string row(const Affine& m, int column) {
   return text.str();
 }
 
-/// @param lines  more lines, such as keys of segments or `data file`; the volume in the space that is named
+/// Returns a NRRD header. @param lines  more lines, such as keys of segments or `data file`; the volume is in the named
+/// space
 inline std::string nrrdHeader(const TestVolume& v, const std::string& space = "left-posterior-superior",
                               const std::string& lines = "encoding: raw\n") {
   const double sign_x = space[0] == 'r' ? -1 : 1, sign_y = space.find("anterior") != std::string::npos ? -1 : 1;
@@ -145,7 +146,7 @@ inline std::string replaced(std::string text, const std::string& from, const std
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-/// All voxels, slice by slice.
+/// Returns all voxels, slice by slice.
 inline std::vector<float> allOf(SliceSource& source) {
   std::vector<float> all, slice;
   for (int k = 0; k < source.frame().size.z(); ++k) {
@@ -158,7 +159,7 @@ inline std::vector<float> allOf(const std::string& path, const ScanOptions& opti
   return allOf(*openScan(path, options));
 }
 
-/// What an error says that names the file; empty: there was none.
+/// Returns the message of an error, which must name the file; empty: there was none.
 inline std::string errorOf(const std::string& path, const std::function<void()>& act) {
   try {
     act();

@@ -7,7 +7,7 @@
 #include "model/scan/scan_files.h"
 #include "model/scan/scan_source.h"
 
-// Left stays left: one volume in every format has one frame.
+// Left stays left: one volume has the same frame in every format.
 namespace viscera {
 namespace {
 
@@ -16,7 +16,7 @@ using test::TestVolume;
 
 constexpr double kSameFrameM = 1e-6;  ///< NIfTI-1 has float32: 24 bits of 0.1 m
 
-/// One volume in every format: paths.
+/// Writes one volume in every format. Returns the paths.
 std::vector<std::string> inAllFormats(const TestVolume& v) {
   using namespace test;
   const std::string raw = v.bytes();
@@ -87,7 +87,7 @@ TEST(ScanFrame, WhatIsAtThePatientsLeftHasPositiveY) {
   TestVolume v;
   v.size[0] = 8;
   v.fill();
-  v.lps << -1, 0, 0, 3.5, 0, 1, 0, 0, 0, 0, 1, 0;  // i = 0 is furthest left
+  v.lps << -1, 0, 0, 3.5, 0, 1, 0, 0, 0, 0, 1, 0;  // i = 0 is farthest left
   for (int16_t& x : v.voxels) x = 0;
   v.at(0, 1, 1) = v.at(1, 1, 1) = 500;
   for (const std::string& path : inAllFormats(v)) {
@@ -112,13 +112,13 @@ TEST(ScanFrame, QformIsTakenWithoutSform) {
     code(false, 0);
     code(true, 1);
     for (size_t a = 0; a < 3; ++a) header.real(268, 376, a, 10.0 * double(a + 1));
-    header.real(76, 104, 0, -1);  // qfac: the third axis is turned about
+    header.real(76, 104, 0, -1);  // qfac: the third axis is reversed
     const auto source = openScan(test::written("q.nii", header.bytes() + v.bytes()));
     EXPECT_LT((source->frame().axes - columns({0, -.001, 0}, {.002, 0, 0}, {0, 0, -.003})).norm(), kSameFrameM);
     EXPECT_LT((source->frame().origin - Vector3d(.020, -.010, .030)).norm(), kSameFrameM);
-    code(false, 1);  // both, and they differ
+    code(false, 1);  // both are present, and they differ
     const std::string path = test::written("both.nii", header.bytes() + v.bytes());
-    EXPECT_NE(test::errorOf(path).find("accepted: transform, sform or qform"), std::string::npos);
+    EXPECT_NE(test::errorOf(path).find("set transform to sform or qform"), std::string::npos);
     ScanOptions told;
     told.transform = "qform";
     EXPECT_LT(openScan(path, told)->frame().axes.determinant(), 0);
@@ -143,7 +143,7 @@ TEST(ScanFrame, SformGoesBeforePixdimWithANote) {
       const auto source = openScan(test::written("pixdim.nii", header.bytes() + v.bytes()), options);
       EXPECT_LT((source->frame().axes - columns({0, .001, 0}, {-.002, 0, 0}, {0, 0, .003})).norm(), kSameFrameM);
       ASSERT_EQ(notes.size(), 1U);
-      EXPECT_NE(notes[0].find("sform of 1 x 2 x 3 mm: sform is taken"), std::string::npos) << notes[0];
+      EXPECT_NE(notes[0].find("sform has 1 x 2 x 3 mm; sform is used"), std::string::npos) << notes[0];
     }
   }
 }
@@ -221,7 +221,7 @@ TEST(ScanFrame, AFileThatDoesNotSayIsToldOrRefused) {
       test::written("scanner.nrrd",
                     test::replaced(test::nrrdHeader(v), "left-posterior-superior", "scanner-xyz") + v.bytes())};
   for (const std::string& path : paths) {
-    EXPECT_NE(test::errorOf(path).find("accepted:"), std::string::npos);
+    EXPECT_NE(test::errorOf(path).find("set axes"), std::string::npos);
     EXPECT_LT((openScan(path, told)->frame().axes - columns({0, -.001, 0}, {-.002, 0, 0}, {0, 0, .003})).norm(),
               kSameFrameM)
         << path;
@@ -232,7 +232,7 @@ TEST(ScanFrame, AFileThatDoesNotSayIsToldOrRefused) {
     }
   }
   const std::string says = test::written("says.nrrd", test::nrrdHeader(v) + v.bytes());
-  EXPECT_NE(test::errorOf(says, told).find("accepted: no key axes"), std::string::npos);
+  EXPECT_NE(test::errorOf(says, told).find("remove the key axes"), std::string::npos);
 }
 
 TEST(ScanFrame, RealVolumes) {

@@ -12,7 +12,7 @@
 #include "model/scan/scan_files.h"
 #include "model/scan/scan_source.h"
 
-// Spoilt files: one clear error each, which names the file, and no memory for what is not there.
+// Corrupt files: one clear error each, which names the file, and no memory for data that is not there.
 namespace viscera {
 namespace {
 
@@ -27,7 +27,7 @@ void scanRefusalsExpectError(const std::string& path, const std::string& what, c
   EXPECT_NE(text.find(what), std::string::npos) << path << " says: " << text << "\n  and not: " << what;
 }
 
-/// A file of NIfTI-1 that an edit spoils.
+/// Returns a NIfTI-1 file corrupted by an edit.
 template <typename Edit>
 std::string nifti(const std::string& name, Edit&& edit) {
   const TestVolume v;
@@ -59,8 +59,8 @@ TEST(ScanRefusals, PackedDataThatGoOnBeyondTheHeader) {
   const TestVolume v;
   scanRefusalsExpectError(
       written("long.nii.gz", test::packed(NiftiHeader(v).bytes() + v.bytes() + std::string(3 << 20, '\0'))),
-      "hold more than its header says");
-  test::allOf(written("two.nii.gz", test::packed(NiftiHeader(v).bytes()) + test::packed(v.bytes())));  // members of one
+      "exceed the size in its header");
+  test::allOf(written("two.nii.gz", test::packed(NiftiHeader(v).bytes()) + test::packed(v.bytes())));  // two members
 }
 
 TEST(ScanRefusals, OffsetBeyondTheEnd) {
@@ -98,12 +98,12 @@ TEST(ScanRefusals, NumbersThatAreNone) {
     scanRefusalsExpectError(nifti("p.nii",
                                   [&](auto& h) {
                                     h.template put<float>(84, 0, bad);
-                                    h.template put<int16_t>(254, 0, 0);  // the qform alone, which is made of pixdim
+                                    h.template put<int16_t>(254, 0, 0);  // only the qform, made of pixdim
                                     h.template put<int16_t>(252, 0, 1);
                                   }),
                             "accepted: 0.001 .. 100 mm");
   scanRefusalsExpectError(nifti("u.nii", [](auto& h) { h.template put<uint8_t>(123, 0, 1); }),
-                          "in the unit of xyzt_units: voxels 1000 mm apart");
+                          "in the unit of xyzt_units: voxels are 1000 mm apart");
   scanRefusalsExpectError(nifti("v.nii", [](auto& h) { h.template put<uint8_t>(123, 0, 5); }), "xyzt_units is 5");
   scanRefusalsExpectError(nifti("d0.nii", [](auto& h) { h.dim(0, 9); }), "accepted: 3 .. 7");
   scanRefusalsExpectError(nifti("d1.nii", [](auto& h) { h.dim(1, 0); }), "accepted: 1 .. 65535");
@@ -163,9 +163,9 @@ TEST(ScanRefusals, SlopesAsTheStandardSays) {
 TEST(ScanRefusals, ColoursAndKindsThatAreNotRead) {
   scanRefusalsExpectError(nifti("rgb.nii", [](auto& h) { h.template put<int16_t>(70, 0, 128); }), "colours");
   scanRefusalsExpectError(nifti("complex.nii", [](auto& h) { h.template put<int16_t>(70, 0, 32); }),
-                          "accepted: one number a voxel");
+                          "accepted: one number per voxel");
   scanRefusalsExpectError(nifti("pair.nii", [](auto& h) { h.template put<uint8_t>(345, 0, 'i'); }),
-                          "holds its data itself");
+                          "not a NIfTI file with its data inside");
   const TestVolume v;
   const std::string nrrd = test::nrrdHeader(v), mha = test::metaHeader(v);
   scanRefusalsExpectError(written("k.nrrd", test::replaced(nrrd, "kinds: domain", "kinds: RGB-color") + v.bytes()),
@@ -178,11 +178,11 @@ TEST(ScanRefusals, ColoursAndKindsThatAreNotRead) {
   scanRefusalsExpectError(written("n.nrrd", test::replaced(nrrd, "endian: little\n", "") + v.bytes()), "no 'endian'");
   scanRefusalsExpectError(written("t.mha", test::replaced(mha, "MET_SHORT", "MET_OTHER") + v.bytes()),
                           "accepted: MET_UCHAR");
-  scanRefusalsExpectError(written("c.mha", "ElementNumberOfChannels = 3\n" + mha + v.bytes()), "one number a voxel");
+  scanRefusalsExpectError(written("c.mha", "ElementNumberOfChannels = 3\n" + mha + v.bytes()), "one number per voxel");
   scanRefusalsExpectError(written("a.xyz", "x"), "accepted: .nii");
-  scanRefusalsExpectError(written("text.nrrd", "hello\n\n"), "no NRRD file");
-  scanRefusalsExpectError(written("text.mha", "hello\n\n"), "no MetaImage file");
-  scanRefusalsExpectError(written("text.nii", std::string(400, 'x')), "no NIfTI file");
+  scanRefusalsExpectError(written("text.nrrd", "hello\n\n"), "not a NRRD file");
+  scanRefusalsExpectError(written("text.mha", "hello\n\n"), "not a MetaImage file");
+  scanRefusalsExpectError(written("text.nii", std::string(400, 'x')), "not a NIfTI file");
 }
 
 TEST(ScanRefusals, DataFilesOutsideOfTheFolder) {
@@ -217,10 +217,10 @@ TEST(ScanRefusals, ValuesThatAreNoNumbersStayNone) {
   const std::string path = written("nan.nrrd", test::replaced(test::nrrdHeader(v), "short", "float") + raw);
   const std::vector<float> all = test::allOf(path);
   EXPECT_TRUE(std::isnan(all[5]));
-  EXPECT_NE(test::errorOf(path, [&] { readLabels(path); }).find("no label map"), std::string::npos);
+  EXPECT_NE(test::errorOf(path, [&] { readLabels(path); }).find("not a label map"), std::string::npos);
 }
 
-/// Bits turned and ends cut off, by seed: an error that names the file, or values; nothing else, and not for long.
+/// Flips bits and cuts off ends, by seed: the result is an error that names the file, or values, within a short time.
 TEST(ScanRefusals, SeededFuzzOfEveryReader) {
   const TestVolume v;
   const std::string raw = v.bytes(),
@@ -259,7 +259,7 @@ TEST(ScanRefusals, SeededFuzzOfEveryReader) {
     EXPECT_GT(refused, cases / 8) << name;
   }
   getrusage(RUSAGE_SELF, &after);
-  EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 400 << 10);  // [KiB]; the address sanitizer keeps what was freed
+  EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 400 << 10);  // [KiB]; the address sanitizer keeps freed memory
 }
 
 }  // namespace

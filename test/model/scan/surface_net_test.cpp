@@ -26,12 +26,12 @@ SurfaceNet netOf(const NetPhantom& phantom, const Vector3d& spacing_mm) {
   return surfaceNet(sampled(phantom, frameAround(phantom, spacing_mm, turned())));
 }
 
-/// Errors that were measured of each shape (docs/surface_net.md), rounded up in their last digit.
+/// Measured errors of each shape (docs/volumes.md), rounded up in their last digit.
 struct Most {
   double rms, volume_percent, normals_deg;
 };
 
-/// Of the farthest point of any of them; half a voxel diagonal of the thicker slices.
+/// Limit for the farthest point of any of them; half a voxel diagonal of the thicker slices.
 constexpr double kMostApart = 0.8;
 
 void expectLike(const NetPhantom& phantom, const Vector3d& spacing_mm, const Most& most) {
@@ -73,7 +73,7 @@ TEST(SurfaceNet, TouchingBallsHaveTheSameBorder) {
     const SurfaceNet net = surfaceNet(volume);
     const TriangleMesh both = labelSurfaces(net, volume.names, {1, 2});
     EXPECT_EQ(both.part_names, (std::vector<std::string>{"one", "two"}));
-    std::multiset<std::array<uint32_t, 3>> sides[2];  // of the border, from the lowest vertex on
+    std::multiset<std::array<uint32_t, 3>> sides[2];  // triangles of the border, from the lowest vertex on
     size_t shared = 0;
     for (size_t i = 0; i < net.sides.size(); ++i) shared += net.sides[i][0] + net.sides[i][1] == 3;
     for (size_t i = 0; i < both.triangles.size(); ++i) {
@@ -91,24 +91,24 @@ TEST(SurfaceNet, TouchingBallsHaveTheSameBorder) {
       const NetTopology shape = topology(labelSurfaces(net, volume.names, {static_cast<uint8_t>(label)}));
       EXPECT_EQ(shape.euler, 2);
       EXPECT_EQ(shape.open, 0u);
-      // The disc where they touch has an edge, which the net rounds by half a voxel: more than of a ball.
+      // The disc where they touch has an edge, which the net rounds by half a voxel: more than for a ball.
       const NetScore found = score(net, label, touchingBalls(label), voxelMm(spacing_mm));
       EXPECT_LE(found.rms, 0.2);
       EXPECT_LE(std::abs(found.volume_percent), 0.25);
     }
-    // What is outside is what neither has.
+    // The outside is the complement of both.
     EXPECT_NEAR(-net.volumeM3(0), net.volumeM3(1) + net.volumeM3(2), 1e-12 * net.volumeM3(1));
   }
 }
 
 TEST(SurfaceNet, ShearedAndMirroredFrames) {
   const NetPhantom ball = ballPhantom();
-  Matrix3d tilted = turned();  // slices of a gantry tilted by 14 degrees: the third axis leans towards the second
+  Matrix3d tilted = turned();  // slices of a gantry tilted by 14 degrees: the third axis is inclined towards the second
   tilted.col(2) = (tilted.col(2) + std::tan(14 * M_PI / 180) * tilted.col(1)).normalized();
   const double voxel_mm = std::cbrt(std::abs((tilted * kThickSlices.asDiagonal()).determinant()));
   const SurfaceNet sheared = surfaceNet(sampled(ball, frameAround(ball, kThickSlices, tilted)));
   const NetScore found = score(sheared, 1, ball, voxel_mm);
-  EXPECT_LE(found.rms, 0.125);  // a sheared box reaches a little farther than a straight one
+  EXPECT_LE(found.rms, 0.125);  // a sheared box extends a little farther than a straight one
   EXPECT_LE(std::abs(found.volume_percent), 0.25);
   EXPECT_LE(found.normals_deg, 7.5);
 
@@ -117,11 +117,11 @@ TEST(SurfaceNet, ShearedAndMirroredFrames) {
   const SurfaceNet net = surfaceNet(sampled(ball, frameAround(ball, kThickSlices, mirrored)));
   const NetScore seen = score(net, 1, ball, voxelMm(kThickSlices));
   EXPECT_LE(seen.rms, 0.115);
-  EXPECT_LE(std::abs(seen.volume_percent), 0.25);  // so it is positive: triangles face outward
+  EXPECT_LE(std::abs(seen.volume_percent), 0.25);  // positive volume: triangles face outward
   EXPECT_LE(seen.normals_deg, 7.5);
 }
 
-/// The same labels in the same places, stored along other axes. @param order  axis of the original that each new one is
+/// Returns the same labels at the same positions, stored along other axes. @param order  original axis of each new axis
 LabelVolume stored(const LabelVolume& from, const std::array<int, 3>& order, int flips) {
   LabelVolume to = from;
   for (int a = 0; a < 3; ++a) {
@@ -145,9 +145,9 @@ LabelVolume stored(const LabelVolume& from, const std::array<int, 3>& order, int
   return to;
 }
 
-/// @param labels  how many there are
+/// @param labels  number of labels
 void expectOneVolumeInAllOrders(const LabelVolume& volume, int labels) {
-  constexpr double kRounding = 1e-12;  // sums of doubles in other orders
+  constexpr double kRounding = 1e-12;  // sums of doubles in different orders
   const SurfaceNet truth = surfaceNet(volume);
   std::array<int, 3> order = {0, 1, 2};
   do {
@@ -167,7 +167,7 @@ void expectOneVolumeInAllOrders(const LabelVolume& volume, int labels) {
 TEST(SurfaceNet, AllOrdersOfAxesGiveOneVolume) {
   const NetPhantom balls = touchingBalls(1);
   expectOneVolumeInAllOrders(sampled(balls, frameAround(balls, {2, 2, 3}, turned())), 2);
-  // Along the axes, where diagonals of quads are alike.
+  // Along the axes, where diagonals of quads are equal.
   expectOneVolumeInAllOrders(sampled(balls, frameAround(balls, {2, 2, 2}, Matrix3d::Identity())), 2);
 }
 
@@ -211,7 +211,7 @@ TEST(SurfaceNet, LabelsAtTheBorderAreClosedThere) {
   const NetTopology shape = topology(labelSurfaces(net, {}, {1}));
   EXPECT_EQ(shape.euler, 2);
   EXPECT_EQ(shape.open, 0u);
-  constexpr double kOfCuts = 0.005;  // volumes are kept half way between the two ways of cutting quads
+  constexpr double kOfCuts = 0.005;  // volumes are kept half way between the two divisions of quads
   EXPECT_NEAR(net.volumeM3(1), 6 * 5 * 4 * 1e-9, kOfCuts * 6 * 5 * 4 * 1e-9);
 }
 
@@ -235,7 +235,7 @@ TEST(SurfaceNet, ThreeLabelsMeetInALine) {
 
 TEST(SurfaceNet, LeftStaysLeft) {
   LabelVolume volume = noise({12, 12, 12}, 0, 1);
-  volume.frame.axes.col(0) << 0, -1e-3, 0;  // first voxel at the left, as right-to-left files have it
+  volume.frame.axes.col(0) << 0, -1e-3, 0;  // first voxel at the left, as in right-to-left files
   volume.frame.axes.col(1) << 1e-3, 0, 0;
   volume.frame.axes.col(2) << 0, 0, 1e-3;
   volume.frame.origin << 0, 0.0055, 0;
@@ -259,7 +259,8 @@ TEST(SurfaceNet, LeftStaysLeft) {
   } while (std::next_permutation(order.begin(), order.end()));
 }
 
-/// As a scanner sees a phantom: shares of voxels, blurred by half a voxel each way, with noise of 5 % of the step.
+/// Simulates a scan of a phantom: partial volumes, blurred by half a voxel in each direction, with noise of 5 % of the
+/// step.
 std::vector<float> scanned(const NetPhantom& phantom, const VolumeFrame& frame) {
   constexpr int kFine = 4;  // samples along each axis of a voxel near the surface
   std::vector<float> values(frame.voxels());
@@ -279,7 +280,7 @@ std::vector<float> scanned(const NetPhantom& phantom, const VolumeFrame& frame) 
     values[at] = static_cast<float>(inside) / (kFine * kFine * kFine);
   });
   const double weight[3] = {std::erf(M_SQRT1_2), 0.5 * (std::erf(3 * M_SQRT1_2) - std::erf(M_SQRT1_2)),
-                            0.5 * (1 - std::erf(3 * M_SQRT1_2))};  // of Gauss's curve over voxels
+                            0.5 * (1 - std::erf(3 * M_SQRT1_2))};  // of a Gaussian over voxels
   size_t stride = 1;
   for (int a = 0; a < 3; ++a) {
     const std::vector<float> sharp = values;
@@ -332,8 +333,8 @@ TEST(SurfaceNet, ValuesPlaceBothSidesOfAWindow) {
   const ValueWindow window{9.3f, 30.2f, value};
   for (size_t i = 0; i < volume.labels.size(); ++i) volume.labels[i] = value(i) >= 9.3f && value(i) <= 30.2f;
   const SurfaceNet net = surfaceNet(volume, &window);
-  // In the middle of the slab's faces; the rims are rounded. The volume of whole voxels, 21 rather than 20.9 layers, is
-  // kept, which moves each face by some 0.05.
+  // In the middle of the slab's faces; the rims are rounded. The volume of whole voxels is kept, 21 instead of 20.9
+  // layers, which moves each face by about 0.05.
   constexpr double kOfVolume = 0.06;  // [voxels]
   for (const Vector3d& p : net.positions_m) {
     const Vector3d voxel = 1000 * p;

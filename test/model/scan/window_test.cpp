@@ -18,7 +18,7 @@
 namespace viscera {
 namespace {
 
-/// A scan whose values a function of voxels gives.
+/// Scan with values given by a function of voxels.
 class MadeScan : public SliceSource {
  public:
   MadeScan(const Vector3i& size, const Vector3d& spacing_m, std::function<float(int, int, int)> value)
@@ -51,7 +51,7 @@ bool within(int i, int j, int k, int low, int high) {
   return std::min({i, j, k}) >= low && std::max({i, j, k}) < high;
 }
 
-/// Two cubes of 4 and 3 voxels, and one voxel that touches the first by an edge.
+/// Returns two cubes of 4 and 3 voxels, and one voxel that touches the first by an edge.
 float cubes(int i, int j, int k) {
   return within(i, j, k, 2, 6) ? 100.F : within(i, j, k, 9, 12) ? 120.F : i == 6 && j == 6 && k == 3 ? 100.F : 0.F;
 }
@@ -70,7 +70,7 @@ TEST(Window, KeepsTheLargestPieces) {
   EXPECT_EQ(report.in_window, 64U + 27 + 1);
   EXPECT_EQ(report.pieces, 3U);
   EXPECT_NEAR(report.kept_cm3, 64 * 6e-3, 1e-9);
-  EXPECT_EQ(one.frame.size, Vector3i(8, 8, 8));  // cropped, two voxels around
+  EXPECT_EQ(one.frame.size, Vector3i(8, 8, 8));  // cropped, with two voxels around
   EXPECT_EQ(report.first, Vector3i(0, 0, 0));
   EXPECT_LT((one.frame.origin - Vector3d(1, 2, 3)).norm(), 1e-12);
   WindowOptions all;
@@ -91,14 +91,14 @@ TEST(Window, WhatIsCutAtTheBorderIsSaidAndClosedThere) {
   options.closing_mm = 3;
   WindowReport report;
   const LabelVolume full = windowed(scan, options, &report);
-  EXPECT_EQ(voxels(full), 216U);  // the border of nothing is there before closing: nothing grows along it
+  EXPECT_EQ(voxels(full), 216U);  // the empty border exists before closing, so nothing grows along it
   EXPECT_EQ(report.at_border, 216U - 64);
   EXPECT_EQ(full.frame.size, Vector3i(10, 10, 10));
   EXPECT_EQ(report.first, Vector3i(-2, -2, -2));
 }
 
 TEST(Window, ClosingClosesGapsAndHolesOnRequestOnly) {
-  // A cube of 12 voxels with a slit of one and a hole of four.
+  // A cube of 12 voxels with a slit of one voxel and a hole of four.
   const auto value = [](int i, int j, int k) {
     return within(i, j, k, 4, 16) && i != 6 && !within(i, j, k, 10, 14) ? 10.F : 0.F;
   };
@@ -112,7 +112,7 @@ TEST(Window, ClosingClosesGapsAndHolesOnRequestOnly) {
   };
   WindowReport report;
   EXPECT_EQ(run(0, false, report), 144U * 9 - 64);
-  // A ball of one voxel reaches from outside into the slit's rim, and in the hole all but edges and corners.
+  // A ball of one voxel reaches from outside into the slit's rim, and covers all of the hole except edges and corners.
   EXPECT_EQ(run(1, false, report), 1728U - 44 - 32);
   EXPECT_EQ(run(1, true, report), 1728U - 44);
   EXPECT_NEAR(report.filled_cm3, 32e-3, 1e-12);
@@ -149,7 +149,7 @@ TEST(Window, OutsideOfTheRangeItIsRefusedWithIt) {
   EXPECT_THROW(windowed(scan, options), SceneError);
 }
 
-/// Against a flood and distances by the definition, on noise.
+/// Compares with a flood fill and distances by definition, on noise.
 TEST(Window, PiecesAndDistancesAreThoseOfTheirDefinition) {
   std::mt19937 random(7);
   for (int round = 0; round < 20; ++round) {

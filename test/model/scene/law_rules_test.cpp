@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// material.law in a scene file: what it is where nothing is said, and what it does not go with.
+// material.law in a scene file: its default, and what it cannot be combined with.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -64,14 +64,14 @@ TEST(LawRules, LatticesThatLeapfrogStepsAreNeoHookeanUnlessAskedOtherwise) {
 }
 
 TEST(LawRules, WhatItDoesNotGoWithIsNamed) {
-  EXPECT_TRUE(names(faultOf("law: neo_hookean, weights: paper"), "does not go with material.law: neo_hookean"));
+  EXPECT_TRUE(names(faultOf("law: neo_hookean, weights: paper"), "cannot be combined with material.law: neo_hookean"));
   EXPECT_TRUE(names(faultOf("law: neo_hookean", ", structure: explicit"), "structure lattice"));
   EXPECT_TRUE(names(faultOf("law: springs, stiffening: 2"), "material.stiffening needs material.law: neo_hookean"));
   EXPECT_NE(faultOf(withPd(boxScene("stiffening: 2"))), "") << "pd has springs";
   EXPECT_TRUE(names(faultOf("law: springs, walls: rows"), "material.walls: rows needs material.law: neo_hookean"));
   EXPECT_TRUE(names(faultOf("walls: rows", ", structure: explicit"), "structure lattice"));
-  EXPECT_TRUE(
-      names(faultOf("walls: rows, prestress: {strain: 0.1}"), "material.walls: rows does not go with prestress"));
+  EXPECT_TRUE(names(faultOf("walls: rows, prestress: {strain: 0.1}"),
+                    "material.walls: rows cannot be combined with material.prestress"));
   EXPECT_NE(faultOf(withPd(boxScene("walls: rows"))), "") << "pd has springs";
   EXPECT_EQ(faultOf("walls: rows"), "");
   EXPECT_TRUE(names(faultOf(withPd(boxScene("law: neo_hookean"))),
@@ -92,7 +92,7 @@ TEST(LawRules, SpringsHaveNoPoissonsRatioOfTheirOwn) {
   }
 }
 
-/// One error each, which says what to do instead.
+/// Each gives one error, which says what to do instead.
 TEST(LawRules, KeysOfWhatCorrectedSpringsWereRemoved) {
   for (const std::string key : {"cells: moments", "cells: springs", "thin_walls: true"}) {
     const std::string fault = faultOf(key);

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes written out with all their keys are the same scenes.
+// A scene written out with all its keys is the same scene.
 #include "model/scene/scene_yaml.h"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ TEST(SceneYaml, WhatHasNoDefaultComesBackToTheBit) {
                  "    layers: [{depth_m: 0.002, color: [0.1, 0.2, 0.7]}]\n"
                  "  - {name: b, source: labels, scan: {file: 'a: b # c', labels: ['1', liver]}}\n"
                  "cameras: [{name: eye, position_m: [0, -1, 0], overlays: [strain, wind]}]\n"
-                 "threads: [{name: suture, usp: 4-0, path: [{position_m: [0.03, 0, 0]}]}]\n"
+                 "sutures: [{name: suture, usp: 4-0, path: [{position_m: [0.03, 0, 0]}]}]\n"
                  "solver: {tick_hz: 100}\n",
                  "test"));
 }

@@ -14,13 +14,13 @@ namespace viscera::test {
 namespace {
 
 constexpr float kRadius = 0.04f;  ///< [m]
-constexpr int kRings = 40;        ///< of the spheres: triangles of 3 mm
+constexpr int kRings = 40;        ///< rings of the spheres: triangles of 3 mm
 constexpr int kPatches = 10;
-constexpr double kEnclosedExact = 0.005;  ///< of what is enclosed, whatever the grid
+constexpr double kEnclosedExact = 0.005;  ///< relative error of the enclosed volume, on any grid
 constexpr float kHalfGap = 0.00025f;      ///< [m]
 const Vector3f kMiddle(0.01f, -0.02f, 0.03f);
 
-/// A part of a sphere's triangles, each patch with vertices of its own.
+/// Returns a part of a sphere's triangles, each patch with vertices of its own.
 template <class Keeps>
 TriangleMesh cutOut(const TriangleMesh& from, const std::string& name, Keeps keeps) {
   TriangleMesh out;
@@ -40,7 +40,7 @@ TriangleMesh cutOut(const TriangleMesh& from, const std::string& name, Keeps kee
   return out;
 }
 
-/// Ten open patches 0.5 mm apart, every other one inside out; within, a capsule of two sheets with a hole.
+/// Returns ten open patches 0.5 mm apart, every other one inside out; inside, a capsule of two sheets with a hole.
 TriangleMesh patchedBall() {
   std::mt19937 random(5);
   std::normal_distribution<float> normal;
@@ -56,7 +56,7 @@ TriangleMesh patchedBall() {
     TriangleMesh patch = cutOut(sphere, "patch " + std::to_string(p), [&](const Vector3f& at) {
       return std::all_of(seeds.begin(), seeds.end(), [&](const Vector3f& s) { return s.dot(at) <= seeds[p].dot(at); });
     });
-    for (Vector3f& v : patch.positions_m) {  // drawn together on the sphere
+    for (Vector3f& v : patch.positions_m) {  // contracted on the sphere
       const Vector3f n = (v - kMiddle).normalized(), along = seeds[p] - seeds[p].dot(n) * n;
       if (along.norm() > 0.1f) v += kHalfGap * along.normalized();
       v = kMiddle + kRadius * (v - kMiddle).normalized();
@@ -72,7 +72,7 @@ TriangleMesh patchedBall() {
   return all;
 }
 
-/// Of the sphere as it is drawn, with flat triangles.
+/// Returns the volume of the sphere with flat triangles.
 double drawnVolume() {
   return std::abs(signedVolume(sphereMesh(kMiddle, kRadius, kRings)));
 }
@@ -103,7 +103,7 @@ TEST(Enclosed, CellsOfBallOfPatches) {
 }
 
 TEST(Enclosed, HoleIsClosedUpToItsWidthAndReported) {
-  // A hole of 3 rings around the pole: 3 * pi / 40 * 40 mm from there, so 18.8 mm wide.
+  // A hole of 3 rings around the pole: 3 * pi / 40 * 40 mm from it, so 18.8 mm wide.
   const TriangleMesh mesh = sphereMesh(kMiddle, kRadius, kRings, 3);
   const EnclosedSurface closed = enclosedSurface(mesh, 0.001, 0.03);
   EXPECT_NEAR(closed.volume_m3, drawnVolume(), 0.02 * drawnVolume());  // the hole is closed flat, not as a dome

@@ -25,7 +25,7 @@ class GltfExtensions : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-/// A buffer within the JSON.
+/// Returns a buffer embedded in the JSON.
 std::string dataUri(const std::string& bytes) {
   static const std::string kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string text;
@@ -40,7 +40,7 @@ std::string dataUri(const std::string& bytes) {
          text + "\"}";
 }
 
-/// A box of 1 m whose corners and triangles are in a file.
+/// Returns a box of 1 m with corners and triangles in a file.
 std::string boxGltf(const std::string& uri, const std::string& extensions = "") {
   return R"({"asset":{"version":"2.0"},)" + extensions +
          R"("scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
@@ -71,7 +71,7 @@ TEST_F(GltfExtensions, RequiredOnesAreReadOrNamed) {
     EXPECT_NEAR(signedVolume(importMesh(folder_.write("look.gltf", with(name)), 1)), 1, kGltfRounding) << name;
 }
 
-/// A box as gltfpack has it: whole numbers of 16 bits, eight bytes apart, in the scale of its node.
+/// Returns a box as gltfpack writes it: 16-bit integers, eight bytes apart, in the scale of its node.
 std::string quantisedBox(const std::string& buffer, bool is_signed) {
   const std::string type = is_signed ? "5122" : "5123", normalized = is_signed ? "true" : "false";
   const std::string scale = is_signed ? "0.1,0.1,0.1" : "0.001,0.001,0.001";
@@ -116,7 +116,7 @@ TEST_F(GltfExtensions, QuantisedPositionsAreRead) {
   EXPECT_TRUE(says(refusal(quantisedBox(uri, true)), {"shape.gltf", "accessor 0 reaches beyond its buffer"}));
 }
 
-/// A box whose indices have so many bytes, and one of them out of range, beside one that is whole and has no indices.
+/// Returns a box with indices of this size, one of them out of range, and a valid box without indices.
 std::string boxWithIndex(size_t bytes, uint32_t index) {
   const TriangleMesh box = boxMesh({0, 0, 0}, {1, 1, 1});
   std::string corners, indices, plain;

@@ -17,7 +17,7 @@ constexpr int kBallRings = 48;
 constexpr double kCellOfBall = 0.004;   // m
 constexpr double kJoinRounding = 1e-5;  // of a volume: files and positions have single precision
 
-/// The mesh in two parts, each with vertices of its own; `second` says which triangles, by their middle.
+/// Returns the mesh in two parts, each with vertices of its own; `second` selects triangles by their centre.
 template <class Second>
 TriangleMesh split(const TriangleMesh& mesh, Second second) {
   TriangleMesh first = mesh, other = mesh;
@@ -76,7 +76,7 @@ TEST(JoinedParts, EachPartHasTheTissueNearestToIt) {
 }
 
 TEST(JoinedParts, ThePartsOfATubeAreItsWall) {
-  // Outer and inner half of a hollow ball that is open at its top: two parts that meet at the rim alone.
+  // Outer and inner half of a hollow ball that is open at its top: two parts that meet only at the rim.
   TriangleMesh outer = sphereMesh(Vector3f::Zero(), 0.05f, kBallRings, 8);
   TriangleMesh inner = turnedInsideOut(sphereMesh(Vector3f::Zero(), 0.04f, kBallRings, 8));
   TriangleMesh rim;

@@ -37,11 +37,11 @@ TEST_F(MeshDialects, BinaryStlWhateverItsHeader) {
     EXPECT_NEAR(volume("box.stl", bytes), 1, kDialectRounding);
   ImportReport report;
   read("long.stl", good + "\r\n", &report);
-  EXPECT_TRUE(says(report.look_notes.at(0), {"long.stl", "2 bytes behind its last triangle"}));
+  EXPECT_TRUE(says(report.look_notes.at(0), {"long.stl", "2 bytes after its last triangle"}));
   read("few.stl", counted(7), &report);
-  EXPECT_TRUE(says(report.look_notes.at(0), {"few.stl", "says 7 triangles", "12"}));
-  EXPECT_TRUE(says(refusal("many.stl", counted(13)), {"many.stl", "cut short", "13 triangles", "12"}));
-  EXPECT_TRUE(says(refusal("cut.stl", good.substr(0, good.size() - 20)), {"cut short", "12 triangles", "11"}));
+  EXPECT_TRUE(says(report.look_notes.at(0), {"few.stl", "announces 7 triangles", "12"}));
+  EXPECT_TRUE(says(refusal("many.stl", counted(13)), {"many.stl", "truncated", "13 triangles", "12"}));
+  EXPECT_TRUE(says(refusal("cut.stl", good.substr(0, good.size() - 20)), {"truncated", "12 triangles", "11"}));
 }
 
 TEST_F(MeshDialects, StlOfTextInAnyCaseAndOfSeveralSolids) {
@@ -53,7 +53,7 @@ TEST_F(MeshDialects, StlOfTextInAnyCaseAndOfSeveralSolids) {
   std::string two = good + asciiStl(boxMesh({2, 0, 0}, {3, 1, 1}));
   two.replace(two.find("solid part"), 10, "solid left lobe");
   EXPECT_EQ(read("two.stl", two).part_names, (std::vector<std::string>{"left lobe", "part"}));
-  EXPECT_TRUE(says(refusal("cut.stl", good.substr(0, good.size() / 2)), {"cut.stl", "cut short", "in line"}));
+  EXPECT_TRUE(says(refusal("cut.stl", good.substr(0, good.size() / 2)), {"cut.stl", "truncated", "in line"}));
   EXPECT_TRUE(says(refusal("letter.stl", "solid a\nfacet\nDear sir\n"), {"line 3", "'dear'"}));
 }
 
@@ -62,7 +62,7 @@ TEST_F(MeshDialects, StripsOfPly) {
       "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
       "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
       "0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
-      "9 0 2 1 3 -1 0 3 2 1\n";  // 021, 123; 032, and 231 turned
+      "9 0 2 1 3 -1 0 3 2 1\n";  // 021, 123; 032, and 231 reversed
   const TriangleMesh mesh = read("strips.ply", text);
   EXPECT_EQ(mesh.triangles.size(), 4u);
   const std::string good =
@@ -73,7 +73,7 @@ TEST_F(MeshDialects, StripsOfPly) {
   EXPECT_NEAR(volume("strip.ply", good), 1.0 / 6, kDialectRounding);
 }
 
-/// A glTF file of a buffer in a file beside it.
+/// Returns a glTF file with its buffer in a separate file.
 std::string gltfOf(const std::string& primitive, const std::string& accessors, const std::string& views, size_t bytes) {
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":[)" +
          primitive + "]}],\"accessors\":[" + accessors + "],\"bufferViews\":[" + views +

@@ -15,17 +15,17 @@
 namespace viscera::test::msh_solid {
 namespace {
 
-constexpr double kRounded = 0.01;  // of a volume, of the lattice's cells at its surface
-constexpr double kExact = 1e-6;    // of a volume, of the border: coordinates are floats
+constexpr double kRounded = 0.01;  // of a volume, for the lattice's cells at its surface
+constexpr double kExact = 1e-6;    // of a volume, for the border: coordinates are floats
 constexpr int kX = 4, kY = 2, kZ = 2;
 constexpr double kCell = 10;                                           // mm
-constexpr double kHalf_m3 = 2 * 2 * 2 * kCell * kCell * kCell * 1e-9;  // of the block, on either side of its middle
+constexpr double kHalf_m3 = 2 * 2 * 2 * kCell * kCell * kCell * 1e-9;  // volume of one half of the block
 
 int nodeAt(int x, int y, int z) {
   return 1 + x + (kX + 1) * (y + (kY + 1) * z);
 }
 
-/// How a cell is divided: elements of corners 0 to 7, in Gmsh's order of a hexahedron; 8 is its middle.
+/// Division of a cell: elements of corners 0 to 7, in Gmsh's order of a hexahedron; 8 is its centre.
 using Division = std::vector<std::pair<int, std::vector<int>>>;
 const std::map<std::string, Division> kDivisions = {{"tetrahedra",
                                                      {{4, {0, 1, 2, 6}},
@@ -44,7 +44,8 @@ const std::map<std::string, Division> kDivisions = {{"tetrahedra",
                                                       {7, {2, 6, 7, 3, 8}},
                                                       {7, {3, 7, 4, 0, 8}}}}};
 
-/// A block of two halves in mm: "left" of group 3, and group 7 without a name; with a triangle and a node of no use.
+/// Returns a block of two halves in mm: "left" of group 3, and group 7 without a name; with an unused triangle and
+/// node.
 MshMesh block(const Division& left, const Division& right) {
   MshMesh mesh;
   mesh.names = {{3, "left half"}};
@@ -118,7 +119,7 @@ TEST_F(MshSolid, EveryVersionIsALatticeWithItsGroupsAsParts) {
     EXPECT_EQ(mesh.part_names, (std::vector<std::string>{version == 1 ? "3" : "left half", "7"}));
     EXPECT_NEAR(signedVolume(mesh), 2 * kHalf_m3, kExact * kHalf_m3);
     ASSERT_EQ(report_.look_notes.size(), 1u);
-    EXPECT_TRUE(says(report_.look_notes[0], {"solid.msh: MSH ", "96 tetrahedra; passed over 1 triangles"}));
+    EXPECT_TRUE(says(report_.look_notes[0], {"solid.msh: MSH ", "96 tetrahedra; ignored: 1 triangles"}));
     EXPECT_EQ(report_.parts, 2);
   }
 }
@@ -216,7 +217,7 @@ TEST_F(MshSolid, ElementsOfSecondOrderAreDividedAtTheirNodes) {
     EXPECT_NEAR(signedVolume(border), 1e-3 * element.volume, 1e-3 * kExact);
     EXPECT_NEAR(massOf(bodyOf(mshText(mesh, 2.2, false), "")), 1.06 * element.volume, kRounded * 1.06 * element.volume);
   }
-  SecondOrder full = kSecondOrder[1];  // whose faces have nodes too, one of them raised
+  SecondOrder full = kSecondOrder[1];  // its faces have nodes too, one of them raised
   full.type = 12;
   const TriangleMesh border = meshOf(mshText(
       alone(full, {{.5, .5, 0}, {.5, 0, .5}, {0, .5, .5}, {1, .5, .5}, {.5, 1, .5}, {.5, .5, 1.3}, {.5, .5, .5}}), 4.1,
@@ -261,16 +262,15 @@ TEST_F(MshSolid, WhatIsWrongIsNamedWithItsLine) {
   using Pieces = std::vector<std::string>;
   for (const std::string& good : {kGood2, kGood4}) {
     for (const auto& [msh, pieces] : std::vector<std::pair<std::string, Pieces>>{
-             {replaced(good, "10 20 30 40\n", "10 20 30 41\n"), {"solid.msh': line ", "node 41 is not known"}},
+             {replaced(good, "10 20 30 40\n", "10 20 30 41\n"), {"solid.msh': line ", "node 41 does not exist"}},
              {replaced(good, "10 20 30 40\n", "10 20 30 30\n"), {"flat"}},
              {replaced(good, "0 0 1\n", "1 1 0\n"), {"flat"}},
              {replaced(good, "0 0 1\n", "0 nan 1\n"), {"'nan' is not finite"}},
              {replaced(good, "0 0 1\n", "0 1e999 1\n"), {"'1e999' is not finite"}},
              {replaced(good, "0 0 1\n", "0 up 1\n"), {"'up' is not a number"}},
              {replaced(good, "0 0 1\n", "0 1\n"), {"'$EndNodes' is not a number"}},
-             {replaced(good, "9 9 9\n", "9 9 9\n60 1 2 3\n"), {"'60' where $EndNodes should stand"}},
-             {replaced(good, "$EndElements", "9 4 2 7 1 10 20 30 40\n$EndElements"),
-              {"where $EndElements should stand"}},
+             {replaced(good, "9 9 9\n", "9 9 9\n60 1 2 3\n"), {"'60' instead of $EndNodes"}},
+             {replaced(good, "$EndElements", "9 4 2 7 1 10 20 30 40\n$EndElements"), {"instead of $EndElements"}},
              {replaced(good, "10 20 30 40\n$EndElements\n", ""), {"the file ends within"}},
              {good + "$Nodes\n0 0 0 0\n$EndNodes\n", {"odes"}},
              {good + "nonsense\n", {"'nonsense' where a section should start"}},
@@ -279,20 +279,19 @@ TEST_F(MshSolid, WhatIsWrongIsNamedWithItsLine) {
   }
   for (const auto& [msh, pieces] : std::vector<std::pair<std::string, Pieces>>{
            {"v 0 0 0\n", {"line 1", "'v' where a section should start"}},
-           {"$Nodes\n", {"line 1", "starts with $MeshFormat or $NOD"}},
-           {"$MeshFormat\n3.0 0 8\n$EndMeshFormat\n", {"line 2", "version 3 is not read", "4 and 4.1"}},
+           {"$Nodes\n", {"line 1", "must start with $MeshFormat or $NOD"}},
+           {"$MeshFormat\n3.0 0 8\n$EndMeshFormat\n", {"line 2", "version 3 is not supported", "4 and 4.1"}},
            {kFormat2, {"has no $Nodes"}},
            {kFormat2 + kNodes2 + "$Elements\n1\n1 2 2 0 1 10 20 30\n$EndElements\n",
-            {"no tetrahedron, hexahedron, prism or pyramid", "it has 1 triangles"}},
-           {replaced(kGood2, "3 4 2 7 1", "3 29 2 7 1"), {"line 16", "type 29 are not read", "second order"}},
-           {replaced(kGood2, "50 9 9 9", "40 9 9 9"), {"line 10", "node 40 stands twice"}},
-           {replaced(kGood2, "$EndElements", "4 4 2 8 1 10 20 30 40\n$EndElements"),
-            {"where $EndElements should stand"}},
+            {"no tetrahedron, hexahedron, prism or pyramid", "it has only 1 triangles"}},
+           {replaced(kGood2, "3 4 2 7 1", "3 29 2 7 1"), {"line 16", "type 29 are not supported", "second order"}},
+           {replaced(kGood2, "50 9 9 9", "40 9 9 9"), {"line 10", "node 40 is defined twice"}},
+           {replaced(kGood2, "$EndElements", "4 4 2 8 1 10 20 30 40\n$EndElements"), {"instead of $EndElements"}},
            {replaced(replaced(kGood2, "$Elements\n3", "$Elements\n4"), "$EndElements",
                      "4 4 2 8 1 10 20 30 40\n$EndElements"),
             {"elements overlap at the face of nodes 10, 20, 30", "one physical group"}},
-           {replaced(kGood4, "2 5 10 50", "2 6 10 50"), {"6 nodes announced, 5 there"}},
-           {replaced(kGood4, "2 2 1 3", "2 3 1 3"), {"3 elements announced, 2 there"}},
+           {replaced(kGood4, "2 5 10 50", "2 6 10 50"), {"6 nodes announced, 5 found"}},
+           {replaced(kGood4, "2 2 1 3", "2 3 1 3"), {"3 elements announced, 2 found"}},
            {replaced(kGood4, "3 1 0 4", "3 1 0 -4"), {"-4 is negative"}},
            {replaced(kGood4, "3 1 0 4", "3 1 0 99999999999999999999"), {"is not a whole number"}}})
     EXPECT_TRUE(says(refusal(msh), pieces)) << msh;
@@ -310,7 +309,7 @@ TEST_F(MshSolid, NodesMayHaveParametersAndLinesEndAsInWindows) {
   for (const std::string& msh : {text, in_windows}) EXPECT_EQ(meshOf(msh).triangles.size(), 4u);
 }
 
-/// Cut anywhere, a file is refused and nothing worse.
+/// A file that is cut at any point is refused, without a crash.
 TEST_F(MshSolid, AFileCutAnywhereIsRefused) {
   for (const auto& [version, binary] :
        std::vector<std::pair<double, bool>>{{1, false}, {2.2, true}, {4, true}, {4.1, false}}) {

@@ -23,7 +23,7 @@ struct MshElement {
 struct MshMesh {
   std::vector<Vector3d> nodes;
   std::vector<MshElement> elements;
-  std::map<int, std::string> names;  ///< of groups of volumes
+  std::map<int, std::string> names;  ///< names of groups of volumes
 };
 
 /// Numbers of a Gmsh file, as text or bytes.
@@ -92,7 +92,7 @@ inline void writeMsh2(const MshMesh& mesh, bool binary, MshOut& out) {
   out.text() << (binary ? "\n" : "") << "$EndElements\n";
 }
 
-/// Each group is an entity of ten times its number.
+/// Writes MSH 4. Each group is an entity with ten times its number.
 inline void writeMsh4(const MshMesh& mesh, bool is_41, bool binary, MshOut& out) {
   const char* const end = binary ? "\n" : "";
   const auto size = [](size_t number) { return static_cast<uint64_t>(number); };

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A master that hangs holds up no zero and no end: roscpp waits for its answers without limit."""
+"""A master that hangs delays neither zeros nor the end: roscpp waits for its answers without limit."""
 import signal
 import sys
 import time
@@ -9,8 +9,8 @@ import time
 import rostest
 from force_session import END_LIMIT_S, FORCED_END_S, ForceCase, Session, watched_session
 
-FROZEN_S = 1.5          # so long the master has not answered: a question is under way
-PATIENCE_S = 8.0        # within which a master that does not answer is taken for lost
+FROZEN_S = 1.5          # time since the master stopped answering: a query is in progress
+PATIENCE_S = 8.0        # time after which a master that does not answer counts as lost
 
 
 class ForceEndingsMasterTest(ForceCase):

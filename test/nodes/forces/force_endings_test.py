@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""However a session ends or hangs, the last thing that a device is told is zero, and soon. Each ending is brought about
-from outside, with a hand (hand.py) pressed into the tissue that notes what it is told."""
+"""However a session ends or hangs, the last force sent to a device is zero, and it is sent soon. Each ending is caused
+from outside. A simulated stylus (hand.py) is pressed into the tissue and records the forces that it receives."""
 import os
 import resource
 import signal
@@ -17,8 +17,8 @@ from force_session import END_LIMIT_S, FELT_S, FORCED_END_S, SCENE, ForceCase, S
 
 
 SILENT_MASTER_S = 6.0   # master_watch.cpp waits 5 s
-AGAIN_S = 1.0           # in which the loss of a master is noticed
-# Signals that one table of end_watch.cpp treats alike: the long form sends each of them.
+AGAIN_S = 1.0           # time in which the loss of a master is noticed
+# Signals that one table of end_watch.cpp handles alike: the long form sends each of them.
 LONG = unittest.skipUnless("VISCERA_EVERY_SIGNAL" in os.environ, "a signal of the same kind is sent by another test")
 
 
@@ -26,7 +26,7 @@ class ForceEndingsTest(ForceCase):
     def signal_ends(self, number, status):
         with Session() as session:
             session.wait_touch()
-            resource.prlimit(session.simulator.pid, resource.RLIMIT_CORE, (0, 0))  # this crash is no finding
+            resource.prlimit(session.simulator.pid, resource.RLIMIT_CORE, (0, 0))  # this crash is intended
             ended = time.monotonic()
             session.simulator.send_signal(number)
             felt = session.felt(FELT_S)
@@ -45,7 +45,7 @@ class ForceEndingsTest(ForceCase):
         self.signal_ends(signal.SIGHUP, 0)
 
     def test_stopped_by_the_terminal_and_continued(self):
-        """For longer than a master may be silent: the session goes on."""
+        """Stopped for longer than a master may be silent: the session continues."""
         with Session(job=True) as session:
             session.wait_touch()
             stopped = time.monotonic()
@@ -87,7 +87,7 @@ class ForceEndingsTest(ForceCase):
             session.simulator.stdout.read()
             session.simulator.wait(END_LIMIT_S)
             felt = session.felt(0.2)
-            # The second has not begun its ticks, or has: its hand is inside the tissue, and feels nothing.
+            # The second may have begun its ticks or not: its stylus is inside the tissue, and feels nothing.
             ended = max(t for t, n, _, _ in felt if n > 0)
             self.assertZeroSoon("second node of that name", felt, ended)
             self.assertIsNone(second.poll())
@@ -103,7 +103,7 @@ class ForceEndingsTest(ForceCase):
             self.assertEqual(session.simulator.wait(END_LIMIT_S), 1)
 
     def test_exception_in_a_thread(self):
-        """Where there is no memory for pictures, making them throws."""
+        """Creating images throws if there is no memory for them."""
         with Session() as session:
             session.wait_touch()
             in_use = int(open("/proc/%d/statm" % session.simulator.pid).read().split()[0]) * resource.getpagesize()

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What nothing in the simulator can end, kill -9 among it, a watchdog does: drivers of every kind that keep the last force
-which they were told are told zero, soon."""
+"""A watchdog handles endings that the simulator cannot, such as kill -9: drivers of all kinds that keep the last force
+receive zero soon."""
 import signal
 import sys
 import time
@@ -11,7 +11,7 @@ import rostest
 from force_session import END_LIMIT_S, FELT_S, TIMEOUT, ZERO_LIMIT_S, ForceCase, Session, watched_session
 
 RESTART_LIMIT_S = 5.0
-# what the hand speaks: its profile, and the topic to which its driver listens
+# profile of the stylus, and the topic to which its driver subscribes
 DRIVERS = {"PhantomOmni": ("phantom_omni", "phantom/force_feedback"),
            "Geomagic": ("geomagic", "Geomagic/force_feedback"),
            "BarePose": ("pose", "left/wrench")}
@@ -19,7 +19,7 @@ DRIVERS = {"PhantomOmni": ("phantom_omni", "phantom/force_feedback"),
 
 class ForceEndingsWatchdogTest(ForceCase):
     def kill_behind(self, kind):
-        """The simulator sends to a topic of its own, and the watchdog to the driver's."""
+        """The simulator publishes on a topic of its own, and the watchdog on the driver's."""
         profile, topic = DRIVERS[kind]
         options = ["_devices:=left=" + profile, "_device_options:=left.force.topic=unwatched"]
         with Session(kind=kind, options=options) as session:

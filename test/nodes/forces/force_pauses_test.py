@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What holds a simulation up, a stall or a pause, takes the force from the hand at once."""
+"""A stall or pause of the simulation removes the force from the stylus at once."""
 import ctypes
 import os
 import sys
@@ -14,16 +14,16 @@ from sensor_msgs.msg import Image
 from simulator_watch import Latest, wait_until
 from std_srvs.srv import Trigger
 
-STALL_S = 1.0   # twenty times the limit after which no force may be felt
-BACK_S = 1.0    # in which the force comes back
-STALL_LIMIT_S = 3 / 60 + 0.01  # of a stall: no tick for three of 1/60 s, then zero within 10 ms (docs/ros_api.md)
-PAUSE_LIMIT_S = 2.5 / 60  # a tick, the slew, and less than it takes until a stall of three ticks is noticed
+STALL_S = 1.0   # twenty times the limit after which the force must be zero
+BACK_S = 1.0    # time in which the force returns
+STALL_LIMIT_S = 3 / 60 + 0.01  # for a stall: no tick for three of 1/60 s, then zero within 10 ms (docs/ros_api.md)
+PAUSE_LIMIT_S = 2.5 / 60  # a tick, the slew, and less than the time to detect a stall of three ticks
 PTRACE_SEIZE, PTRACE_INTERRUPT, PTRACE_DETACH = 0x4206, 0x4207, 17
 
 
 def stop_thread(pid, name, seconds):
-    """Stops the oldest thread of that name for a while, as a debugger does, and lets it go on. Younger ones have the name
-    of the one that started them."""
+    """Stops the oldest thread of that name for a while, as a debugger does, and continues it. Younger threads have the
+    name of the thread that started them."""
     libc = ctypes.CDLL(None, use_errno=True)
     libc.ptrace.argtypes = [ctypes.c_ulong, ctypes.c_long, ctypes.c_void_p, ctypes.c_void_p]
 
@@ -51,12 +51,12 @@ class ForcePausesTest(ForceCase):
             ended = time.monotonic()
             felt = session.felt(BACK_S)
             self.assertZeroSoon("stall of %g s" % STALL_S, felt, begun, until=ended, limit_s=STALL_LIMIT_S)
-            self.assertGreater(felt[-1][1], 0)  # and the force comes back
+            self.assertGreater(felt[-1][1], 0)  # and the force returns
             rises = [(a, b) for a, b in zip(felt, felt[1:]) if b[1] > a[1] and a[0] > ended]
             self.assertGreater(len(rises), 0)
 
     def test_pause_releases_before_a_picture_is_drawn(self):
-        """In a pause a viewer gets a picture of the state that stands still, and here one takes long."""
+        """While paused, a viewer receives an image of the current state, which takes long to draw here."""
         rospy.init_node("force_pauses_test", anonymous=True, disable_signals=True)
         with Session(overrides=";cameras[0].width_px=2048;cameras[0].height_px=1536") as session:
             session.wait_touch()

@@ -1,6 +1,6 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A simulator and a hand that is pressed into its tissue, for tests of what the hand is told last."""
+"""A simulator and a stylus that is pressed into its tissue, for tests of the last force that the stylus receives."""
 import itertools
 import json
 import os
@@ -16,12 +16,12 @@ from simulator_watch import wait_until
 from tries import Late, in_one_of_several_tries
 
 END_LIMIT_S = 30
-ZERO_LIMIT_S = 0.05     # from the ending to the first zero, seen from outside
-FELT_S = 0.4            # so long after an ending a hand listens for forces that come late: eight times ZERO_LIMIT_S
-FORCED_END_S = 1.2      # a second, and what this process needs to see it
+ZERO_LIMIT_S = 0.05     # from the ending to the first zero, measured from outside
+FELT_S = 0.4            # time after an ending in which late forces are recorded: eight times ZERO_LIMIT_S
+FORCED_END_S = 1.2      # a second, and the time for this process to notice
 SCENE = ("_overrides:=bodies[0].spacing_m=0.008;bodies[0].material.young_modulus_pa=20000;"
          "environment.gravity_m_per_s2=[0,0,0];styluses[0].probe.radius_m=0.012")
-TIMEOUT = "_timeout_s:=0.03"  # of watchdogs
+TIMEOUT = "_timeout_s:=0.03"  # option of watchdogs
 HERE = os.path.dirname(os.path.abspath(__file__))
 serial = itertools.count()
 
@@ -33,9 +33,9 @@ def free_port():
 
 
 class Session:
-    """A simulator and a hand, with a master of their own where one is asked for.
-    kind: of the hand's driver, a class of drivers.py, for which options are the simulator's
-    job: nodes are in process groups of their own, as a shell's jobs, so that signals of a terminal stop them"""
+    """A simulator and a stylus, optionally with a master of their own.
+    kind: kind of the stylus's driver, a class of drivers.py with options for the simulator
+    job: nodes are in process groups of their own, like a shell's jobs, so that signals of a terminal stop them"""
 
     def __init__(self, own_master=False, wrenches="left/body/servo_cf", kind=None, options=(), overrides="", job=False):
         self.job = job
@@ -49,7 +49,7 @@ class Session:
         self.space = "/force_endings_%d" % next(serial)
         self.environment["ROS_NAMESPACE"] = self.space
         self.simulator = self.node("simulator", SCENE + overrides, *options)
-        # its interpreter starts while the tissue is made, and it waits outside until that is there
+        # its interpreter starts while the tissue is created; it waits outside until then
         self.hand = self.start([sys.executable, os.path.join(os.path.dirname(HERE), "support", "hand.py"), wrenches] + ([kind] if kind else []),
                                stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         wait_ready(self.simulator)
@@ -67,7 +67,7 @@ class Session:
                           preexec_fn=os.setpgrp if self.job else None)
 
     def freeze_master(self, seconds=0):
-        """It keeps its connections, and answers nothing from now on."""
+        """From now on, the master keeps its connections and answers nothing."""
         self.master.send_signal(signal.SIGSTOP)
         time.sleep(seconds)
 
@@ -75,7 +75,7 @@ class Session:
         self.master.send_signal(signal.SIGCONT)
 
     def stop_by_terminal(self, process):
-        """SIGTSTP, as by Ctrl-Z. @returns once it stands"""
+        """Sends SIGTSTP, as by Ctrl-Z. Returns after the process has stopped."""
         process.send_signal(signal.SIGTSTP)
         wait_until(lambda: state_of(process) == "T", END_LIMIT_S, "process that stands")
 
@@ -88,7 +88,7 @@ class Session:
         assert line == "let go\n", line
 
     def felt(self, seconds):
-        """What the hand was told until so many seconds from now."""
+        """Returns the forces that the stylus receives in the next `seconds`."""
         time.sleep(seconds)
         return json.loads(self.hand.communicate(timeout=END_LIMIT_S)[0].splitlines()[-1])
 
@@ -103,13 +103,13 @@ class Session:
 
 
 def watched_session(**how):
-    """A session and, between its simulator and its hand, a watchdog."""
+    """Returns a session with a watchdog between its simulator and its stylus."""
     session = Session(wrenches="watched", **how)
     return session, session.node("wrench_watchdog", "wrench_in:=left/body/servo_cf", "wrench_out:=watched", TIMEOUT)
 
 
 def state_of(process):
-    """T: stopped."""
+    """Returns the state of a process; T: stopped."""
     with open("/proc/%d/stat" % process.pid) as file:
         return file.read().rsplit(")", 1)[1].split()[0]
 
@@ -132,7 +132,7 @@ class ForceCase(unittest.TestCase):
             raise Late("%s: after %.4f s, wanted %.4f s" % (name, took_s, limit_s))
 
     def assertZeroSoon(self, name, felt, ended, until=None, limit_s=ZERO_LIMIT_S):
-        """Forces were there before, and nothing but zero from limit_s after the ending on."""
+        """Asserts that there were forces before, and only zeros from limit_s after the ending on."""
         before = [n for t, n, _, _ in felt if t < ended]
         self.assertGreater(before[-1], 0, name)
         later = [(t, n, m) for t, n, m, _ in felt if t >= ended and (until is None or t < until)]

@@ -7,7 +7,7 @@
 namespace viscera::nodes {
 namespace {
 
-constexpr double kRounding = 1e-12;  // N, N m: some products in double
+constexpr double kRounding = 1e-12;  // N, N m: several products in double
 
 TEST(ForceSink, TurnsIntoTheDevicesAxesAndAboutTheOriginOfItsPoses) {
   DeviceFrame frame;

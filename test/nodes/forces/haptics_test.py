@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A simulated device presses a block over ROS: forces come at the device's rate, it comes to rest, and its hand never
-gets more energy out of the tissue than it put in."""
+"""A simulated device presses a block over ROS: forces come at the device's rate, the device comes to rest, and its user
+never receives more energy from the tissue than they have given."""
 import math
 import statistics
 import sys
@@ -18,15 +18,15 @@ from std_msgs.msg import Float64
 
 LIMIT_S = 60
 TOP_M, RADIUS_M = 0.02, 0.008
-INTENDED_M = 0.022            # where the hand of haptics.yaml wants the tip while it holds
+INTENDED_M = 0.022            # height of the tip in haptics.yaml that the user intends while holding
 HAND_N_PER_M = 300            # default of sim_device
-HELD_M = 0.001                # the tip is that deep at least while it is held
+HELD_M = 0.001                # least depth of the tip while held
 SETTLE_S, LOOK_S = 3.0, 3.0   # of the hold, which takes 8 s
-QUIET_N, QUIET_M = 0.05, 1e-4  # a fingertip feels less than that as nothing; half of peak to peak of the middle nine tenths
-RATE_HZ = (700, 1300)         # of 1000, by counting: the machine may be busy
-PERIOD_S = (0.0005, 0.0015)   # the median
+QUIET_N, QUIET_M = 0.05, 1e-4  # below the threshold of a fingertip; half of peak to peak of the middle nine tenths
+RATE_HZ = (700, 1300)         # 1000 nominally, by counting: the machine may be busy
+PERIOD_S = (0.0005, 0.0015)   # median
 ACTIVE_J = -1e-3
-BALANCE = 0.1                 # of force: what the hand's spring gives, less its damper
+BALANCE = 0.1                 # relative force: that of the grip's spring, minus its damper
 
 
 def half_range(values):
@@ -52,12 +52,12 @@ class HapticsTest(unittest.TestCase):
         self.heights.append((message.header.stamp.to_sec(), message.pose.position.z))
 
     def assert_same_as_impedance(self, force_n, height_m):
-        """crtk_msgs/CartesianImpedance, of which this machine knows only what the simulator says, gives the same force."""
+        """crtk_msgs/CartesianImpedance, which this machine knows only from the simulator, gives the same force."""
         header = self.impedance.message._connection_header
         self.assertEqual(header["type"], "crtk_msgs/CartesianImpedance")
         kinds = genpy.dynamic.generate_dynamic(header["type"], header["message_definition"])
         kind = kinds[header["type"]]
-        self.assertEqual(kind._md5sum, header["md5sum"])  # that of the definition's text, as rosmsg has it
+        self.assertEqual(kind._md5sum, header["md5sum"])  # of the definition's text, as in rosmsg
         impedance = kind().deserialize(self.impedance.message._buff)
         self.assertEqual(impedance.header.frame_id, "tissue")
         turn = impedance.force_orientation
@@ -88,7 +88,7 @@ class HapticsTest(unittest.TestCase):
         self.assertTrue(PERIOD_S[0] < statistics.median(spans) < PERIOD_S[1], statistics.median(spans))
         self.assertLess(half_range(forces), QUIET_N)
         self.assertLess(half_range(heights), QUIET_M)
-        # what the tissue gives is what the hand's spring holds against it
+        # the tissue's force balances the grip's spring
         hand_n = HAND_N_PER_M * (height_m - INTENDED_M)
         self.assertGreater(force_n, 0.2)
         self.assertLess(abs(force_n - hand_n), BALANCE * hand_n)

@@ -13,11 +13,11 @@ namespace viscera::nodes {
 namespace {
 
 constexpr double kTick_s = 0.02, kStiff_n_per_m = 300;
-constexpr double kImpedanceRounding = 1e-9;  // N, m: some products in double
+constexpr double kImpedanceRounding = 1e-9;  // N, m: several products in double
 
 const SteadyTime kNow{std::chrono::hours(1)};
 
-/// A tip 2 mm deep in a wall at z = 0, as the ticks found it.
+/// Returns a servo after ticks with a tip 2 mm deep in a wall at z = 0.
 HapticServo pressed() {
   HapticServoConfig config;
   config.tick_s = kTick_s;
@@ -34,7 +34,7 @@ HapticServo pressed() {
   return servo;
 }
 
-/// Poses in the tissue frame at z, by a device of this profile.
+/// Sends a pose at height z in the tissue frame, by a device with this profile.
 void tell(StylusMailbox& mailbox, const DeviceProfile& device, double z_m) {
   DevicePose said;
   const DeviceMap map(device);
@@ -45,7 +45,7 @@ void tell(StylusMailbox& mailbox, const DeviceProfile& device, double z_m) {
   mailbox.take(kNow);
 }
 
-/// What a device that has this impedance gives at a place of its own, in its own axes.
+/// Returns the force of a device with this impedance at one of its positions, in its own axes.
 Vector3d forceAt(const crtk_msgs::CartesianImpedance& it, const Vector3d& device_m) {
   const auto vector = [](const geometry_msgs::Vector3& v) { return Vector3d(v.x, v.y, v.z); };
   const Quaterniond axes(it.force_orientation.w, it.force_orientation.x, it.force_orientation.y,

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What lies on an obstacle weighs on it: the table is told the block's weight, a wall that nothing touches nothing."""
+"""Obstacles measure the load on them: a table measures the block's weight, a wall without contact measures nothing."""
 import sys
 import unittest
 
@@ -11,7 +11,7 @@ from geometry_msgs.msg import WrenchStamped
 from simulator_watch import Latest, SimulatorWatch, wait_until
 
 WEIGHT_N = 0.02**3 * 1000 * 9.81
-TOLERANCE_N = 0.01 * WEIGHT_N  # the promise; the block settles within a second
+TOLERANCE_N = 0.01 * WEIGHT_N  # required accuracy; the block settles within a second
 
 
 class ObstacleForceTest(unittest.TestCase):

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "nodes/ros/conversions.h"
-#include "nodes/views/shown_messages.h"
+#include "nodes/views/surface_messages.h"
 
 #include <gtest/gtest.h>
 
@@ -14,38 +14,38 @@
 namespace viscera::nodes {
 namespace {
 
-constexpr double kRounding = 1e-12;  // [m], [N] double rounding of a few operations
+constexpr double kRounding = 1e-12;  // [m], [N] double rounding of several operations
 
-/// Two bodies: a square of two triangles, and a single triangle. @param shown  vertices of what is left of each
-ShownTopology twoBodies(const std::vector<uint32_t>& square = {0, 1, 2, 2, 1, 3},
-                        const std::vector<uint32_t>& flap = {4, 5, 6}) {
-  ShownTopology skin;
+/// Returns two bodies: a square of two triangles, and a single triangle. @param shown  remaining vertices of each
+VisibleTopology twoBodies(const std::vector<uint32_t>& square = {0, 1, 2, 2, 1, 3},
+                          const std::vector<uint32_t>& flap = {4, 5, 6}) {
+  VisibleTopology skin;
   skin.revision = 1;
   skin.vertices = 13;
   skin.triangles = square;
   skin.triangles.insert(skin.triangles.end(), flap.begin(), flap.end());
   skin.bodies = {{"square", Vector3d(1, 0, 0)}, {"flap", Vector3d(0, 1, 0)}};
-  skin.patches = {{0, ShownKind::kSkin, 0, square.size() / 3},
-                  {1, ShownKind::kSkin, square.size() / 3, flap.size() / 3}};
+  skin.patches = {{0, SurfaceKind::kSkin, 0, square.size() / 3},
+                  {1, SurfaceKind::kSkin, square.size() / 3, flap.size() / 3}};
   return skin;
 }
 
-/// Of the two bodies while they are whole; six more lie ready for cuts.
+/// Number of vertices of the two uncut bodies; six more are in reserve for cuts.
 constexpr size_t kUsedVertices = 7;
 
-/// What is sent when the triangles have become these.
-SentVertices followed(const ShownTopology& skin) {
+/// Returns the vertices that are sent for these triangles.
+SentVertices followed(const VisibleTopology& skin) {
   SentVertices sent(twoBodies());
   sent.follow(skin);
   return sent;
 }
 
-SurfaceFrame frameOf(const ShownTopology& skin) {
+SurfaceFrame frameOf(const VisibleTopology& skin) {
   SurfaceFrame frame;
   frame.tick = 12;
   for (size_t i = 0; i < 3 * skin.vertices; ++i) frame.positions_m.push_back(0.25f * static_cast<float>(i));
   frame.normals.assign(skin.vertices, 7u);
-  frame.topology = std::make_shared<ShownTopology>(skin);
+  frame.topology = std::make_shared<VisibleTopology>(skin);
   return frame;
 }
 
@@ -104,7 +104,7 @@ TEST(Conversions, WrenchThatIsNotFiniteBecomesZero) {
 }
 
 TEST(Conversions, TopologyTellsWhatIsShownAndCountsPerBody) {
-  const ShownTopology skin = twoBodies();
+  const VisibleTopology skin = twoBodies();
   const auto whole = toTopology(skin, followed(skin), 1, "tissue", ros::Time(1));
   EXPECT_EQ(whole.triangles, skin.triangles);
   EXPECT_EQ(whole.vertices, kUsedVertices);
@@ -116,7 +116,7 @@ TEST(Conversions, TopologyTellsWhatIsShownAndCountsPerBody) {
 }
 
 TEST(Conversions, TopologyTellsTheColorsOfTheScene) {
-  ShownTopology skin = twoBodies();
+  VisibleTopology skin = twoBodies();
   skin.bodies[0].color = {1, 0.5, 0};
   skin.bodies[1].color = {0, 0, 2};
   const auto topology = toTopology(skin, followed(skin), 1, "tissue", ros::Time(1));
@@ -126,9 +126,9 @@ TEST(Conversions, TopologyTellsTheColorsOfTheScene) {
 }
 
 TEST(Conversions, PatchesOfABodyAreToldTogether) {
-  ShownTopology skin = twoBodies();
+  VisibleTopology skin = twoBodies();
   skin.triangles.insert(skin.triangles.end(), {7, 8, 9});
-  skin.patches.push_back({1, ShownKind::kWound, 3, 1});
+  skin.patches.push_back({1, SurfaceKind::kWound, 3, 1});
   const auto topology = toTopology(skin, followed(skin), 1, "tissue", ros::Time(1));
   EXPECT_EQ(topology.body_triangles, (std::vector<uint32_t>{2, 2}));
   EXPECT_EQ(topology.wound_triangles, (std::vector<uint32_t>{0, 1}));
@@ -137,7 +137,7 @@ TEST(Conversions, PatchesOfABodyAreToldTogether) {
   EXPECT_EQ(markers[0].points.size(), 6u);
   EXPECT_EQ(markers[1].points.size(), 3u);
   EXPECT_EQ(markers[2].action, visualization_msgs::Marker::DELETE);
-  ASSERT_EQ(markers[3].points.size(), 3u);  // the wound
+  ASSERT_EQ(markers[3].points.size(), 3u);  // the cut wall
   EXPECT_EQ(markers[3].ns, "flap wounds");
   EXPECT_LT(markers[3].color.g, markers[1].color.g);
 }
@@ -156,7 +156,7 @@ TEST(Conversions, SplitTrianglesAreToldInPieces) {
 }
 
 TEST(Conversions, VerticesThatACutAddsAreSentAfterTheOthersAndOnlyWhileTheyAreNeeded) {
-  const ShownTopology cut = twoBodies({2, 1, 3}, {5, 12, 8, 12, 6, 4});
+  const VisibleTopology cut = twoBodies({2, 1, 3}, {5, 12, 8, 12, 6, 4});
   SurfaceFrame frame = frameOf(cut);
   for (uint32_t v = 0; v < frame.vertices(); ++v) frame.colors.push_back(100 + v);
   SentVertices sent = followed(cut);
@@ -227,7 +227,7 @@ TEST(Conversions, ImageAndCameraInfoAgreeInStampFrameAndSize) {
   EXPECT_EQ(image.step * image.height, image.data.size());
   EXPECT_EQ(image.encoding, "rgb8");
   EXPECT_EQ(info.width, image.width);
-  EXPECT_EQ(info.K[2], 1.5);  // the middle of four pixels whose centres are 0, 1, 2, 3
+  EXPECT_EQ(info.K[2], 1.5);  // the centre of four pixels with centres 0, 1, 2, 3
   EXPECT_EQ(info.K[5], 0.5);
   EXPECT_EQ(info.P[2], info.K[2]);
   EXPECT_EQ(info.P[6], info.K[5]);
@@ -243,7 +243,7 @@ TEST(Conversions, CameraInfoHoldsTheLensOfThePictures) {
   const auto info = toCameraInfo(camera, "f", ros::Time(8));
   EXPECT_EQ(info.distortion_model, "plumb_bob");
   EXPECT_EQ(info.D, (std::vector<double>{-0.2, 0.05, 0.003, -0.002, 0.001}));
-  // What image_geometry does to rectify a pixel: OpenCV's undistortPoints, by iteration.
+  // Rectifies a pixel like image_geometry: OpenCV's undistortPoints, by iteration.
   const auto rectified = [&](double column, double row) {
     const double x0 = (column - info.K[2]) / info.K[0], y0 = (row - info.K[5]) / info.K[4];
     double x = x0, y = y0;
@@ -256,7 +256,7 @@ TEST(Conversions, CameraInfoHoldsTheLensOfThePictures) {
     }
     return Eigen::Vector2d(info.P[0] * x + info.P[2], info.P[5] * y + info.P[6]);
   };
-  for (double share = -1; share <= 1; share += 0.25) {  // of a line in space
+  for (double share = -1; share <= 1; share += 0.25) {  // along a line in space
     const Vector3d point(0.3 * share, 0.2 + 0.1 * share, 0.6 + 0.1 * share);
     const auto shown = pixelOf(camera, point);
     ASSERT_TRUE(shown);

@@ -16,13 +16,13 @@
 
 #include "nodes/ros/thread_name.h"
 
-// What a process does in its last moments: each test is one that ends, and says "zero" as a device's last.
+// Last moments of a process: each test is a process that ends, and prints "zero" in place of a device's last force.
 
 namespace viscera::nodes {
 namespace {
 
 using std::chrono::milliseconds;
-constexpr milliseconds kOnTheWay{30};  ///< what zeros take in these tests: less than a crash waits for them
+constexpr milliseconds kOnTheWay{30};  ///< time to send zeros in these tests: less than a crash waits for them
 
 class EndWatchDeathTest : public ::testing::Test {
  protected:
@@ -30,7 +30,7 @@ class EndWatchDeathTest : public ::testing::Test {
     ::testing::FLAGS_gtest_death_test_style = "threadsafe";
     getrlimit(RLIMIT_CORE, &before_);
     const rlimit none{0, before_.rlim_max};
-    setrlimit(RLIMIT_CORE, &none);  // these crashes are no findings
+    setrlimit(RLIMIT_CORE, &none);  // these crashes are intended
   }
   void TearDown() override { setrlimit(RLIMIT_CORE, &before_); }
 
@@ -43,7 +43,7 @@ void sayZero() {
   if (write(STDERR_FILENO, kZero, sizeof kZero - 1) < 0) std::_Exit(EXIT_FAILURE);
 }
 
-/// Needs more stack than there is.
+/// Uses more stack than available.
 int descend(int depth) {
   volatile char room[4096];
   room[0] = static_cast<char>(depth);
@@ -111,8 +111,9 @@ TEST_F(EndWatchDeathTest, CrashOfAnActWaitsForWhatItHasBegun) {
   EXPECT_EXIT(die(), ::testing::KilledBySignal(SIGSEGV), "zero");
 }
 
-/// In a process group of its own, as a shell gives it: its parent's session can continue it, so that signals of the
-/// terminal stop it. @returns the process that continues this one once it stands
+/// Moves the process into a process group of its own, as a shell does: its parent's session can continue it, so signals
+/// of the terminal stop it.
+/// @returns the process that continues this one after it has stopped
 pid_t continueOnceStopped() {
   setpgid(0, 0);
   const pid_t watched = getpid(), watcher = fork();

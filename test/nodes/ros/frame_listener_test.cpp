@@ -46,12 +46,12 @@ TEST(FrameIntake, LeavesOutItsOwnMovingFramesAndKeepsItsFixedOnes) {
 }
 
 TEST(FrameIntake, AfterAClockThatWentBackAMessageOfBeforeKeepsNoLaterOneOut) {
-  ros::Time::init();  // of the log
+  ros::Time::init();  // for the log
   tf2::BufferCore frames;
   FrameIntake intake(frames, "/simulator");
   intake.take(message(1000, "tissue"), "/simulator", ros::Time(1000), true);
   intake.take(message(1000), "/tracker", ros::Time(1000), false);
-  intake.take(message(1000.1), "/tracker", ros::Time(900), false);  // still on its way when the clock went back
+  intake.take(message(1000.1), "/tracker", ros::Time(900), false);  // in transit when the clock went back
   EXPECT_FALSE(knows(frames, 1000));
   EXPECT_TRUE(knows(frames, 900, "tissue")) << "what is fixed stays";
   intake.take(message(900.1), "/tracker", ros::Time(900.1), false);
@@ -61,7 +61,7 @@ TEST(FrameIntake, AfterAClockThatWentBackAMessageOfBeforeKeepsNoLaterOneOut) {
 TEST(FrameIntake, AStampALittleAheadIsAccepted) {
   tf2::BufferCore frames;
   FrameIntake intake(frames, "");
-  intake.take(message(1001), "/localiser", ros::Time(1000), false);  // such as say where something will be
+  intake.take(message(1001), "/localiser", ros::Time(1000), false);  // such as predictions of future poses
   EXPECT_TRUE(knows(frames, 1001));
 }
 

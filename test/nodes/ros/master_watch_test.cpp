@@ -17,10 +17,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
-constexpr milliseconds kAtOnce{100};  ///< what does not wait takes, on a busy machine too
+constexpr milliseconds kAtOnce{100};  ///< limit for operations that do not wait, on a busy machine too
 constexpr milliseconds kNeverLost{8000};
 
-/// A master that takes connections and never answers, as one that was stopped. @returns its port
+/// Starts a master that accepts connections and never answers, like a stopped one. @returns its port
 int listenInSilence() {
   const int listener = socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};

@@ -87,8 +87,8 @@ TEST(PictureWatch, SaysHowPixelsAreMade) {
   cameras[1].supersampling = 1;
   cameras[2].supersampling = 2;
   const PictureWatch watch(cameras);
-  EXPECT_NE(watch.ways(true)[0].find("lights one"), std::string::npos);
-  EXPECT_EQ(watch.ways(false)[0].find("lights one"), std::string::npos);
+  EXPECT_NE(watch.ways(true)[0].find("only one is lit"), std::string::npos);
+  EXPECT_EQ(watch.ways(false)[0].find("only one is lit"), std::string::npos);
   EXPECT_NE(watch.ways(true)[1].find("1 sample"), std::string::npos);
   EXPECT_NE(watch.ways(true)[2].find("4 samples each"), std::string::npos);
 }

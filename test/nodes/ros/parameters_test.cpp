@@ -8,17 +8,17 @@
 #include <fstream>
 
 #include "model/scene/file_bounds.h"
+#include "nodes/simulated_devices/stylus_replay.h"
 #include "nodes/simulator/simulator_options.h"
-#include "nodes/stand_ins/stylus_replay.h"
 
 namespace viscera::nodes {
 namespace {
 
 using XmlRpc::XmlRpcValue;
 
-constexpr double kCell_m = 0.005;  // half a cell of the block, by which its skin may lie beside its sides
+constexpr double kCell_m = 0.005;  // half a cell of the block, the tolerance of its surface
 
-/// The call fails with a message that holds every one of these words.
+/// Expects that the call fails with a message that contains all of these words.
 template <class Call>
 void expectRefused(Call call, const std::vector<std::string>& words) {
   try {
@@ -183,7 +183,7 @@ TEST_F(SimulatorOptionsTest, OverrideOfAnUnknownKeyIsRefused) {
   expectRefused([&] { read(values); }, {"spacing_mm"});
 }
 
-/// A scene of `left` and `right`, and one of `left` and `third`, which allows them more.
+/// A scene of `left` and `right`, and one of `left` and `third` with higher limits.
 class LaunchLimitsTest : public SimulatorOptionsTest {
  protected:
   LaunchLimitsTest() {
@@ -201,13 +201,13 @@ class LaunchLimitsTest : public SimulatorOptionsTest {
     values["overrides"] = overrides;
     return read(values);
   }
-  /// As load_scene does it.
+  /// Loads a scene like load_scene.
   std::vector<StylusConfig> load(SimulatorOptions options, const Overrides& overrides = {}) {
     options.take({"second", {}, overrides, ""}, folder_.string());
     notes_ = options.limit_notes;
     return options.scene.styluses;
   }
-  std::vector<std::string> notes_;  ///< of load()
+  std::vector<std::string> notes_;  ///< notes of load()
 };
 
 TEST_F(LaunchLimitsTest, AreBoundsOfEveryLaterSceneAndOverride) {
@@ -216,7 +216,7 @@ TEST_F(LaunchLimitsTest, AreBoundsOfEveryLaterSceneAndOverride) {
   EXPECT_TRUE(first.limit_notes.empty());
   EXPECT_EQ(load(first).at(0).max_force_n, 1);
   ASSERT_EQ(notes_.size(), 3U);
-  EXPECT_EQ(notes_[0], "stylus left: max_force_n is 1, which the launch's ~overrides set, not 8");
+  EXPECT_EQ(notes_[0], "stylus left: max_force_n is 1, as set by the ~overrides of the launch file, not 8");
   const std::vector<StylusConfig> later = load(first, {"styluses[0].max_force_n=10"});
   EXPECT_EQ(later.at(0).max_force_n, 1);
   EXPECT_EQ(later.at(0).max_force_rate_n_per_s, 100) << "of the other stylus alone";
@@ -255,7 +255,7 @@ TEST_F(SimulatorOptionsTest, AnchoredStrokesAreBroughtToTheSkinOfTheScene) {
   Parameters without(values);
   expectRefused([&] { replayOptions(without, folder_.string()); }, {"~scene"});
 
-  values["scene"] = "block";  // a box of 0.05 m about the origin: its skin is at y = -0.025 m
+  values["scene"] = "block";  // a box of 0.05 m about the origin: its surface is at y = -0.025 m
   Parameters with(values);
   const ReplayOptions options = replayOptions(with, folder_.string());
   EXPECT_FALSE(options.strokes.anchored());

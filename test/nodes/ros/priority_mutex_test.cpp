@@ -14,7 +14,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-/// Runs the calling thread on the first processor, with that real-time priority. @returns whether that is permitted
+/// Runs the calling thread on the first CPU core, with that real-time priority. @returns whether that is permitted
 bool runFirst(int priority) {
   cpu_set_t first;
   CPU_ZERO(&first);
@@ -56,10 +56,10 @@ TEST(PriorityMutex, ConditionGivesUpWhenDueAndHoldsTheLock) {
   std::thread([&] { EXPECT_FALSE(mutex.try_lock()); }).join();
 }
 
-/// On one processor a thread of low priority holds the mutex while one of middle priority works and works: one of high
+/// On one CPU core a thread of low priority holds the mutex while one of middle priority keeps working. One of high
 /// priority that waits for the mutex must not wait for that work.
 TEST(PriorityMutex, HolderThatOthersKeepFromRunningRunsWithThePriorityOfWhoWaits) {
-  constexpr milliseconds kWork{200};  // less than the kernel leaves to real-time threads of a second
+  constexpr milliseconds kWork{200};  // less than the kernel gives to real-time threads per second
   PriorityMutex mutex;
   std::atomic<bool> held{false}, working{false}, permitted{true};
   Clock::duration waited{};

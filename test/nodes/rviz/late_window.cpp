@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// For LD_PRELOAD: the X server does not have a window yet when it is asked for its size, as happens now and then where
-// one connection has made the window and another one asks. Buffers of no size that are written to end the program.
-// $VISCERA_LATE says which window: 1 is rviz's own, 2 that of the first Image display.
+// For LD_PRELOAD: simulates that the X server does not have a window yet when its size is queried, which happens
+// occasionally if one connection creates the window and another queries it. Writing to buffers of size zero ends the
+// program. $VISCERA_LATE selects the window: 1 is rviz's own, 2 that of the first Image display.
 #include <dlfcn.h>
 #include <sys/mman.h>
 
@@ -14,7 +14,7 @@
 
 namespace {
 constexpr size_t kPage = 4096;
-constexpr size_t kMapped = size_t{64} << 20U;  // glibc maps blocks of that size apart, and reads nothing in them
+constexpr size_t kMapped = size_t{64} << 20U;  // glibc maps such blocks separately, and does not access their contents
 }  // namespace
 
 extern "C" {
@@ -25,10 +25,10 @@ int XGetGeometry(void* display, unsigned long drawable, unsigned long* root, int
   static const size_t late = std::strtoul(std::getenv("VISCERA_LATE"), nullptr, 10);
   static std::set<unsigned long> windows;
   const int known = next(display, drawable, root, x, y, width, height, border, depth);
-  if (*width == 1) return known;  // rviz's window that is never seen
+  if (*width == 1) return known;  // rviz's hidden window
   if (!windows.insert(drawable).second || windows.size() != late) return known;
   std::fputs("a window came late\n", stderr);
-  *width = 168;  // what was on Mesa's stack, as was seen
+  *width = 168;  // values that were observed on Mesa's stack
   *height = 0;
   return 0;
 }

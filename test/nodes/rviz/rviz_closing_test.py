@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Closing rviz in the middle of anything: triangles that change with every message, a service that has not answered, the
-mouse that draws a stylus over the skin, and a simulator that was killed in the middle of all that."""
+"""Closing rviz at any time: while triangles change with every message, a service has not answered, the mouse moves a
+stylus over the surface, and a simulator is killed meanwhile."""
 import os
 import signal
 import subprocess
@@ -20,9 +20,9 @@ from simulator_watch import Latest, wait_until
 
 CONFIG = os.path.join(subprocess.check_output(["rospack", "find", "viscera"], text=True).strip(),
                       "config", "viscera_plugin.rviz")
-PAUSE = (0, 114, 178)  # sign on the button
+PAUSE = (0, 114, 178)  # icon on the button
 LIMIT_S = 60           # software rendering on a busy machine
-DEAD_S = 0.3           # that a simulator is dead when rviz is closed: its connections break in between
+DEAD_S = 0.3           # time since the simulator was killed when rviz is closed: its connections break in between
 
 
 class RvizClosingTest(unittest.TestCase):

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What rviz keeps of topologies that it no longer draws: nothing. VISCERA_CHANGES: how many, 10,000 in the long form."""
+"""rviz keeps nothing of topologies that it no longer draws. VISCERA_CHANGES: number of changes, 10,000 in the long
+form."""
 import os
 import sys
 import unittest
@@ -13,15 +14,15 @@ from simulator_watch import wait_until
 from stand_in_simulator import ChangingBall
 
 CHANGES = int(os.environ.get("VISCERA_CHANGES", "600"))
-WARM = CHANGES // 4   # memory that is there for good, and pools that grow at first
+WARM = CHANGES // 4   # for permanent memory, and pools that grow initially
 RATE_HZ = 60
 LIMIT_S = 500
-# 0.1 MB came out, of 600 changes and of 10,000. Meshes that are never removed are 84 MB in 600.
+# 0.1 MB were measured, with 600 changes and with 10,000. Meshes that are never removed are 84 MB with 600.
 LEAK_LIMIT_MB = 8
 
 
 def resident_mb(pid):
-    """Software renderers have their textures and buffers there too."""
+    """Returns the resident memory [MB]. Textures and buffers of software renderers are included."""
     with open("/proc/%d/statm" % pid) as file:
         return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
 
@@ -36,7 +37,7 @@ class RvizLeaksTest(unittest.TestCase):
         self.screen.end()
 
     def draw(self, ball, changes):
-        """So many topologies more. rviz tells how many it has drawn, each of another one."""
+        """Draws further topologies. rviz reports how many it has drawn, each with another topology."""
         rate, enough = rospy.Rate(2 * RATE_HZ), sum(rviz_screen.drawn_hz(self.rviz.output)) + changes
 
         def drawn():

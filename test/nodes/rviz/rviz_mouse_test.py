@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The tool viscera/Mouse in rviz: where the tip goes that the mouse leads, and which buttons it presses."""
+"""The tool viscera/Mouse in rviz: the position of the tip that the mouse moves, and the buttons that it presses."""
 import math
 import os
 import subprocess
@@ -40,7 +40,7 @@ class RvizMouseTest(unittest.TestCase):
         cls.screen.end()
 
     def distance(self):
-        """Of the tip from the ball's middle."""
+        """Returns the distance of the tip from the ball's centre."""
         p = self.pose.message.pose.position
         return math.sqrt(p.x**2 + p.y**2 + p.z**2)
 
@@ -58,7 +58,7 @@ class RvizMouseTest(unittest.TestCase):
 
     @classmethod
     def ball(cls):
-        """Middle of the ball on the screen, by its red."""
+        """Returns the centre of the ball on the screen, by its red colour."""
         picture = cls.screen.picture()
         red = (picture[:, :, 0] > 1.5 * picture[:, :, 1]) & (picture[:, :, 0] > 40) & (picture[:, :, 1] > 10)
         rows, columns = red.nonzero()
@@ -66,7 +66,7 @@ class RvizMouseTest(unittest.TestCase):
 
     @classmethod
     def sent_ball(cls):
-        """Sent again and again, as a simulator does: rviz subscribes more than once while it begins."""
+        """Sends the ball repeatedly, as a simulator does: rviz subscribes more than once while it starts."""
         cls.sender = cls.sender or Sender()
         cls.sender.topology(1)
         cls.sender.vertices(1)
@@ -81,7 +81,7 @@ class RvizMouseTest(unittest.TestCase):
         self.assertEqual(self.pose.message.header.frame_id, "tissue")
         self.screen.keep("mouse.ppm")
 
-        self.wheel(4, 12)  # away from the hand: deeper
+        self.wheel(4, 12)  # away from the user: deeper
         self.at(12 * STEP_M - 0.01)
         wait_until(lambda: self.pose.count > 50, LIMIT_S, "poses")
         self.wheel(5, 12)
@@ -101,7 +101,7 @@ class RvizMouseTest(unittest.TestCase):
         self.screen.do("keyup", "2")
         self.held(2, 0)
 
-        # Another tool: poses end, and what is pressed is let go.
+        # Another tool is chosen: poses end, and pressed buttons are released.
         self.screen.do("keydown", "1")
         self.held(1, 1)
         self.screen.do("key", "m")

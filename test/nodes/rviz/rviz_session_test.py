@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The panel viscera/Session in rviz, clicked: its buttons do to a simulator what they say, and to none nothing."""
+"""The panel viscera/Session in rviz: clicks on its buttons have the labelled effect on a simulator, and none without
+one."""
 import os
 import subprocess
 import sys
@@ -19,12 +20,12 @@ from viscera.msg import TaskState, Tick
 CONFIG = os.path.join(subprocess.check_output(["rospack", "find", "viscera"], text=True).strip(),
                       "config", "viscera_plugin.rviz")
 LIMIT_S = 40  # software rendering on a busy machine
-STILL = 5     # messages of `tick`, 20 ms apart in a pause
-# Signs on buttons, by their colours (src/rviz/panel_look.cpp)
+STILL = 5     # messages of `tick`, 20 ms apart while paused
+# Icons on buttons, by their colours (src/rviz/panel_style.cpp)
 RESET, PAUSE, RESUME, STEP = (230, 159, 0), (0, 114, 178), (0, 158, 115), (86, 180, 233)
 RECORD, STOP, START = (213, 94, 0), (150, 60, 0), (0, 130, 90)
 AWAY = (5, 5)     # no button is there
-TASK_BOX_PX = 30  # from the sign on Start to the box of tasks, above it
+TASK_BOX_PX = 30  # from the icon on Start to the box of tasks, above it
 
 
 class RvizSessionTest(unittest.TestCase):
@@ -50,16 +51,17 @@ class RvizSessionTest(unittest.TestCase):
         return self.screen.find(color)
 
     def places(self, colors):
-        """Where these signs are, to the pixel: the pointer, which covers what it has clicked, is moved away."""
+        """Returns the exact positions of these icons. The pointer, which covers the icon that it has clicked, is moved
+        away."""
         self.screen.do("mousemove", *AWAY)
         def steady():
             first = [self.shown(color) for color in colors]
-            time.sleep(0.3)  # a button that is no longer pressed is drawn again
+            time.sleep(0.3)  # a button is redrawn after its release
             return first if None not in first and first == [self.shown(color) for color in colors] else None
         return wait_until(steady, LIMIT_S, "signs of all buttons")
 
     def click(self, color, condition, what):
-        """The button with the sign of this colour, as soon as it may be clicked."""
+        """Clicks the button with the icon of this colour, as soon as it is enabled."""
         place = wait_until(lambda: self.shown(color), LIMIT_S, "button: " + what)
         self.screen.click(*place)
         try:
@@ -82,15 +84,15 @@ class RvizSessionTest(unittest.TestCase):
         self.screen.keep("session.ppm")
         self.assertEqual(self.places(signs), before[:-1], "buttons move as a recording begins")
         self.click(RESUME, lambda: self.ticks[-1] > 10, "resume")
-        self.screen.click(*before[-1])  # the button is where it was, its sign beside another text
+        self.screen.click(*before[-1])  # the button is where it was, its icon next to another text
         wait_until(lambda: self.watch.value("simulation", "recording") == "", LIMIT_S, "end of the recording")
         self.assertGreater(os.path.getsize(file), 0)
-        for is_recording in (True, False):  # the same key begins and ends it
+        for is_recording in (True, False):  # the same key starts and stops it
             wait_until(lambda: self.shown(RECORD if is_recording else STOP), LIMIT_S, "button of the recording")
             self.screen.do("key", "alt+c")
             wait_until(lambda: bool(self.watch.value("simulation", "recording")) == is_recording, LIMIT_S, "Alt+C")
 
-        # What others do is seen: the button pauses again after another node has resumed.
+        # Changes by others are displayed: the button pauses again after another node has resumed.
         rospy.ServiceProxy("pause", Trigger)()
         wait_until(lambda: self.shown(RESUME), LIMIT_S, "pause of another node")
 
@@ -101,7 +103,7 @@ class RvizSessionTest(unittest.TestCase):
         self.screen.keep("no_simulator.ppm")
         wait_until(lambda: self.shown(PAUSE), LIMIT_S, "simulator that was started again")  # respawned
 
-        # A task of another scene brings its scene.
+        # A task of another scene loads its scene.
         x, y = wait_until(lambda: self.shown(START), LIMIT_S, "button: start")
         self.screen.click(x, y - TASK_BOX_PX)
         self.screen.do("key", "ctrl+a")
@@ -111,7 +113,7 @@ class RvizSessionTest(unittest.TestCase):
         wait_until(lambda: self.watch.value("simulation", "scene") == "practice_pad", LIMIT_S, "scene of the task")
         self.screen.keep("task.ppm")
 
-        # In the middle of a call: a step of a simulator that stands.
+        # During a call: a step of a simulator that is stopped.
         self.click(PAUSE, self.stands, "pause")
         self.screen.click(*wait_until(lambda: self.shown(STEP), LIMIT_S, "step"))
         self.rviz.process.send_signal(2)

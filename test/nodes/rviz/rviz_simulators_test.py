@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""rviz with no simulator, with one, with two in one namespace, and with one that is started again."""
+"""rviz with no simulator, with one, with two in one namespace, and with one that is restarted."""
 import os
 import subprocess
 import sys
@@ -19,10 +19,10 @@ from viscera.msg import SurfaceVertices
 
 CONFIG = os.path.join(subprocess.check_output(["rospack", "find", "viscera"], text=True).strip(),
                       "config", "viscera_plugin.rviz")
-PAUSE = (0, 114, 178)  # sign on the button, grey without a simulator
+PAUSE = (0, 114, 178)  # icon on the button, grey without a simulator
 WARNING = (192, 64, 0)  # of text in the panel
 DISPLAY_WARNING = (192, 128, 0)  # of the name of a display, as rviz paints it
-WARNED_S = 2           # after it died
+WARNED_S = 2           # time after the simulator was killed
 LIMIT_S = 60           # software rendering on a busy machine
 
 
@@ -63,7 +63,7 @@ class RvizSimulatorsTest(unittest.TestCase):
         self.screen.keep("display_of_a_dead_simulator.ppm")
         self.assertTrue(self.screen.ball(), "its last surface is shown")
         self.expect(False, False, "panel after the last one was killed")
-        # One that is there and has no surface yet: that of the dead one goes.
+        # A simulator that has no surface yet: the surface of the dead one disappears.
         silent = rospy.Publisher("surface", SurfaceVertices, queue_size=1)
         wait_until(lambda: not self.screen.ball(), LIMIT_S, "view without the ball of the one that died")
         time.sleep(1)

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The display viscera/Surface in rviz: what it draws of topologies, their changes and vertices, right and wrong ones."""
+"""The display viscera/Surface in rviz: what it draws for topologies, their changes and vertices, valid and invalid
+ones."""
 import os
 import subprocess
 import sys
@@ -20,13 +21,13 @@ CONFIG = os.path.join(subprocess.check_output(["rospack", "find", "viscera"], te
                       "config", "viscera_plugin.rviz")
 LIMIT_S = 60      # software rendering on a busy machine
 SCENE_COLOR = 0xffc08040
-MIDDLE = slice(335, 355), slice(225, 245)  # rows and columns of VIEW, in the midst of the disc
+MIDDLE = slice(335, 355), slice(225, 245)  # rows and columns of VIEW, in the middle of the disc
 LEAST_LIGHT, MOST_LIGHT = 0.6, 1.1
 FEW, MANY = 300, 10000  # pixels: frames' axes are red too; a ball of 5 cm is 200 pixels wide
 
 
 def blue(picture):
-    """Its pixels."""
+    """Returns the blue pixels."""
     return int(((picture[:, :, 2] > 2 * picture[:, :, 0]) & (picture[:, :, 2] > 60)).sum())
 
 
@@ -35,7 +36,7 @@ class RvizSurfaceTest(unittest.TestCase):
     def setUpClass(cls):
         cls.screen = Screen()
         cls.rviz = rviz(CONFIG, lambda: cls.screen.find(MOUSE_SIGN))
-        cls.sender = Sender()  # now: as it begins, rviz subscribes several times, and what comes then may be lost
+        cls.sender = Sender()  # rviz subscribes several times as it starts, and messages before may be lost
 
     @classmethod
     def tearDownClass(cls):
@@ -43,7 +44,7 @@ class RvizSurfaceTest(unittest.TestCase):
         cls.screen.end()
 
     def pixels(self):
-        """Of skin and of walls: red, bright and dark."""
+        """Returns the numbers of pixels of the surface and of cut walls: red, bright and dark."""
         self.assertIsNone(self.rviz.process.poll(), "rviz has ended: " + self.rviz.output)
         red, green, blue = (self.screen.picture()[VIEW][:, :, i] for i in range(3))
         skin = (red > 1.5 * green) & (green > 1.05 * blue - 3) & (red > 40) & (green > 0.25 * red)
@@ -70,7 +71,7 @@ class RvizSurfaceTest(unittest.TestCase):
         sender.vertices(2)
         self.expect(lambda skin, walls: skin > MANY and walls > MANY, "ball with skin and walls")
 
-        sender.vertices(2, normals=[0])  # not as many as vertices: what was there stays
+        sender.vertices(2, normals=[0])  # fewer than vertices: the previous surface stays
         sender.change.publish(SurfaceTopologyChange(version=3, kept=[10**6], removed=[1], added=[0]))
         time.sleep(2)
         self.expect(lambda skin, walls: skin > MANY and walls > MANY, "ball after wrong messages")
@@ -83,7 +84,7 @@ class RvizSurfaceTest(unittest.TestCase):
         self.expect(lambda skin, walls: skin > MANY and walls < FEW, "ball without its walls")
 
         colors = [0xffd02020] * len(sender.points)
-        sender.vertices(3, colors=colors[1:])  # not as many as vertices
+        sender.vertices(3, colors=colors[1:])  # fewer than vertices
         sender.vertices(3, colors=colors)
         self.expect(lambda skin, walls: skin < FEW and blue(self.screen.picture()[VIEW]) > MANY, "ball with colors of its vertices")
         self.screen.keep("colors.ppm")
@@ -102,7 +103,7 @@ class RvizSurfaceTest(unittest.TestCase):
         wait_until(is_seen, LIMIT_S, "flat disc in the color of the scene")
         self.screen.keep("flat.ppm")
 
-        sender.topology(1)  # as of a simulator that was started again
+        sender.topology(1)  # like a restarted simulator
         sender.vertices(1)
         self.expect(lambda skin, walls: skin > MANY and walls > MANY, "ball of the other simulator")
 
@@ -120,7 +121,7 @@ class RvizStrainTest(unittest.TestCase):
             self.assertEqual(sender.surface.get_num_connections(), 0)
 
             def seen():
-                sender.topology(1)  # again and again: rviz subscribes more than once while it begins
+                sender.topology(1)  # repeatedly: rviz subscribes more than once while it starts
                 strain.publish(sender.moved(1, 0, colors=[0xffd02020] * len(sender.points)))
                 return blue(screen.picture()) > MANY
             wait_until(seen, LIMIT_S, "ball with colors of strain in: " + program.output)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whatever hands do to the tissue, the simulator stays alive, sends finite numbers only, and can be reset. VISCERA_CUTS: how
-many cuts, 1000 in the long form."""
+"""Whatever styluses do to the tissue, the simulator stays alive, sends finite numbers only, and can be reset.
+VISCERA_CUTS: number of cuts, 1000 in the long form."""
 import math
 import os
 import random
@@ -19,15 +19,15 @@ from visualization_msgs.msg import Marker
 
 LIMIT_S = 30
 RATE_HZ = 60
-PRESSES = 10  # of a grip, 2 s each, or of a blade
+PRESSES = 10  # number of presses of a grip, 2 s each, or of a blade
 SKIN = (0, -0.046, -0.02)  # [m] on the front of the phantom
-BOUND_M = 1.5              # no vertex of the skin gets farther than solver.sleep_distance_m and the tissue's own size
-BACK_M = 0.004             # after a reset the skin is where it was, but for its sag under gravity
+BOUND_M = 1.5              # limit of the surface's vertices: solver.sleep_distance_m and the tissue's own size
+BACK_M = 0.004             # after a reset the surface is where it was, except for its sag under gravity
 CUTS = int(os.environ.get("VISCERA_CUTS", "200"))
 
 
 class Senses:
-    """Everything that is published, and whether a number in it was not finite."""
+    """Subscribes to everything that is published, and records whether a number was not finite."""
 
     def __init__(self):
         self.faults = []
@@ -109,7 +109,7 @@ class AbuseTest(unittest.TestCase):
         for _ in range(RATE_HZ // 2):
             self.move("left", x, y, z)
         held = 0
-        for _ in range(PRESSES):  # a busy machine may lose the hand just as it presses, and diagnostics come once a second
+        for _ in range(PRESSES):  # a busy machine may lose tracking during a press, and diagnostics come once a second
             self.press(self.button1, True)
             for _ in range(2 * RATE_HZ):
                 self.move("left", x, y, z)
@@ -129,12 +129,12 @@ class AbuseTest(unittest.TestCase):
         self.assertAliveAndFinite()
 
     def test_4_many_cuts(self):
-        for _ in range(RATE_HZ // 2):  # a button that is down when its hand comes does nothing
+        for _ in range(RATE_HZ // 2):  # a button that is down when tracking begins does nothing
             self.move("right", 0.2, 0, 0)
         def springs_cut():
             return self.watch.value("simulation", "springs_cut")
 
-        for _ in range(PRESSES):  # as of a grip
+        for _ in range(PRESSES):  # like those of a grip
             self.press(self.button2, True)
             for _ in range(CUTS // PRESSES):
                 self.move("right", *(random.uniform(-0.06, 0.06) for _ in range(3)))

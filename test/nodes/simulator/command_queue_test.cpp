@@ -11,7 +11,7 @@ namespace viscera::nodes {
 namespace {
 
 using std::chrono::milliseconds;
-constexpr milliseconds kLong{10000};  // never reached in a test that passes
+constexpr milliseconds kLong{10000};  // never reached in a passing test
 constexpr milliseconds kShort{20};
 
 Command command(Command::Kind kind, uint32_t ticks) {
@@ -59,7 +59,7 @@ TEST(CommandQueue, CommandThatBeganInTimeIsAnsweredThoughItTakesLonger) {
     ASSERT_TRUE(step);
     std::this_thread::sleep_until(step->deadline + kShort);
     CommandAnswer answer;
-    answer.tick = 3;  // of more that were asked for
+    answer.tick = 3;  // fewer than requested
     step->answer.set_value(answer);
   });
   EXPECT_EQ(queue.call(command(Command::Kind::kStep, 1000), 5 * kShort).tick, 3u);
@@ -72,7 +72,7 @@ TEST(CommandQueue, FullQueueRefusesAtOnce) {
   for (size_t i = 0; i < CommandQueue::kCapacity; ++i)
     callers.emplace_back([&] { queue.call(command(Command::Kind::kReset, 0), kLong); });
   CommandAnswer answer;
-  do {  // until all callers are in; each of these gives up by itself
+  do {  // until all callers wait; each of these gives up by itself
     answer = queue.call(command(Command::Kind::kReset, 0), milliseconds(1));
   } while (answer.message.find("too many") == std::string::npos);
   EXPECT_FALSE(answer.success);
@@ -95,7 +95,7 @@ TEST(CommandQueue, CallerOfACommandThatDiedIsAnswered) {
   CommandQueue queue;
   std::thread simulation([&] {
     queue.wait(kLong);
-    queue.take();  // and an error throws the command away, unanswered
+    queue.take();  // and an error destroys the command without an answer
   });
   EXPECT_FALSE(queue.call(command(Command::Kind::kStep, 1), kLong).success);
   simulation.join();

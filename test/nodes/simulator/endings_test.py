@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""How the nodes end: a wrong start is refused in words, a lost master is noticed, an interrupt is obeyed."""
+"""How the nodes end: a wrong start is refused with a reason, a lost master is noticed, an interrupt is obeyed."""
 import itertools
 import os
 import signal
@@ -39,7 +39,7 @@ def start(node, arguments, master_uri=None, more={}):
 
 
 def wait_ready(process):
-    """Returns what the simulator said until it was ready."""
+    """Returns the simulator's output until it was ready."""
     said = ""
     for line in process.stdout:
         said += line
@@ -56,7 +56,7 @@ def free_port():
 
 class EndingsTest(unittest.TestCase):
     def assertRefused(self, node, arguments, *words, more={}):
-        """The node ends by itself, with a status and one line that names the trouble."""
+        """Asserts that the node ends by itself, with a status and one line that names the fault."""
         process = start(node, arguments, more=more)
         output = process.communicate(timeout=REFUSAL_LIMIT_S)[0]
         self.assertEqual(process.returncode, 1, output)
@@ -74,7 +74,7 @@ class EndingsTest(unittest.TestCase):
     def test_parameter_of_the_wrong_type_is_refused(self):
         self.assertRefused("simulator", ["_surface_rate_hz:=fast"], "~surface_rate_hz")
         self.assertRefused("stylus_replay", ["_loop:=maybe"], "~loop")
-        self.assertRefused("simulator", ["_frame_prefix:=/left"], "~frame_prefix")  # as tf2 would
+        self.assertRefused("simulator", ["_frame_prefix:=/left"], "~frame_prefix")  # as tf2 would refuse it
 
     def test_unknown_parameter_is_refused(self):
         self.assertRefused("simulator", ["_sceen:=heart"], "~sceen")
@@ -108,7 +108,7 @@ class EndingsTest(unittest.TestCase):
             output = said + process.communicate(timeout=END_LIMIT_S)[0]
         self.assertEqual(process.returncode, 0, output)
         warnings = [line for line in output.splitlines() if "WARN" in line]
-        busy = "slower than", "no tick in time"  # what else the machine does
+        busy = "slower than", "no tick arrived in time"  # what else the machine does
         self.assertEqual([line for line in warnings if "no EGL device" not in line and not any(b in line for b in busy)], [])
         self.assertEqual(len([line for line in warnings if "no EGL device" in line]), 1, output)
 

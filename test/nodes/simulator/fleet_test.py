@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""fleet.launch: as many simulators as asked for, each by its own names, with the scene, threads and device of its turn."""
+"""fleet.launch: a requested number of simulators, each with its own names, and with scene, threads and device in
+turn."""
 import os
 import sys
 import unittest
@@ -38,7 +39,7 @@ class FleetTest(unittest.TestCase):
             self.assertEqual(rospy.get_param("/%s/simulator/frame_prefix" % name), name + "/")
 
     def machines_of(self, *arguments):
-        """Names of simulators, and their roslaunch machines, as a launch with these arguments has them."""
+        """Returns the names of simulators, and their roslaunch machines, for a launch with these arguments."""
         config = roslaunch.config.load_config_default([(FLEET_LAUNCH, ["n:=4"] + list(arguments))], None, verbose=False)
         self.assertEqual(config.config_errors, [])
         return {node.namespace.strip("/"): node.machine for node in config.nodes if node.type == "simulator"}, config
@@ -50,7 +51,7 @@ class FleetTest(unittest.TestCase):
         self.assertEqual({machines[name].env_loader for name in FLEET}, {"/opt/env.sh"})
         devices = {node.namespace.strip("/"): node.args.split("solver.device=")[1][0] for node in config.nodes}
         self.assertEqual([devices[name] for name in FLEET], ["0", "0", "1", "1"])
-        self.assertEqual(len(config.nodes), 8)  # replays run where their simulators do
+        self.assertEqual(len(config.nodes), 8)  # replays run on the same machines as their simulators
         for node in config.nodes:
             self.assertEqual(node.machine, machines[node.namespace.strip("/")])
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""How the nodes start: with rosrun, after another launch, again after a restart of the master, without a clock."""
+"""How the nodes start: with rosrun, after another launch, after a restart of the master, without a clock."""
 import os
 import signal
 import socket
@@ -22,14 +22,14 @@ from program import END_LIMIT_S, START_LIMIT_S, Program
 from simulator_watch import wait_until
 
 SCENE = os.path.join(roslib.packages.get_pkg_dir("viscera"), "test/nodes/views/scene_view.yaml")
-HANDS = os.path.join(os.path.dirname(os.path.dirname(SCENE)), "hands")
-TWO_HANDS = os.path.join(HANDS, "devices.yaml")
+INPUT = os.path.join(os.path.dirname(os.path.dirname(SCENE)), "input")
+TWO_HANDS = os.path.join(INPUT, "devices.yaml")
 SCENE_NODES = "504 nodes"  # of scene_view.yaml
 
 
 class LaunchingTest(unittest.TestCase):
     def setUp(self):
-        self.uri = os.environ["ROS_MASTER_URI"]  # rostest's, but for tests that restart it
+        self.uri = os.environ["ROS_MASTER_URI"]  # rostest's, except for tests that restart it
         self.master = rosgraph.Master("/launching_test", self.uri)
         self.programs = []
 
@@ -46,7 +46,7 @@ class LaunchingTest(unittest.TestCase):
         cls.params = set(rosgraph.Master("/launching_test").getParamNames())
 
     def own_master(self):
-        """One that may be restarted."""
+        """Starts a master that may be restarted."""
         with socket.socket() as probe:
             probe.bind(("localhost", 0))
             self.port = probe.getsockname()[1]
@@ -66,7 +66,7 @@ class LaunchingTest(unittest.TestCase):
     def has_run_id(self):
         try:
             return self.master.hasParam("/run_id")
-        except (OSError, xmlrpc.client.Fault):  # the port is open a moment before the methods are known
+        except (OSError, xmlrpc.client.Fault):  # the port is open shortly before the methods are known
             return False
 
     def test_rosrun_finds_the_nodes(self):
@@ -78,12 +78,12 @@ class LaunchingTest(unittest.TestCase):
     def test_rosrun_says_what_an_earlier_start_has_left(self):
         first = self.start("rosrun", "viscera", "simulator", "_scene:=" + SCENE, "_overrides:=solver.tick_hz=50")
         first.said("ready: " + SCENE_NODES)
-        self.assertNotIn("parameters in force", first.output)
+        self.assertNotIn("these parameters on the master", first.output)
         first.end()
         second = self.start("rosrun", "viscera", "simulator", "_scene:=" + SCENE)
         second.said("ready: " + SCENE_NODES)
-        self.assertIn("parameters in force", second.output)
-        self.assertIn(" ~overrides=solver.tick_hz=50; `rosparam delete /simulator` clears them", second.output)
+        self.assertIn("these parameters on the master", second.output)
+        self.assertIn(" ~overrides=solver.tick_hz=50; `rosparam delete /simulator` removes them", second.output)
 
     def test_parameters_of_an_earlier_launch_are_cleared(self):
         self.master.setParam("/simulator/mesh_unit_m", 0.001)
@@ -93,7 +93,7 @@ class LaunchingTest(unittest.TestCase):
 
     @staticmethod
     def nodes_of(launch_file, **arguments):
-        """What roslaunch would start: arguments of nodes by their names."""
+        """Returns the nodes that roslaunch would start: arguments by node name."""
         config = roslaunch.config.ROSLaunchConfig()
         path = os.path.join(roslib.packages.get_pkg_dir("viscera"), "launch", launch_file)
         roslaunch.xmlloader.XmlLoader().load(path, config, argv=["%s:=%s" % item for item in arguments.items()],
@@ -123,7 +123,7 @@ class LaunchingTest(unittest.TestCase):
                    (["/watchdog_" + stylus], ["/simulator"]), START_LIMIT_S, "watchdog: " + launched.output)
 
     def test_a_watchdog_stands_before_drivers_of_own_profiles_and_topics(self):
-        """As device_check writes them."""
+        """With profiles in the format of device_check."""
         folder = os.path.join(roslib.packages.get_pkg_dir("viscera"), "config/devices")
         with tempfile.TemporaryDirectory() as own:
             for name, written in (("geomagic", "mine"), ("tf", "bare")):
@@ -138,7 +138,7 @@ class LaunchingTest(unittest.TestCase):
             launched = self.start("roslaunch", "viscera", "training.launch", "scene:=" + TWO_HANDS, "watchdog:=true",
                                   "device_left:=%s/bare.yaml" % own)
             launched.said("ready: ")
-            launched.said("the device takes no forces")
+            launched.said("the device accepts no forces")
 
     def test_watchdogs_know_the_shipped_profiles_that_take_forces(self):
         folder = os.path.join(roslib.packages.get_pkg_dir("viscera"), "config/devices")
@@ -148,7 +148,7 @@ class LaunchingTest(unittest.TestCase):
                 profile = yaml.safe_load(text)
             name = os.path.splitext(file)[0]
             nodes = self.nodes_of("training.launch", watchdog="true", device_left=name, device_right=name + ":other")
-            if profile["force"]["type"] == "none" or name == "crtk_arm":  # whose force others read
+            if profile["force"]["type"] == "none" or name == "crtk_arm":  # others read its forces
                 self.assertEqual(set(nodes), {"/simulator"}, name)
                 continue
             for stylus, device in (("left", name), ("right", name + ":other")):
@@ -201,14 +201,14 @@ class LaunchingTest(unittest.TestCase):
     def test_simulated_time_without_a_clock_is_said_and_nothing_hangs(self):
         self.master.setParam("/use_sim_time", True)
         launched = self.start("roslaunch", "viscera", "training.launch", "scene:=" + SCENE,
-                              "strokes:=" + os.path.join(HANDS, "short_stroke.yaml"))
+                              "strokes:=" + os.path.join(INPUT, "short_stroke.yaml"))
         launched.said("ready: ")
-        launched.said("nothing comes on /clock", 2)  # of both nodes
+        launched.said("nothing is published on /clock", 2)  # of both nodes
         tick = self.start("rostopic", "echo", "-n", "3", "/tick")
         tick.said("viewed", 3)
         os.kill(launched.process.pid, signal.SIGINT)
         launched.process.wait(END_LIMIT_S)
-        self.assertEqual(launched.output.count("nothing comes on /clock"), 2, launched.output)
+        self.assertEqual(launched.output.count("nothing is published on /clock"), 2, launched.output)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""load_scene: a bad scene is refused and the running one goes on; a good one takes its place in the same node, with zero as
-the last force, topics of its own and the tick at 0, and back again."""
+"""load_scene: a bad scene is refused and the running one continues. A good one replaces it in the same node, with zero
+as the last force, its own topics and the tick at 0, and back again."""
 import json
 import os
 import subprocess
@@ -21,10 +21,11 @@ from viscera.msg import StylusState, SurfaceTopology, Tick
 from viscera.srv import LoadScene, Step
 from visualization_msgs.msg import Marker, MarkerArray
 
-# Ticks of one scene to the first of the next. Alone on two cores it is some 0.1 s. Tests share their cores with others, and ten times
-# in a switch one thread waits for another, each of which a busy machine may put aside for 50 ms. A model made again takes longer.
+# Time between the last tick of one scene and the first of the next. Alone on two cores it is about 0.1 s. Tests share
+# their cores with others. In a switch, one thread waits for another ten times, and a busy machine may delay each by 50
+# ms. Creating a model again takes longer.
 LONGEST_GAP_S = 0.6
-TOO_SLOW = 0.2  # real-time factor that a lattice is made for: below what it takes to be told of
+TOO_SLOW = 0.2  # real-time factor for which a lattice is created: below the one that causes a warning
 HERE = os.path.dirname(os.path.abspath(__file__))
 OTHER = os.path.join(os.path.dirname(HERE), "views", "cameras.yaml")
 HEART = ["bodies[0].spacing_m=0.008", "environment.gravity_m_per_s2=[0,0,0]"]
@@ -54,7 +55,7 @@ class LoadSceneTest(unittest.TestCase):
                               ({"scene": "heart", "overrides": ["bodies[0].spacing=1"]}, "bodies[0].spacing"),
                               ({"scene": "heart", "mesh": os.path.join(HERE, "nowhere.obj")}, "no file"),
                               ({"scene": "heart", "mesh": OTHER}, "cameras.yaml"),
-                              ({"scene": "heart", "mesh_unit_m": 0.001}, "no meaning without"),
+                              ({"scene": "heart", "mesh_unit_m": 0.001}, "is only used with"),
                               ({"scene": "heart", "overrides": ["bodies[0].fixed=[{shape: sphere, radius_m: 1}]"]}, "")):
             answer = self.load(**request)
             self.assertFalse(answer.success, str(request))
@@ -130,17 +131,17 @@ class LoadSceneTest(unittest.TestCase):
         wait_until(lambda: self.watch.value("simulation", "nodes_crowded"), 10, "crowd")
         status = self.watch.status("simulation")
         self.assertEqual(status.level, DiagnosticStatus.WARN)
-        self.assertIn("%d nodes touch nothing" % self.watch.value("simulation", "nodes_crowded"), status.message)
+        self.assertIn("%d nodes have no contacts" % self.watch.value("simulation", "nodes_crowded"), status.message)
 
     def test_4_and_back(self):
         answer = self.load(scene="heart", overrides=HEART + ["styluses[0].max_force_n=10"])
         self.assertTrue(answer.success, answer.message)
-        self.assertIn("stylus left: max_force_n is 4, which the launch's ~overrides set, not 10", answer.message)
+        self.assertIn("stylus left: max_force_n is 4, as set by the ~overrides of the launch file, not 10", answer.message)
         wait_until(lambda: "/left/body/servo_cf" in self.topics() and "/scope/image_raw" not in self.topics(), 10,
                    "topics of the old scene")
 
     def cut(self):
-        """Through the upper half of the block."""
+        """Cuts through the upper half of the block."""
         step = rospy.ServiceProxy("step", Step)
         self.assertTrue(rospy.ServiceProxy("pause", Trigger)().success)
         for x in (-0.03, -0.01, 0.01, 0.03):
@@ -163,8 +164,8 @@ class LoadSceneTest(unittest.TestCase):
 
         def said(text):
             return [line for line in lines if text in line]
-        wait_until(lambda: said("service coarsen takes it"), 30, "offer of a coarser lattice")
-        self.assertEqual(len(said("service coarsen takes it")), 1)
+        wait_until(lambda: said("call service coarsen"), 30, "offer of a coarser lattice")
+        self.assertEqual(len(said("call service coarsen")), 1)
         self.cut()
         wait_until(lambda: self.watch.value("simulation", "springs_cut"), 10, "springs cut")
         answer = coarsen()
@@ -172,7 +173,7 @@ class LoadSceneTest(unittest.TestCase):
         nodes = [int(line.split()[1]) for line in said("ready: ")]
         self.assertEqual(len(nodes), 2)
         self.assertLess(nodes[1], 0.9 * nodes[0])
-        self.assertTrue(said("in place of"))
+        self.assertTrue(said("instead of"))
         topology = Latest("surface_topology", SurfaceTopology)
         wait_until(lambda: topology.message and sum(topology.message.wound_triangles), 10, "wound that is still there")
         subscriber.unregister()

@@ -12,7 +12,7 @@
 namespace viscera::nodes {
 namespace {
 
-/// What is told while a session is made of two bodies, one of them with a spacing to be found.
+/// Returns the progress while a session is created with two bodies, one of them with automatic spacing.
 std::vector<int> percentsOf(const Scene& scene) {
   Preparation preparation(scene);
   std::vector<int> out;
@@ -32,7 +32,7 @@ TEST(Preparation, GoesUpFromNothingToNearlyAllInManySteps) {
     const std::vector<int> percents = percentsOf(sceneOf(spacing));
     ASSERT_FALSE(percents.empty());
     EXPECT_LE(percents.front(), 2) << spacing;
-    EXPECT_GE(percents.back(), 55) << spacing;  // the last stage begins, and tells no more
+    EXPECT_GE(percents.back(), 55) << spacing;  // the last stage begins, and reports nothing further
     EXPECT_LE(percents.back(), 99) << spacing;
     for (size_t i = 1; i < percents.size(); ++i) EXPECT_GE(percents[i], percents[i - 1]) << spacing << ", " << i;
     for (size_t i = 1; i < percents.size(); ++i) EXPECT_LE(percents[i] - percents[i - 1], 35) << spacing << ", " << i;

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What rviz shows while a scene is made: a text that counts up and goes when the tissue is there, or says why it never will be."""
+"""What rviz shows while a scene is created: a text that counts up and disappears when the tissue exists, or gives the
+reason of a failure."""
 import re
 import sys
 import unittest
@@ -19,7 +20,7 @@ class PreparingTest(unittest.TestCase):
         rospy.init_node("preparing_test")
 
     def setUp(self):
-        self.events = []  # texts; "" where one goes; "tissue"
+        self.events = []  # texts; "" when one disappears; "tissue"
         self.subscribers = [rospy.Subscriber("scene_markers", MarkerArray, self.on_markers, queue_size=1000),
                             rospy.Subscriber("surface_marker", Marker, self.on_tissue, queue_size=1000)]
 
@@ -52,7 +53,7 @@ class PreparingTest(unittest.TestCase):
         self.assertGreater(len(percents), 3, percents)
         self.assertEqual(percents, sorted(percents))
         self.assertLess(percents[-1], 100)
-        # Both are sent by one thread, the tissue first: the two topics may still come the other way round.
+        # One thread sends both, the tissue first; the two topics may still arrive in the other order.
         self.assertEqual([event for event in self.events[self.events.index(""):] if "%" in event], [])
 
     def test_what_ends_the_making_is_said(self):

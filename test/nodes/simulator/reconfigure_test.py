@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Settings at run time by the stock client of dynamic_reconfigure: limits hold the force at once, modes go both ways, what
-is out of range is refused."""
+"""Settings at run time with the stock client of dynamic_reconfigure: limits apply to the force at once, modes change in
+both directions, and values out of range are refused."""
 import math
 import sys
 import threading
@@ -18,9 +18,9 @@ from simulator_watch import Latest, SimulatorWatch, wait_until
 from viscera.srv import FileCommand, SetToolMode
 
 START_LIMIT_S = 30
-OUTSIDE_Y_M, DEEP_Y_M = -0.06, -0.022  # before the block, whose face is at -0.02, and a ball of 8 mm 6 mm deep in it
+OUTSIDE_Y_M, DEEP_Y_M = -0.06, -0.022  # in front of the block, with its face at -0.02, and 6 mm deep in it for a ball of 8 mm
 SLACK_N = 1e-6
-FEWER = 0.7  # of the pictures that came before the rate was cut to a fifteenth: room for a slow machine
+FEWER = 0.7  # share of the images before the rate was reduced to a fifteenth: margin for a slow machine
 
 
 class Hand:
@@ -73,9 +73,9 @@ class ReconfigureTest(unittest.TestCase):
         wait_until(lambda: self.newtons() > 0.1, 10, "force beyond the old limit")
 
     def test_2_out_of_range_is_refused(self):
-        for bad in (-1.0, 5.1, 1e9, float("nan")):  # more than the scene says is more than the hand can take
+        for bad in (-1.0, 5.1, 1e9, float("nan")):  # more than in the scene is unsafe for the user
             self.assertEqual(self.left.update_configuration({"max_force_n": bad})["max_force_n"], 5)
-        for bad in (0.0, 100.1):  # N/s: a force that never goes away
+        for bad in (0.0, 100.1):  # N/s: a force that never fades out
             now = self.left.update_configuration({"max_force_rate_n_per_s": bad})
             self.assertEqual(now["max_force_rate_n_per_s"], 100)
         self.assertEqual(self.left.update_configuration({"idle": "laser"})["idle"], "probe")

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A live session of two hands that push, hold and cut, with jaws too, with a pause, a reset, a tool mode, a saved state and
-another scene, is recorded; `viscera replay` ends with the hash that the simulator had, and again up to where it was killed.
-VISCERA_LIVE_S: for how long hands act at least in the session of jaws; with it, recordings are replayed three times."""
+"""A live session is recorded: two styluses push, hold and cut, with jaws too, with a pause, a reset, a tool mode, a
+saved state and another scene. `viscera replay` ends with the simulator's hash, also for a recording that ends when the
+simulator is killed. VISCERA_LIVE_S: least duration for which styluses act in the session of jaws; if it is set,
+recordings are replayed three times."""
 import glob
 import json
 import os
@@ -30,9 +31,9 @@ LIMIT_S = 30
 LIVE_S = float(os.environ.get("VISCERA_LIVE_S", 0))
 REPLAYS = 3 if LIVE_S else 1
 OPEN_RAD, CLOSED_RAD = 0.6, 0.02
-# As the launch file has it: jaws no finer than the lattice.
+# As in the launch file: jaws are no finer than the lattice.
 HEART = ["bodies[0].spacing_m=0.008", "solver.backend=cpu", "styluses[0].grasper.radius_m=0.012", "styluses[0].grasper.jaw_length_m=0.03"]
-LEAST_PULL_N = 0.1                 # what the wall pulls with by 25 mm; a probe beside it is not felt
+LEAST_PULL_N = 0.1                 # force of the wall at 25 mm; a probe next to it has none
 HERE = os.path.dirname(os.path.abspath(__file__))
 OTHER = os.path.join(os.path.dirname(HERE), "views", "cameras.yaml")
 RECORDINGS = os.path.join(os.environ["ROS_HOME"], "recordings")
@@ -77,7 +78,8 @@ class RecordingTest(unittest.TestCase):
             hand.join()
 
     def act_with_jaws(self):
-        """The left holds what is between its jaws and pulls at it; the right snips three times along the wall."""
+        """The left stylus holds tissue between its jaws and pulls it; the right one snips three times along the
+        wall."""
         def pull():
             self.left.grip(OPEN_RAD)
             self.left.go((0, -0.1, -0.02), (0, -0.05, -0.02), 0.5)
@@ -106,10 +108,10 @@ class RecordingTest(unittest.TestCase):
 
     def test_1_one_recording_at_a_time_and_none_is_overwritten(self):
         self.assertIn("already", self.file["start_recording"](file="another.viscera").message)
-        path = self.done(self.call["stop_recording"]())      # that of ~record
+        path = self.done(self.call["stop_recording"]())      # the recording of ~record
         self.assertEqual(os.path.dirname(path), RECORDINGS)
         self.assertIs(self.replayed(path, "--no-view")["to_recorded_end"], True)
-        self.assertIn("nothing is recorded", self.call["stop_recording"]().message)
+        self.assertIn("nothing is being recorded", self.call["stop_recording"]().message)
         for name in ("../a", "", ".hidden"):
             self.assertFalse(self.file["start_recording"](file=name).success, name)
 
@@ -119,7 +121,7 @@ class RecordingTest(unittest.TestCase):
         self.assertFalse(self.file["start_recording"](file=name).success)
         answer = self.file["save_state"](file=name)
         self.assertFalse(answer.success)
-        self.assertIn("there is already a recording of that name", answer.message)
+        self.assertIn("already exists as a recording", answer.message)
         self.act()
         self.done(self.file["save_state"](file="state"))
         self.done(self.call["pause"]())
@@ -184,7 +186,7 @@ class RecordingTest(unittest.TestCase):
             self.replayed(path, "--until", "0.2", "--out", out, "--set",
                           "cameras=[{name: other, position_m: [0, -0.3, 0], width_px: 64, height_px: 48}]")
             self.assertTrue(glob.glob(os.path.join(out, "frames", "other_*.png")))
-            self.assertTrue(os.path.exists(os.path.join(out, "hands.csv")))
+            self.assertTrue(os.path.exists(os.path.join(out, "tools.csv")))
 
     def test_5_what_was_recorded_before_a_kill_replays(self):
         path = self.done(self.file["start_recording"](file="killed_%d.viscera" % time.time_ns()))

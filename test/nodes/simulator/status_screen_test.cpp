@@ -6,16 +6,16 @@
 
 #include <sstream>
 
-#include "nodes/hands/stylus_mailbox.h"
+#include "nodes/input/stylus_mailbox.h"
 
 namespace viscera::nodes {
 namespace {
 
-ToldStatus simulation(const std::string& node, double age_s) {
+ReceivedStatus simulation(const std::string& node, double age_s) {
   return {node, "simulation", 0, "running", {{"tick", "1234"}, {"stepped_by", "cpu, leapfrog"}}, age_s};
 }
 
-std::vector<ToldStatus> session() {
+std::vector<ReceivedStatus> session() {
   return {{"simulator",
            "left",
            1,
@@ -35,7 +35,7 @@ std::vector<ToldStatus> session() {
           {"simulator",
            "pace",
            0,
-           "keeps up",
+           "real time",
            {{"real_time_factor", "0.98"},
             {"step_mean_ms", "4.2"},
             {"step_max_ms", "9.1"},
@@ -57,14 +57,14 @@ void expectSays(const std::string& screen, const std::string& words) {
 
 TEST(StatusScreen, TellsPaceRatesHandsForcesAndWhyPosesWereDropped) {
   StatusView view;
-  view.columns = 200;  // no line is broken
+  view.columns = 200;  // no line is wrapped
   const std::string screen = statusScreen(session(), view);
   expectSays(screen, "simulator, heard 0.3 s ago");
   expectSays(screen, "running, tick 1234, stepped by cpu, leapfrog");
   expectSays(screen, "0.98 of real time: a step takes 4.2 ms, 9.1 ms at most");
-  expectSays(screen, "surface and markers 30 /s, pictures of camera 0 /s (what has no subscriber is not made)");
+  expectSays(screen, "surface and markers 30 /s, pictures of camera 0 /s (topics without a subscriber are not made)");
   expectSays(screen, "messages are dropped; force 0.53 N (the limit); touches 7 nodes, holds 3; 998 forces/s;");
-  expectSays(screen, "41 messages dropped since the start, no_transform: tf does not join the frame");
+  expectSays(screen, "41 messages dropped since the start, no_transform: tf does not connect the frame");
   EXPECT_EQ(screen.find("delayed"), std::string::npos) << screen;
   expectSays(screen, "no device: no poses arrive (polhemus)");
   expectSays(screen, "WARNING     left: messages are dropped");
@@ -72,7 +72,7 @@ TEST(StatusScreen, TellsPaceRatesHandsForcesAndWhyPosesWereDropped) {
 }
 
 TEST(StatusScreen, SaysThatNothingIsWrong) {
-  const std::vector<ToldStatus> told{simulation("simulator", 0.5)};
+  const std::vector<ReceivedStatus> told{simulation("simulator", 0.5)};
   expectSays(statusScreen(told, {}), "wrong       nothing");
   EXPECT_TRUE(isSimulatorTold(told, {}));
 }
@@ -88,12 +88,11 @@ TEST(StatusScreen, SaysThatThereIsNoSimulator) {
   expectSays(screen, "http://lab:11311");
   expectSays(screen, "roslaunch viscera training.launch");
   EXPECT_FALSE(isSimulatorTold({}, view));
-  expectSays(statusScreen({{"camera_driver", "rate", 0, "", {}, 0}}, view),
-             "those who send /diagnostics are: camera_d");
+  expectSays(statusScreen({{"camera_driver", "rate", 0, "", {}, 0}}, view), "nodes that send /diagnostics: camera_d");
 }
 
 TEST(StatusScreen, SaysThatASimulatorHasFallenSilent) {
-  const std::vector<ToldStatus> told{simulation("simulator", 7.5)};
+  const std::vector<ReceivedStatus> told{simulation("simulator", 7.5)};
   const std::string screen = statusScreen(told, {});
   expectSays(screen, "heard 7.5 s ago");
   expectSays(screen, "it is silent");
@@ -102,7 +101,7 @@ TEST(StatusScreen, SaysThatASimulatorHasFallenSilent) {
 }
 
 TEST(StatusScreen, ShowsTheSimulatorThatIsAskedFor) {
-  const std::vector<ToldStatus> told{simulation("a/simulator", 0), simulation("b/simulator", 0)};
+  const std::vector<ReceivedStatus> told{simulation("a/simulator", 0), simulation("b/simulator", 0)};
   StatusView view;
   expectSays(statusScreen(told, view), "a/simulator,");
   expectSays(statusScreen(told, view), "b/simulator,");
@@ -113,7 +112,7 @@ TEST(StatusScreen, ShowsTheSimulatorThatIsAskedFor) {
 TEST(StatusScreen, KeepsToTheColumnsAndMovesNoCursor) {
   StatusView view;
   view.columns = 60;
-  std::vector<ToldStatus> told = session();
+  std::vector<ReceivedStatus> told = session();
   told[0].message = "\033[2Jevil";
   const std::string screen = statusScreen(told, view);
   expectSays(screen, "\\x1b[2Jevil");

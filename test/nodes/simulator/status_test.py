@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""`rosrun viscera status`: what a person reads of a session that runs, and of one that is not there."""
+"""`rosrun viscera status`: its output for a running session, and for one that does not exist."""
 import os
 import re
 import subprocess
@@ -18,7 +18,7 @@ from sensor_msgs.msg import Image
 from simulator_watch import Latest, SimulatorWatch, wait_until
 
 LIMIT_S = 20
-NO_MASTER = "http://localhost:1"  # where no master answers
+NO_MASTER = "http://localhost:1"  # no master answers here
 
 
 def status(*arguments, uri=None):
@@ -46,7 +46,7 @@ class StatusTest(unittest.TestCase):
         other = status("_once:=true", "_simulator:=unknown")
         self.assertEqual(other.returncode, 1, other)
         self.assertIn("no simulator 'unknown'", other.stdout)
-        self.assertIn("those who send /diagnostics are: simulator", other.stdout)
+        self.assertIn("nodes that send /diagnostics: simulator", other.stdout)
         alone = status(uri=NO_MASTER)
         self.assertEqual(alone.returncode, 1, alone)
         self.assertIn("no ROS master answers at " + NO_MASTER, alone.stdout)
@@ -55,7 +55,7 @@ class StatusTest(unittest.TestCase):
         self.assertIn("onec", wrong.stdout + wrong.stderr)
 
     def test_a_stylus_that_the_scene_has_not_is_an_error(self):
-        with tempfile.TemporaryFile("w+") as log:  # where lines must not wait for a full buffer
+        with tempfile.TemporaryFile("w+") as log:  # lines must not wait for a full buffer
             wrong = [subprocess.Popen([node(name), "_stylus:=middle", "__name:=wrong_" + name],
                                       stdout=log, stderr=subprocess.PIPE, text=True, env=self.plain)
                      for name in ("stylus_marker", "stylus_joy")]
@@ -83,9 +83,9 @@ class StatusTest(unittest.TestCase):
         thread.start()
         shown = Program([node("status")])
         try:
-            shown.said("no_transform: tf does not join")
+            shown.said("no_transform: tf does not connect")
             shown.said("left: messages are dropped")
-            shown.said("no pose yet, though a device is connected")
+            shown.said("no pose yet, although a device is connected")
             rates = lambda: re.findall(r"pictures of camera ([0-9.]+) /s", shown.output)
             wait_until(lambda: any(float(rate) > 0 for rate in rates()), LIMIT_S, "rate of pictures")
         finally:

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Services of the simulator: wrong states are refused, a reset restores the state to the bit, nothing is sent unasked."""
+"""Services of the simulator: wrong states are refused, a reset restores the state bit by bit, and nothing is sent
+without a request."""
 import os
 import sys
 import unittest

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""ROS time may stand still, as when a bag is paused: the tissue must not."""
+"""ROS time may stop, as when a bag is paused; the tissue must not."""
 import sys
 import time
 import unittest

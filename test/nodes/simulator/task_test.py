@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A lesson with replayed hands: its task is passed, told and reported; `viscera replay` of its recording comes to the same score; tasks
-are begun again and given up, and what cannot be begun is refused with what is accepted."""
+"""A lesson with replayed strokes: its task is passed, published and reported, and `viscera replay` of its recording has
+the same score. Tasks are restarted and given up; a task that cannot start is refused with the accepted names."""
 import json
 import os
 import subprocess
@@ -16,7 +16,7 @@ from viscera.msg import Metrics, TaskState
 from viscera.srv import StartTask
 
 LIMIT_S = 60
-GONE_S = 1  # since the last pose: a hand is no longer there
+GONE_S = 1  # since the last pose: tracking is lost
 
 
 class TaskTest(unittest.TestCase):
@@ -71,16 +71,16 @@ class TaskTest(unittest.TestCase):
         self.assertEqual(json.loads(done.stdout.splitlines()[-1])["tasks"], [live])
 
     def test_3_a_task_is_given_up_and_begun_again(self):
-        """Without hands: those of the strokes, which may come late on a busy machine, are gone first."""
+        """Without styluses: those of the strokes, which may be late on a busy machine, have vanished first."""
         wait_until(lambda: (self.watch.value("right", "input_age_s") or 0) > GONE_S, LIMIT_S, "end of the strokes")
-        self.assertIn("no task runs", self.call["end_task"]().message)
+        self.assertIn("no task is running", self.call["end_task"]().message)
         answer = self.start(task="")
         self.assertTrue(answer.success, answer.message)
         self.assertEqual(answer.message, "Touch in order")
         wait_until(lambda: self.state() == TaskState.WAITING, LIMIT_S, "a task that waits")
         self.assertTrue(self.call["end_task"]().success)
         wait_until(lambda: self.state() == TaskState.FAILED, LIMIT_S, "its end")
-        self.assertEqual(self.states[-1].step, "it was given up")
+        self.assertEqual(self.states[-1].step, "the task was given up")
         self.assertEqual(self.states[-1].score, 0)
         self.assertTrue(self.call["reset"]().success)
         wait_until(lambda: self.state() == TaskState.WAITING, LIMIT_S, "it begins again with a reset")

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A whole session as seen from outside: replayed strokes dent, pull and cut the heart phantom."""
+"""A whole session from outside: replayed strokes dent, pull and cut the heart phantom."""
 import math
 import subprocess
 import sys
@@ -20,14 +20,14 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker
 
 PROBED = (0, -0.046, -0.02)  # [m] where probe_pull_cut.yaml touches the phantom
-NEAR_M = 0.015               # around that point the skin must follow the tool
-FIXED_Z_M = 0.045            # above this height all nodes are held in space
-DENT_M = 0.003               # least motion that counts as a dent or a pull; the tool goes 8 mm and more into or out of the skin
-STILL_M = 0.001              # most motion of tissue that is held
-FORCE_N = 0.005              # least force that counts as felt; without contact it is exactly zero
+NEAR_M = 0.015               # around that point the surface must follow the tool
+FIXED_Z_M = 0.045            # above this height all nodes are fixed
+DENT_M = 0.003               # least motion of a dent or a pull; the tool moves 8 mm or more into or out of the surface
+STILL_M = 0.001              # largest motion of fixed tissue
+FORCE_N = 0.005              # least force that counts as contact; without contact it is exactly zero
 MAX_FORCE_N = 5.001          # StylusConfig.max_force_n and rounding
-PIXEL_STEP = 24              # of 255: a pixel that changed more is not noise
-LATENCY_MS = 1000            # most that an answer takes, however slow and busy the machine
+PIXEL_STEP = 24              # of 255: a larger change of a pixel is not noise
+LATENCY_MS = 1000            # limit of latencies, for any slow and busy machine
 SESSION_LIMIT_S = 60
 
 
@@ -36,10 +36,10 @@ def points_of(marker):
 
 
 class Recorder:
-    """Everything the simulator sends while the strokes play."""
+    """Records everything that the simulator sends during the strokes."""
 
     def __init__(self):
-        self.rest = None              # corners of the skin when the strokes begin
+        self.rest = None              # corners of the surface when the strokes begin
         self.inward_m = self.outward_m = self.held_m = 0
         self.force_in_dent = None     # (x, y, z) while the probe holds its dent
         self.peak_force_n = 0
@@ -48,11 +48,11 @@ class Recorder:
         self.latency_ms = {}          # largest of each value
         self.image_stamps, self.info_stamps = set(), set()
         self.first_image = None
-        self.changed_px = 0           # most by which an image differs from the first one
-        self.skin_points = self.wall_points = 0  # of the newest markers of the skin and of its wounds
+        self.changed_px = 0           # largest difference of an image from the first one
+        self.skin_points = self.wall_points = 0  # of the newest markers of the surface and of its cut walls
         self.pose = {"left": Latest("left/measured_cp", PoseStamped),
                      "right": Latest("right/measured_cp", PoseStamped)}
-        self.marker = Latest("surface_marker", Marker, self.on_marker, queue_size=4)  # skin and wounds
+        self.marker = Latest("surface_marker", Marker, self.on_marker, queue_size=4)  # surface and cut walls
         self.force = Latest("left/body/servo_cf", WrenchStamped, self.on_force)
         self.image = Latest("camera/image_raw", Image, self.on_image)
         self.info = Latest("camera/camera_info", CameraInfo, lambda m: self.info_stamps.add(m.header.stamp))
@@ -160,7 +160,7 @@ class TrainingTest(unittest.TestCase):
     def test_image_shows_what_was_done(self):
         after = self.seen.image.message
         self.assertEqual(len(after.data), after.step * after.height)
-        self.assertGreater(len(set(after.data)), 8)  # not one colour
+        self.assertGreater(len(set(after.data)), 8)  # several colours
         self.assertGreater(self.seen.changed_px, 0.002 * len(after.data) / 3)
         self.assertEqual(after.header.frame_id, "camera_optical_frame")
 
@@ -190,7 +190,7 @@ class TrainingTest(unittest.TestCase):
             self.assertGreater(mean_ms, 0, answer)
             self.assertLessEqual(mean_ms, max_ms, answer)
             self.assertLess(max_ms, LATENCY_MS, answer)
-        self.watch.wait_news()  # no pose comes any more
+        self.watch.wait_news()  # no further poses come
         self.assertEqual(self.watch.value("latency", "pose_to_force_left_max_ms"), 0)
 
     def test_z_reset_makes_the_skin_whole_again(self):

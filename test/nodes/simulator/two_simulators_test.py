@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Two simulators on one master, each with a namespace and a frame prefix: their frames and topics do not meet."""
+"""Two simulators on one master, each with a namespace and a frame prefix: their frames and topics are separate."""
 import collections
 import sys
 import threading
@@ -18,7 +18,7 @@ from tf2_msgs.msg import TFMessage
 LIMIT_S = 20
 WATCHED_S = 4
 SIDES = {"a": -0.2, "b": 0.2}  # [m] x of each one's left tool
-STILL_M = 1e-6                 # a tool that is not moved stays, but for rounding
+STILL_M = 1e-6                 # a tool that is not moved stays, except for rounding
 
 
 class TwoSimulatorsTest(unittest.TestCase):
@@ -38,7 +38,7 @@ class TwoSimulatorsTest(unittest.TestCase):
     def send(cls):
         while not rospy.is_shutdown():
             for side, x in SIDES.items():
-                message = PoseStamped()  # no frame: the tissue's, whatever it is called
+                message = PoseStamped()  # no frame: the tissue's, whatever its name
                 message.header.stamp = rospy.Time.now()
                 message.pose.position.x = x
                 message.pose.orientation.w = 1

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Prints, for a driver of every kind, how long an answer to its poses takes in the demo's scene and what was dropped: the table of
-docs/devices.md. Wants a roscore and the environment of the build: `. build/devel/setup.sh; test/nodes/support/device_table.py`."""
+"""Prints the latency and the dropped poses for a driver of every kind in the demo's scene: the table of
+docs/devices.md. Requires a roscore and the environment of the build: `. build/devel/setup.sh;
+test/nodes/support/device_table.py`."""
 import math
 import sys
 import time

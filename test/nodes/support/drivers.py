@@ -1,7 +1,7 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drivers of every kind that config/devices knows, as their own sources have them: each is told where a tip is to be in the
-tissue frame, works out what its device would measure there, and publishes that in its own messages, units and axes."""
+"""Drivers of every kind in config/devices, modelled on their sources. Each gets the pose of a tip in the tissue frame,
+computes what its device would measure there, and publishes it in its own messages, units and axes."""
 import threading
 import time
 
@@ -16,7 +16,7 @@ VECTOR = "=" * 80 + "\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64
 
 
 def foreign(name, definition):
-    """A message of a package that is not there, from its definition alone."""
+    """Returns a message of a package that is not installed, from its definition alone."""
     return genpy.dynamic.generate_dynamic(name, definition)[name]
 
 
@@ -37,7 +37,7 @@ def vector(v):
 
 
 def fill(message, position, rotation):
-    """A geometry_msgs/Pose or Transform."""
+    """Fills a geometry_msgs/Pose or Transform."""
     place = message.position if isinstance(message, Pose) else message.translation
     turn = message.orientation if isinstance(message, Pose) else message.rotation
     place.x, place.y, place.z = position
@@ -45,7 +45,7 @@ def fill(message, position, rotation):
 
 
 class Driver:
-    """Publishes, at a steady rate, a hand whose tip is at `at` (tissue frame, m) and turned by `turned` (3x3)."""
+    """Publishes, at a steady rate, a stylus with its tip at `at` (tissue frame, m), rotated by `turned` (3x3)."""
     rate_hz = 100
     profile, options, base = "crtk", [], (0, 0, 0)
     feels = True
@@ -138,7 +138,7 @@ class DvrkMaster(Crtk):
 
 
 class PhantomOmni(Driver):
-    """omni_common: positions turned to z up, in metres; orientations as the device has them but for a quarter turn of the
+    """omni_common: positions rotated to z up, in metres; orientations of the device, except for a quarter turn of the
     stylus; a frame that is known nowhere else; buttons in one message of omni_msgs."""
     profile, base = "phantom_omni", (0, -0.09, 0)
 
@@ -201,7 +201,7 @@ class Tracker(Driver):
 
 
 class Polhemus(Tracker):
-    """A station in tf, its base upside down on the ceiling: z down, y towards the other side."""
+    """A station in tf, with its base upside down on the ceiling: z down, y towards the other side."""
     profile = "polhemus"
     rate_hz = 120
     options = ["base.position_m=[0.1,0,0.3]"]
@@ -225,7 +225,7 @@ class Polhemus(Tracker):
 
 
 class TfTracker(Polhemus):
-    """A frame below one that tf joins to the tissue."""
+    """A frame below one that tf connects to the tissue."""
     profile, options, base, turn = "tf", ["pose.tf_base=camera"], (0, 0, 0), IDENTITY
     camera, camera_turned = (0.2, 0.1, 0.4), IDENTITY  # in the tissue frame
 

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""hand.py [WRENCHES [KIND]]: a hand with a device, as a process of its own. Told a line on its standard input it presses the
-probe of `left` into the heart, goes in again where no force came, holds it there, and notes every wrench that it is told. Prints `touching` once it feels a force
-that lasts, `let go` at the first zero after that, and, when its input ends, a JSON list of [time.monotonic(), force in N, torque
-in N m, the message's stamp in s]. KIND is a class of drivers.py, whose topics are its driver's; by default it speaks CRTK and
-listens to WRENCHES."""
+"""hand.py [WRENCHES [KIND]]: a stylus with a device, as a separate process. After a line on its standard input it
+presses the probe of `left` into the heart, tries again if there was no force, holds it there, and records every wrench
+that it receives.
+
+It prints `touching` once it has a lasting force, and `let go` at the first zero after that. When its input ends, it
+prints a JSON list of [time.monotonic(), force in N, torque in N m, the message's stamp in s]. KIND is a class of
+drivers.py with its driver's topics; by default it uses CRTK and subscribes to WRENCHES."""
 import itertools
 import json
 import math
@@ -17,12 +19,12 @@ import drivers
 import rospy
 from geometry_msgs.msg import PoseStamped, WrenchStamped
 
-OUTSIDE_Y_M, DEEP_Y_M = -0.1, -0.05   # before the heart's front wall, and behind it
+OUTSIDE_Y_M, DEEP_Y_M = -0.1, -0.05   # in front of the heart's front wall, and behind it
 APPROACH_S = 0.3
-LASTS_S = 0.3       # without a break, as there may be some while the simulator makes its first pictures
+LASTS_S = 0.3       # without a break; there may be some while the simulator makes its first images
 RATE_HZ = 200
 FELT_N = 0.02
-AGAIN_S = 3         # without a touch: poses paused while the probe went in, and one that appears inside pushes nothing
+AGAIN_S = 3         # without contact: poses paused while the probe went in, and one that appears inside pushes nothing
 
 
 class Hand:
@@ -48,7 +50,7 @@ class Hand:
             print("let go", flush=True)
 
     def touches(self, begun):
-        """A force is felt now, and was at all times in LASTS_S, all of them after `begun`."""
+        """Returns whether there is a force now, and was at all times in LASTS_S, all of them after `begun`."""
         now = time.monotonic()
         with self.lock:
             lately = list(itertools.takewhile(lambda felt: felt[0] > now - LASTS_S, reversed(self.felt)))
@@ -82,7 +84,7 @@ class Hand:
 
 
 class DriverHand(Hand):
-    """Of a driver whose messages tell a force alone."""
+    """For a driver with messages that have a force only."""
 
     def __init__(self, kind):
         self.begin()

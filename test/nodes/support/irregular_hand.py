@@ -1,6 +1,6 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A hand whose device speaks CRTK, at times of its own."""
+"""A stylus with a CRTK device that sends at irregular times."""
 import random
 import time
 

@@ -1,6 +1,6 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A program that a rostest starts and listens to."""
+"""A program that a rostest starts and reads from."""
 import os
 import signal
 import subprocess
@@ -14,12 +14,12 @@ END_LIMIT_S = 30
 
 
 def node(name):
-    """Path of one of our nodes. Without rosrun, which takes half a second to find it."""
+    """Returns the path of one of our nodes, without rosrun, which takes half a second to find it."""
     return roslib.packages.find_node("viscera", name)[0]
 
 
 class Program:
-    """A program whose output is read as it comes."""
+    """A program with output that is read as it comes."""
 
     def __init__(self, arguments, uri=None):
         self.output = ""

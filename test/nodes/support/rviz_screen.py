@@ -1,6 +1,6 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""rviz on a display without a screen, and what it shows, by the file that Xvfb keeps its screen in."""
+"""rviz on a display without a screen, and its image, from the file in which Xvfb keeps its screen."""
 import mmap
 import os
 import re
@@ -18,9 +18,9 @@ END_LIMIT_S = 10
 START_LIMIT_S = 40  # software rendering on a busy machine
 MOUSE_SIGN = (240, 228, 66)  # of the button of viscera/Mouse, in the toolbar
 BALL_PIXELS = 10000
-SIGN_PIXELS = 40  # of the signs of 16 by 16 pixels, without their smooth edges
+SIGN_PIXELS = 40  # of the icons of 16 by 16 pixels, without their smooth edges
 
-# An rviz without panels, with the display alone, and how often it draws at most.
+# An rviz without panels, with only the display, and its largest frame rate.
 ALONE = """Visualization Manager:
   Displays:
     - {Class: viscera/Surface, Name: Ball, Enabled: true, Surface topic: surface, Color by: %s, Value: true}
@@ -29,13 +29,13 @@ ALONE = """Visualization Manager:
     Current: {Class: rviz/Orbit, Distance: 0.14, Near Clip Distance: 0.01, Pitch: 0.3, Yaw: 4.9, Focal Point: {X: 0, Y: 0, Z: 0}}
 """
 IMAGE = "    - {Class: rviz/Image, Name: Image, Enabled: true, Image Topic: /none, Value: true}\n"
-# Of the environment of an rviz that tells how often it draws surfaces.
+# Environment of an rviz that reports how often it draws surfaces.
 DEBUG = {"ROSCONSOLE_CONFIG_FILE": os.path.join(os.path.dirname(os.path.abspath(__file__)), "rviz_debug.conf")}
 
 
 def alone(screen, rate_hz, *options, color_by="sent", others=""):
-    """rviz, full screen, with the display alone, or in a window with others after it: its Program, whose output tells once
-    a second how often it has drawn."""
+    """Starts rviz, full screen with only the display, or in a window with other displays after it. Returns its Program,
+    which prints once a second how often it has drawn."""
     config = os.path.join(screen.folder.name, "alone.rviz")
     with open(config, "w") as file:
         file.write(ALONE % (color_by, others, rate_hz))
@@ -44,12 +44,12 @@ def alone(screen, rate_hz, *options, color_by="sent", others=""):
 
 
 def drawn_hz(output):
-    """Of each second that an rviz tells of with DEBUG."""
+    """Returns the rates of all seconds that an rviz reports with DEBUG."""
     return [float(hz) for hz in re.findall(r": ([0-9.]+) Hz, ", output)]
 
 
 class Screen:
-    """An Xvfb with a number that was free."""
+    """An Xvfb with a free display number."""
 
     def __init__(self, width=WIDTH, height=HEIGHT):
         self.width, self.height = width, height
@@ -66,31 +66,33 @@ class Screen:
         os.environ.update(self.environment)
 
     def picture(self):
-        """[height, width, 3] red, green, blue, of 0..255."""
+        """Returns [height, width, 3] red, green, blue, 0..255."""
         with open(os.path.join(self.folder.name, "Xvfb_screen0"), "rb") as file:
-            dump = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)  # xwd, whose header is of big-endian words
+            dump = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)  # xwd, with a header of big-endian words
             words = struct.unpack(">25I", dump[:100])
             begin, line, colors = words[0], words[12], words[19]
             pixels = numpy.frombuffer(dump[:], numpy.uint8, self.height * line, begin + 12 * colors)
         return pixels.reshape(self.height, line // 4, 4)[:, :self.width, 2::-1].astype(int)
 
     def save(self, path):
-        """As PPM."""
+        """Writes a PPM file."""
         with open(path, "wb") as file:
             file.write(b"P6 %d %d 255\n" % (self.width, self.height) + self.picture().astype(numpy.uint8).tobytes())
 
     def keep(self, name):
-        """Where VISCERA_PICTURES names a folder, to be looked at."""
+        """Saves the image in the folder VISCERA_PICTURES, if it is set."""
         if "VISCERA_PICTURES" in os.environ:
             self.save(os.path.join(os.environ["VISCERA_PICTURES"], name))
 
     def find(self, color, least=SIGN_PIXELS):
-        """Middle (x, y) of the pixels of just this colour; nothing where there are fewer than a sign on a button has."""
+        """Returns the centre (x, y) of the pixels of exactly this colour; None if there are fewer than in an icon of a
+        button."""
         rows, columns = numpy.nonzero((self.picture() == color).all(axis=2))
         return (int(numpy.median(columns)), int(numpy.median(rows))) if len(rows) >= least else None
 
     def ball(self):
-        """Middle (x, y) of what is red in the scene, as the ball of stand_in_simulator.py; nothing where that is not there."""
+        """Returns the centre (x, y) of the red pixels in the scene, such as the ball of stand_in_simulator.py; None if
+        there are none."""
         picture = self.picture()[VIEW]
         rows, columns = ((picture[:, :, 0] > 1.5 * picture[:, :, 1]) & (picture[:, :, 0] > 40)).nonzero()
         if len(rows) < BALL_PIXELS:
@@ -115,9 +117,9 @@ class Screen:
 
 
 def rviz(config, shows):
-    """rviz, once shows() is true. With a software renderer it was seen to stand without drawing what was sent, once in ten
-    beside others, and to end at its start by a heap that is corrupt, once in some tens beside others (docs/rviz.md): it is
-    begun again then, and the output says so. Three times in a row it is broken."""
+    """Starts rviz and waits until shows() is true. With a software renderer it sometimes stopped drawing (once in ten
+    starts next to other programs), and sometimes ended at its start with a corrupt heap (once in some tens,
+    docs/rviz.md). Then it is restarted, and the output says so. Three failures in a row are an error."""
     for tries_left in (2, 1, 0):
         program = Program(["rosrun", "rviz", "rviz", "-d", config, "-f", "tissue"])
         ended = lambda: program.process.poll() is not None

@@ -1,6 +1,6 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A ball, sent as a simulator sends its surface."""
+"""A ball, sent in the same messages as a simulator's surface."""
 import io
 import math
 
@@ -13,7 +13,7 @@ RADIUS_M = 0.05
 
 
 def ball(rings, steps):
-    """Vertices, which are outward normals too, and triangles from the upper pole down."""
+    """Returns vertices, which are outward normals too, and triangles from the upper pole down."""
     points, triangles = [], []
     for ring in range(rings + 1):
         for step in range(steps):
@@ -30,19 +30,19 @@ def packed(normal):
 
 
 def filled(triangles):
-    """Rings and steps of a ball with at least so many."""
+    """Returns rings and steps of a ball with at least this many triangles."""
     return math.ceil(math.sqrt(triangles / 2))
 
 
 class Made(SurfaceVertices):
-    """One whose bytes are there."""
+    """A message with precomputed bytes."""
 
     def serialize(self, buff):
         buff.write(self.bytes)
 
 
 class Sender:
-    """The upper half is skin; the lower half stands for walls."""
+    """The upper half is the surface; the lower half represents cut walls."""
 
     def __init__(self, rings=24, steps=48):
         self.whole = rospy.Publisher("surface_topology", SurfaceTopology, queue_size=1, latch=True)
@@ -68,7 +68,8 @@ class Sender:
         return message
 
     def moved(self, version, share, **other):
-        """The ball a little longer along x, as bytes: to make a message of 100,000 vertices takes longer than to draw it."""
+        """Returns the ball stretched slightly along x, as bytes: creating a message of 100,000 vertices takes longer
+        than drawing it."""
         message = self.message(version)
         stretched = numpy.array(self.positions_m).reshape(-1, 3) * (1 + 0.1 * share, 1, 1)
         message.positions_m = stretched.ravel().tolist()

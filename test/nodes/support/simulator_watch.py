@@ -1,6 +1,6 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the rostests share: the simulator as seen through /diagnostics, and waiting with a limit."""
+"""Shared code of the rostests: the simulator by its /diagnostics, and waiting with a limit."""
 import threading
 import time
 
@@ -8,11 +8,11 @@ import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 
 READY_LIMIT_S = 60  # a software GPU on a busy machine
-MADE_S = 0.05       # at most, from the moment of which diagnostics tell to their stamp
+MADE_S = 0.05       # largest delay from the reported moment of diagnostics to their stamp
 
 
 def wait_until(condition, limit_s, what):
-    """Polls until condition() is true and returns what it gave; fails naming `what` after limit_s."""
+    """Polls until condition() is true and returns its value; fails after limit_s and names `what`."""
     end = time.monotonic() + limit_s
     while time.monotonic() < end:
         found = condition()
@@ -23,7 +23,7 @@ def wait_until(condition, limit_s, what):
 
 
 class Latest:
-    """Keeps the newest message of a topic and counts them."""
+    """Keeps the newest message of a topic and counts messages."""
 
     def __init__(self, topic, message_type, on_message=None, queue_size=1):
         self.message = None
@@ -39,7 +39,7 @@ class Latest:
             self._on_message(message)
 
     def connect(self, limit_s=20):
-        """Waits until what is published from now on comes."""
+        """Waits until messages that are published from now on arrive."""
         wait_until(lambda: self._subscriber.get_num_connections() > 0, limit_s, "publisher of " + self._subscriber.name)
         return self
 
@@ -48,7 +48,7 @@ class Latest:
 
 
 class SimulatorWatch:
-    """The newest /diagnostics of a node, by its name in full without the first slash."""
+    """The newest /diagnostics of a node, by its full name without the first slash."""
 
     def __init__(self, node="simulator"):
         self._node = node
@@ -69,7 +69,7 @@ class SimulatorWatch:
             return self._statuses.get(self._node + ": " + part)
 
     def value(self, part, key):
-        """A value of the diagnostics as a number, or as text where it is none; nothing if it is not there yet."""
+        """Returns a value of the diagnostics as a number, or as text if it is not one; None if it is not there yet."""
         status = self.status(part)
         for item in status.values if status else []:
             if item.key == key:
@@ -83,6 +83,6 @@ class SimulatorWatch:
         wait_until(lambda: self.value("simulation", "tick"), READY_LIMIT_S, "first tick")
 
     def wait_news(self):
-        """Waits for diagnostics that tell of a moment after this call. ROS time must go on."""
+        """Waits for diagnostics of a moment after this call. ROS time must advance."""
         after_s = rospy.get_time() + MADE_S
         wait_until(lambda: self._stamp_s > after_s, 10, "diagnostics")

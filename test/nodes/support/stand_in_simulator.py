@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What rviz sees of a simulator, without tissue: a ball whose triangles change all the time, /diagnostics, and a service
-`pause` that does not answer."""
+"""What rviz receives from a simulator, without tissue: a ball with permanently changing triangles, /diagnostics, and a
+service `pause` that does not answer."""
 import os
 import sys
 
@@ -15,14 +15,14 @@ from viscera.msg import SurfaceTopologyChange
 
 COMMAND = [sys.executable, os.path.abspath(__file__)]
 SENT_HZ = 50
-TOLD_EVERY = 10  # surfaces
+TOLD_EVERY = 10  # surfaces per diagnostics message
 MOST_GONE = 100  # triangles
-BODIES = 100     # of every fourth topology: parts, materials and draw calls come and go with them
+BODIES = 100     # of every fourth topology, so that parts, materials and draw calls come and go
 RED = 0xff4040b8
 
 
 class ChangingBall(Sender):
-    """Every step has another topology: as a whole, in other bodies, or some triangles fewer, and more again."""
+    """Every step has another topology: as a whole, in other bodies, or with some triangles fewer or more."""
 
     def __init__(self):
         super().__init__()

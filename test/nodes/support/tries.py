@@ -1,17 +1,18 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a busy machine may spoil is tried again."""
+"""Repeats tests that may fail on a busy machine."""
 import functools
 
-TRIES = 4  # of what came late, as neighbours on a shared machine hold up any of the processes; never of what did not come
+TRIES = 4  # for results that came late, since other load on a shared machine delays any process; never for missing ones
 
 
 class Late(AssertionError):
-    """It came, but after its limit."""
+    """Error for a result that came after its limit."""
 
 
 def in_one_of_several_tries(test):
-    """What is measured from outside is the program's delay and that of everything else that runs: the least counts."""
+    """Repeats a test. A delay that is measured from outside includes that of all other processes: the least one
+    counts."""
     @functools.wraps(test)
     def tries(self):
         for k in range(1, TRIES + 1):

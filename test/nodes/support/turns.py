@@ -11,7 +11,7 @@ def transposed(m):
 
 
 def times(a, b):
-    """The product of two matrices, or of a matrix and a vector."""
+    """Returns the product of two matrices, or of a matrix and a vector."""
     if isinstance(b[0], (tuple, list)):
         return tuple(tuple(sum(x * y for x, y in zip(row, column)) for column in zip(*b)) for row in a)
     return tuple(sum(x * y for x, y in zip(row, b)) for row in a)
@@ -26,7 +26,7 @@ def length(a):
 
 
 def quaternion(m):
-    """x, y, z, w of a rotation, from the largest of the four."""
+    """Returns x, y, z, w of a rotation, computed from the largest of the four."""
     trace = m[0][0] + m[1][1] + m[2][2]
     squares = [1 + 2 * m[i][i] - trace for i in range(3)] + [1 + trace]
     largest = max(range(4), key=lambda i: squares[i])

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A stereo camera on a tf frame: nothing is shown while the frame is unknown; then depths, labels and pairs of pictures are
-where tf and camera_info say, in pauses too; each is made only for subscribers."""
+"""A stereo camera on a tf frame. There are no images while the frame is unknown; later, depths, labels and stereo pairs
+agree with tf and camera_info, also while paused. Each is made only for subscribers."""
 import array
 import math
 import sys
@@ -27,7 +27,7 @@ BODY, BALL = 1, 221
 
 
 class Carrier:
-    """Says at 50 Hz where the frame is, as an endoscope's driver does."""
+    """Sends the frame's pose at 50 Hz, as an endoscope's driver does."""
 
     def __init__(self):
         self.y_m = None
@@ -47,7 +47,7 @@ class Carrier:
 
 
 def pixels(message):
-    """All of them, row by row; of a colour the sum of its three parts."""
+    """Returns all pixels, row by row; of a colour the sum of its three components."""
     values = array.array("f" if message.encoding == "32FC1" else "B", message.data)
     if message.encoding == "rgb8":
         return [sum(values[i:i + 3]) for i in range(0, len(values), 3)]
@@ -59,7 +59,7 @@ def middle(message):
 
 
 def rotated(q, v):
-    """A vector turned by a quaternion."""
+    """Returns a vector rotated by a quaternion."""
     def cross(a, b):
         return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     u = [q.x, q.y, q.z]
@@ -85,7 +85,7 @@ class CamerasTest(unittest.TestCase):
                 cls.optical[transform.header.stamp] = transform
 
     def pair(self, first, second, types=(Image, Image)):
-        """Two messages of one stamp."""
+        """Returns two messages with the same stamp."""
         found = ({}, {})
         topics = [Latest(name, kind, lambda message, to=to: to.setdefault(message.header.stamp, message), queue_size=10)
                   for name, kind, to in zip((first, second), types, found)]
@@ -95,7 +95,8 @@ class CamerasTest(unittest.TestCase):
         return [messages[max(common)] for messages in found]
 
     def face_y(self, depth, info):
-        """Height of the face along y, tissue frame, by what the middle pixel of the depths, tf and camera_info say."""
+        """Returns the height of the face along y, tissue frame, from the centre pixel of the depths, tf and
+        camera_info."""
         row, column = depth.height // 2, depth.width // 2
         z = middle(depth)
         x, y = (column - info.K[2]) / info.K[0] * z, (row - info.K[5]) / info.K[4] * z
@@ -107,7 +108,7 @@ class CamerasTest(unittest.TestCase):
     def test_0_no_picture_before_the_frame_is_known(self):
         image = Latest("scope/image_raw", Image)
         wait_until(lambda: (self.watch.value("cameras", "frames_missed") or 0) > 0, 10, "missed frame")
-        wait_until(lambda: "not known" in self.watch.status("cameras").message, 10, "warning")
+        wait_until(lambda: "is unknown" in self.watch.status("cameras").message, 10, "warning")
         self.assertEqual(image.count, 0)
         self.carrier.y_m = 0.0
         wait_until(lambda: image.count, 20, "picture")
@@ -142,7 +143,7 @@ class CamerasTest(unittest.TestCase):
         self.assertAlmostEqual(info.P[3], -info.P[0] * BASELINE_M, places=9)
 
         def column(image):
-            """Where the block's left edge is in the middle row."""
+            """Returns the column of the block's left edge in the middle row."""
             row = pixels(image)[60 * image.width:61 * image.width]
             return next(i for i, value in enumerate(row) if value > row[0] + 20)
 
@@ -189,14 +190,14 @@ class CamerasTest(unittest.TestCase):
         log = Latest("/rosout", Log, lambda m: told.append(m.msg) if m.level == Log.WARN and "huge" in m.msg else None, 100)
         huge = Latest("huge/image_raw", Image)
 
-        def moves():  # what stands still is not drawn again
+        def moves():  # an unchanged image is not drawn again
             self.carrier.y_m += 1e-5
             return told
 
         wait_until(moves, 30, "warning")
         self.assertIn("width_px", told[0])
 
-        def pace_tells():  # on a busy machine it says first that all is slow
+        def pace_tells():  # on a busy machine it first reports that everything is slow
             self.carrier.y_m += 1e-5
             return "pictures" in self.watch.status("pace").message
 

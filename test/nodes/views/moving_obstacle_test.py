@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""An obstacle on a tf frame: it stays and warns while the frame is unknown, then goes where the frame goes and pushes."""
+"""An obstacle on a tf frame: it stays and warns while the frame is unknown, then follows the frame and pushes."""
 import sys
 import time
 import unittest
@@ -16,7 +16,7 @@ from visualization_msgs.msg import Marker
 BELOW_M, ABOVE_M = -0.03, 0.01  # heights of the plate's top
 TOP_M = -0.05  # of the plate in its frame
 UNDERSIDE_M = -0.01  # of the block at rest
-TOLERANCE_M = 5e-4  # skin and nodes of a block that is pushed
+TOLERANCE_M = 5e-4  # surface and nodes of a block that is pushed
 
 
 class MovingObstacleTest(unittest.TestCase):
@@ -44,7 +44,7 @@ class MovingObstacleTest(unittest.TestCase):
     def test_0_an_unknown_frame_is_counted_and_moves_nothing(self):
         wait_until(lambda: (self.watch.value("obstacles", "frames_missed") or 0) > 0, 10, "missed frame")
         self.assertEqual(self.watch.value("obstacles", "frames_found"), 0)
-        wait_until(lambda: "not known" in self.watch.status("obstacles").message, 10, "warning")
+        wait_until(lambda: "is unknown" in self.watch.status("obstacles").message, 10, "warning")
         self.assertAlmostEqual(wait_until(self.lowest, 10, "surface"), UNDERSIDE_M, delta=TOLERANCE_M)
 
     def test_1_the_obstacle_goes_where_its_frame_goes(self):
@@ -56,19 +56,19 @@ class MovingObstacleTest(unittest.TestCase):
         wait_until(lambda: (self.lowest() or BELOW_M) > ABOVE_M - TOLERANCE_M, 10, "block on the plate")
 
     def test_2_a_frame_that_jumps_is_held_back_and_counted(self):
-        self.assertEqual(self.watch.value("obstacles", "ticks_held_back"), 0)
+        self.assertEqual(self.watch.value("obstacles", "ticks_speed_limited"), 0)
         jumps = 0
 
-        def held_back():
-            """Jumps once more: a transform that comes once is soon too old, which says more than that it jumped."""
+        def speed_limited():
+            """Jumps again: a transform that is sent once is soon too old, which is reported instead of the jump."""
             nonlocal jumps
             jumps += 1
             self.place(BELOW_M - 1 - jumps % 2)  # a metre in a tick is faster than any wave in tissue
-            return (self.watch.value("obstacles", "ticks_held_back") or 0) > 0 and "held back" in self.watch.status(
+            return (self.watch.value("obstacles", "ticks_speed_limited") or 0) > 0 and "speed limited" in self.watch.status(
                 "obstacles"
             ).message
 
-        wait_until(held_back, 10, "warning that the obstacle is held back, and how often")
+        wait_until(speed_limited, 10, "warning that the obstacle is held back, and how often")
 
 
 if __name__ == "__main__":

@@ -7,14 +7,14 @@
 namespace viscera::nodes {
 namespace {
 
-TEST(Needles, AreToldWithTheirThreadsAndWhoHoldsThem) {
+TEST(Needles, ArePublishedWithTheirSuturesAndWhoHoldsThem) {
   Scene scene;
   scene.environment.tissue_frame = "room/tissue";
   scene.styluses.resize(2);
   scene.styluses[1].name = "right";
-  scene.threads.resize(3);
-  scene.threads[0].name = "first";
-  scene.threads[2].name = "third";
+  scene.sutures.resize(3);
+  scene.sutures[0].name = "first";
+  scene.sutures[2].name = "third";
   Frame frame;
   frame.tick = 7;
   frame.needles = {{2, Pose{{0.1, 0.2, 0.3}, Quaterniond::Identity()}, 0.006, 3, 0.0004, 1, true},
@@ -23,7 +23,7 @@ TEST(Needles, AreToldWithTheirThreadsAndWhoHoldsThem) {
   EXPECT_EQ(message.header.frame_id, "room/tissue");
   EXPECT_EQ(message.header.stamp, ros::Time(3));
   EXPECT_EQ(message.tick, 7U);
-  EXPECT_EQ(message.threads, (std::vector<std::string>{"third", "first"}));
+  EXPECT_EQ(message.sutures, (std::vector<std::string>{"third", "first"}));
   EXPECT_EQ(message.held_by, (std::vector<std::string>{"right", ""}));
   EXPECT_EQ(message.poses.at(0).position.z, 0.3);
   EXPECT_EQ(message.radii_m, (std::vector<double>{0.006, 0.008}));

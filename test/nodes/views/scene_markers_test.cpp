@@ -37,8 +37,8 @@ Scene scene() {
   return scene;
 }
 
-SceneLook look() {
-  SceneLook look;
+SceneStyle look() {
+  SceneStyle look;
   look.obstacles = {Pose{{0.2, 0, 0}, Quaterniond::Identity()}};
   look.tools[0].present = true;
   look.tools[0].mode = ToolMode::kProbe;
@@ -47,7 +47,7 @@ SceneLook look() {
   return look;
 }
 
-MarkerArray markersOf(const SceneLook& look) {
+MarkerArray markersOf(const SceneStyle& look) {
   return SceneMarkers(scene(), {}).at(look, ros::Time(3));
 }
 
@@ -73,7 +73,7 @@ TEST(SceneMarkers, ToolsAreTheTrianglesThatTheCameraShowsWhereTheyAre) {
 }
 
 TEST(SceneMarkers, AModeHasItsOwnShape) {
-  SceneLook grabbing = look();
+  SceneStyle grabbing = look();
   grabbing.tools[0].mode = ToolMode::kGrab;
   size_t corners = 0;
   const auto tools = shown(markersOf(grabbing), "tools");
@@ -84,7 +84,7 @@ TEST(SceneMarkers, AModeHasItsOwnShape) {
 
 TEST(SceneMarkers, FingersStandAsFarOpenAsTheirTool) {
   const auto width_m = [](double opening_rad) {
-    SceneLook grabbing = look();
+    SceneStyle grabbing = look();
     grabbing.tools[0].mode = ToolMode::kGrab;
     grabbing.tools[0].opens_to_rad = opening_rad;
     double widest_m = 0;
@@ -94,7 +94,7 @@ TEST(SceneMarkers, FingersStandAsFarOpenAsTheirTool) {
     }
     return widest_m;
   };
-  constexpr double kFinger_m = 0.0015, kLength_m = 0.014;  // as thick as a finger is; of those of mode grab
+  constexpr double kFinger_m = 0.0015, kLength_m = 0.014;  // thickness of a finger; length of those of mode grab
   EXPECT_LT(width_m(0), kFinger_m);
   EXPECT_NEAR(width_m(0.6), kLength_m * std::sin(0.3), kFinger_m);
 }
@@ -130,7 +130,7 @@ TEST(SceneMarkers, ForcesAreArrowsFromTheTipInTheScaleThatIsAskedFor) {
 }
 
 TEST(SceneMarkers, ForcesThatAreNoneOrNotFiniteHaveNoArrow) {
-  SceneLook none = look();
+  SceneStyle none = look();
   none.reactions[0].force_n.setZero();
   EXPECT_TRUE(shown(markersOf(none), "forces").empty());
   none.reactions[0].force_n.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -147,7 +147,7 @@ TEST(SceneMarkers, ObstaclesAreInTheirTrueSizeAtTheirPose) {
 }
 
 TEST(SceneMarkers, WhatIsNotThereIsDeletedUnderTheIdsThatItHad) {
-  const MarkerArray present = markersOf(look()), absent = markersOf(SceneLook{{}, look().obstacles, {}});
+  const MarkerArray present = markersOf(look()), absent = markersOf(SceneStyle{{}, look().obstacles, {}});
   std::set<std::pair<std::string, int>> deleted;
   for (const Marker& marker : absent.markers)
     if (marker.action == Marker::DELETE) deleted.emplace(marker.ns, marker.id);
@@ -163,20 +163,20 @@ TEST(SceneMarkers, NoTwoMarkersShareAnId) {
   for (const Marker& marker : array.markers) EXPECT_TRUE(ids.emplace(marker.ns, marker.id).second) << marker.ns;
 }
 
-TEST(SceneMarkers, ThreadsAreLinesThroughTheirNodesOnceTheyArePlaced) {
+TEST(SceneMarkers, SuturesAreLinesThroughTheirNodesOnceTheyArePlaced) {
   Scene with = scene();
-  ThreadConfig thread;
-  thread.radius_m = 1e-3;
-  thread.material = ThreadMaterial::kPolypropylene;
-  thread.path = {{Vector3d(0.05, 0, 0)}};
-  with.threads = {thread, thread};
-  with.threads[1].radius_m = 1e-5;
+  SutureConfig suture;
+  suture.radius_m = 1e-3;
+  suture.material = SutureMaterial::kPolypropylene;
+  suture.path = {{Vector3d(0.05, 0, 0)}};
+  with.sutures = {suture, suture};
+  with.sutures[1].radius_m = 1e-5;
   const SceneMarkers markers(with, {});
-  SceneLook placed = look();
-  EXPECT_TRUE(shown(markers.at(placed, ros::Time(3)), "threads").empty());
-  placed.threads = {{0, ThreadPart::kThread, {{0, 0, 0}, {0.01, 0, 0}, {0.02, 0, 0.01}}},
-                    {1, ThreadPart::kThread, {{0, 1, 0}, {0, 2, 0}}}};
-  const auto lines = shown(markers.at(placed, ros::Time(3)), "threads");
+  SceneStyle placed = look();
+  EXPECT_TRUE(shown(markers.at(placed, ros::Time(3)), "sutures").empty());
+  placed.sutures = {{0, TubeKind::kSuture, {{0, 0, 0}, {0.01, 0, 0}, {0.02, 0, 0.01}}},
+                    {1, TubeKind::kSuture, {{0, 1, 0}, {0, 2, 0}}}};
+  const auto lines = shown(markers.at(placed, ros::Time(3)), "sutures");
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_EQ(lines[0].type, Marker::LINE_STRIP);
   EXPECT_EQ(lines[0].header.frame_id, "room/tissue");
@@ -189,14 +189,14 @@ TEST(SceneMarkers, ThreadsAreLinesThroughTheirNodesOnceTheyArePlaced) {
   EXPECT_GT(lines[1].scale.x, 1e-4) << "wide enough to be seen";
 }
 
-TEST(SceneMarkers, ClipsAreLinesBehindThoseOfThreads) {
+TEST(SceneMarkers, ClipsAreLinesBehindThoseOfSutures) {
   Scene with = scene();
   with.styluses[0].button1 = ToolMode::kClip;
   const SceneMarkers markers(with, {});
-  SceneLook placed = look();
-  EXPECT_TRUE(shown(markers.at(placed, ros::Time(3)), "threads").empty());
-  placed.threads = {{0, ThreadPart::kClip, {{0, 0, 0}, {0.01, 0, 0}, {0.01, 0.002, 0}, {0, 0.002, 0}}}};
-  const auto lines = shown(markers.at(placed, ros::Time(3)), "threads");
+  SceneStyle placed = look();
+  EXPECT_TRUE(shown(markers.at(placed, ros::Time(3)), "sutures").empty());
+  placed.sutures = {{0, TubeKind::kClip, {{0, 0, 0}, {0.01, 0, 0}, {0.01, 0.002, 0}, {0, 0.002, 0}}}};
+  const auto lines = shown(markers.at(placed, ros::Time(3)), "sutures");
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0].points.size(), 4u);
   EXPECT_EQ(lines[0].scale.x, 1e-3);
@@ -204,15 +204,15 @@ TEST(SceneMarkers, ClipsAreLinesBehindThoseOfThreads) {
 
 TEST(SceneMarkers, NeedlesAreLinesAlongTheirWireFromTheTip) {
   Scene with = scene();
-  ThreadConfig thread;
-  thread.path = {{Vector3d(0.05, 0, 0)}};
-  with.threads = {thread, thread};
-  with.threads[1].needle.arc = NeedleArc::kHalfCircle;
+  SutureConfig suture;
+  suture.path = {{Vector3d(0.05, 0, 0)}};
+  with.sutures = {suture, suture};
+  with.sutures[1].needle.arc = NeedleArc::kHalfCircle;
   const SceneMarkers markers(with, {});
-  SceneLook placed = look();
+  SceneStyle placed = look();
   EXPECT_TRUE(shown(markers.at(placed, ros::Time(3)), "needles").empty());
-  SeenNeedle needle;
-  needle.thread = 1;
+  NeedleState needle;
+  needle.suture = 1;
   needle.pose.position_m = {0, 0, 0.1};
   needle.radius_m = 0.01;
   needle.arc_rad = M_PI;
@@ -228,7 +228,7 @@ TEST(SceneMarkers, NeedlesAreLinesAlongTheirWireFromTheTip) {
 }
 
 TEST(SceneMarkers, ToolsThatAreWhereTheirFramesAreGoWithThese) {
-  SceneLook look = viscera::nodes::look();
+  SceneStyle look = viscera::nodes::look();
   look.in_tf[0] = true;
   PublishOptions options;
   options.frame_prefix = "room/";
@@ -247,7 +247,7 @@ TEST(SceneMarkers, AToolThatIsHeldBackIsNotWhereItsFrameIs) {
   samples[0].valid = samples[1].valid = true;
   frame.tools[0].present = frame.tools[1].present = true;
   frame.tools[1].to.position_m.x() = 0.001;
-  const SceneLook look = lookOf(frame, samples);
+  const SceneStyle look = lookOf(frame, samples);
   EXPECT_TRUE(look.in_tf[0]);
   EXPECT_FALSE(look.in_tf[1]);
   samples[0].valid = false;
@@ -256,8 +256,8 @@ TEST(SceneMarkers, AToolThatIsHeldBackIsNotWhereItsFrameIs) {
 
 class SentMeshesTest : public ::testing::Test {
  protected:
-  /// Ids of tools in what is sent of this.
-  std::vector<int> tools(const SceneLook& look, double time_s) {
+  /// Returns the ids of tools that are sent for these contents.
+  std::vector<int> tools(const SceneStyle& look, double time_s) {
     const auto now = SteadyTime(std::chrono::hours(1)) +
                      std::chrono::duration_cast<SteadyTime::duration>(std::chrono::duration<double>(time_s));
     std::vector<int> out;
@@ -273,7 +273,7 @@ class SentMeshesTest : public ::testing::Test {
 };
 
 TEST_F(SentMeshesTest, AreSentOnceAndAgainAsTheyChange) {
-  SceneLook look = viscera::nodes::look();
+  SceneStyle look = viscera::nodes::look();
   look.in_tf[0] = true;
   const size_t all = tools(look, 0).size();
   EXPECT_GE(all, 8U) << "of two styluses, present or not";
@@ -293,7 +293,7 @@ TEST_F(SentMeshesTest, AreSentOnceAndAgainAsTheyChange) {
 }
 
 TEST_F(SentMeshesTest, OfToolsThatAreNotInTheirFramesAreSentAsTheyMove) {
-  SceneLook look = viscera::nodes::look();
+  SceneStyle look = viscera::nodes::look();
   tools(look, 0);
   EXPECT_TRUE(tools(look, 0.1).empty());
   look.tools[0].to.position_m.x() = 0.01;
@@ -313,7 +313,7 @@ TEST(SceneMarkers, NamesAtOnePlaceAreWrittenAboveEachOther) {
 }
 
 TEST(SceneMarkers, NodesThatAreHeldArePointsThatGoWithTheTool) {
-  SceneLook look = viscera::nodes::look();
+  SceneStyle look = viscera::nodes::look();
   EXPECT_TRUE(shown(markersOf(look), "held").empty());
   look.held_m[0] = {{0, 0, 0.001}, {0.002, 0, 0}};
   const auto held = shown(markersOf(look), "held");

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a viewer is told: a camera_info that is right to a part of a pixel, topologies, and markers of all but tissue."""
+"""The topics for viewers: a camera_info that is accurate to a fraction of a pixel, topologies, and markers of
+everything except tissue."""
 import math
 import sys
 import threading
@@ -17,22 +18,22 @@ from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
-from viscera.msg import SurfaceTopology, SurfaceTopologyChange, SurfaceVertices, Threads
+from viscera.msg import SurfaceTopology, SurfaceTopologyChange, SurfaceVertices, Sutures
 from viscera.srv import SetOverlays, SetToolMode
 
 LIMIT_S = 20
-TILE_M = (0.08, 0, 0.05)  # of scene_view.yaml: a square of 4 cm that faces the camera, turned, brighter than the background
+TILE_M = (0.08, 0, 0.05)  # of scene_view.yaml: a square of 4 cm that faces the camera, rotated, brighter than the background
 TILE_PX = 900             # pixels of it
-PIXEL_LIMIT = 0.1         # [px] of its middle: slanted borders meet pixels anywhere; half a pixel is the error looked for
+PIXEL_LIMIT = 0.1         # [px] for its centre: oblique borders cross pixels anywhere; half a pixel is the error to detect
 ABOVE_M = -0.05    # over the cloth, out of its reach
 CLOTH_M = -0.1
-BLUE = (77, 107, 184)  # end of the scale of strain, where none is (shaders/surface/strain_scale.glsl)
-AGAIN_S = 5        # between two whole topologies that are one
-GRAB_M = 0.02      # more than the reach of a tool that grabs, and what a pose moves between two messages
+BLUE = (77, 107, 184)  # lower end of the scale, without strain (shaders/surface/strain_scale.glsl)
+AGAIN_S = 5        # between two equal whole topologies
+GRAB_M = 0.02      # more than the reach of a tool that grabs, and the motion between two messages
 
 
 class Hand:
-    """Sends poses at 50 Hz until it is told another one, or to stop."""
+    """Sends poses at 50 Hz until it gets another one, or is stopped."""
 
     def __init__(self, stylus):
         self.publisher = rospy.Publisher(stylus + "/measured_cp", PoseStamped, queue_size=1)
@@ -61,17 +62,17 @@ class Hand:
 
 
 def isBlue(color):
-    """Whether an RGBA8 colour is BLUE, to the rounding of its channels."""
+    """Returns whether an RGBA8 colour is BLUE, to the rounding of its channels."""
     return all(abs((color >> 8 * i & 255) - channel) <= 1 for i, channel in enumerate(BLUE))
 
 
 def light(value):
-    """Of a byte of an sRGB image."""
+    """Returns the linear value of a byte of an sRGB image."""
     return ((value / 255 + 0.055) / 1.055) ** 2.4
 
 
 def rotated(q, v):
-    """v turned by the quaternion q."""
+    """Returns v rotated by the quaternion q."""
     u = (q.x, q.y, q.z)
 
     def cross(a, b):
@@ -98,7 +99,7 @@ class SceneViewTest(unittest.TestCase):
             cls.frames[transform.child_frame_id] = transform.transform
 
     def projected(self, info):
-        """The middle of the tile, where the centre of the first pixel is (0, 0), as the messages alone say."""
+        """Returns the centre of the tile from the messages alone, with the centre of the first pixel at (0, 0)."""
         camera = wait_until(lambda: self.frames.get(info.header.frame_id), LIMIT_S, "camera in /tf_static")
         away = tuple(p - getattr(camera.translation, axis) for p, axis in zip(TILE_M, "xyz"))
         back = type(camera.rotation)(-camera.rotation.x, -camera.rotation.y, -camera.rotation.z, camera.rotation.w)
@@ -110,9 +111,9 @@ class SceneViewTest(unittest.TestCase):
         wait_until(lambda: image.count and info.count, LIMIT_S, "image")
         u, v = self.projected(info.message)
         pixels, step = image.message.data, image.message.step
-        share = column_sum = row_sum = 0  # of the tile in each pixel
+        share = column_sum = row_sum = 0  # covered share of each pixel
         dark = light(pixels[0])
-        full = 0.9 * (light(pixels[int(v) * step + 3 * int(u)]) - dark)  # its lower end is a little darker
+        full = 0.9 * (light(pixels[int(v) * step + 3 * int(u)]) - dark)  # its lower end is slightly darker
         for row in range(int(v) - 30, int(v) + 31):
             for column in range(int(u) - 30, int(u) + 31):
                 at = row * step + 3 * column
@@ -135,7 +136,7 @@ class SceneViewTest(unittest.TestCase):
         wait_until(lambda: not self.legend(image.message), LIMIT_S, "image without a legend again")
         answer = set_overlays("camera", ["latice"])
         self.assertFalse(answer.success)
-        self.assertEqual(answer.message, "overlays: there is no overlay 'latice'; there are lattice, forces, wind, "
+        self.assertEqual(answer.message, "overlays: unknown overlay 'latice'; accepted: lattice, forces, wind, "
                                          "springs, normals, strain")
         answer = set_overlays("unknown", [])
         self.assertFalse(answer.success)
@@ -144,7 +145,7 @@ class SceneViewTest(unittest.TestCase):
 
     @staticmethod
     def legend(message):
-        """Is there the bright yellow of a scale's end in the image?"""
+        """Returns whether the image has the bright yellow at the end of a scale."""
         pixels = message.data
         return any(pixels[i] > 230 and 200 < pixels[i + 1] < 245 and pixels[i + 2] < 80 for i in range(0, len(pixels), 3))
 
@@ -172,16 +173,16 @@ class SceneViewTest(unittest.TestCase):
         plain.stop()
         strain.stop()
 
-    def test_threads_are_told_node_by_node(self):
-        threads = Latest("threads", Threads)
-        message = wait_until(lambda: threads.message, LIMIT_S, "threads")
+    def test_sutures_are_published_node_by_node(self):
+        sutures = Latest("sutures", Sutures)
+        message = wait_until(lambda: sutures.message, LIMIT_S, "sutures")
         self.assertEqual((message.header.frame_id, message.names), ("tissue", ["suture"]))
         self.assertAlmostEqual(message.radii_m[0], 0.16e-3, delta=1e-9)  # USP 2-0
         self.assertEqual(3 * message.nodes[0], len(message.positions_m))
         for at, way in zip((0, 3 * message.nodes[0] - 3), ((-0.09, 0.15, 0.05), (0.03, 0.15, 0.05))):
             for part, wanted in zip(message.positions_m[at:at + 3], way):
                 self.assertAlmostEqual(part, wanted, delta=1e-6)
-        threads.stop()
+        sutures.stop()
 
     def test_a_cut_renews_the_topology_for_those_who_want_nothing_else(self):
         topology = Latest("surface_topology", SurfaceTopology)
@@ -226,7 +227,7 @@ class SceneViewTest(unittest.TestCase):
 
     @staticmethod
     def note(message, seen):
-        """What is shown, by namespace and id."""
+        """Records the visible markers by namespace and id."""
         for marker in message.markers:
             if marker.action == Marker.ADD:
                 seen.setdefault(marker.ns, {})[marker.id] = marker
@@ -264,12 +265,12 @@ class SceneViewTest(unittest.TestCase):
         self.left.move((-0.02, 0, ABOVE_M), (-0.05, 0, ABOVE_M), 3)
         with_tools = sum(1 for array in arrays if drawn(array))
         self.assertGreater(len(arrays), 20)
-        self.assertLess(with_tools, 0.2 * len(arrays))  # as a new shape, every 5 s, and where a busy machine lost the hand
+        self.assertLess(with_tools, 0.2 * len(arrays))  # when its shape changes, every 5 s, and if a busy machine lost tracking
         late = []
         markers.stop()  # subscribers of one process share a connection
         time.sleep(0.5)
         another = Latest("scene_markers", MarkerArray, late.append, queue_size=1000)
-        # one of the usual ones may come first
+        # a regular one may come first
         wait_until(lambda: any(drawn(array) for array in late), 0.7 * AGAIN_S, "tool for who comes")
         self.left.position = None
         another.stop()

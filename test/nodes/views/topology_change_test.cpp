@@ -39,7 +39,7 @@ TEST(TopologyChange, OneTriangleInPiecesIsOnePlace) {
 TEST(TopologyChange, AWideCutDoesNotSendWhatFollowsIt) {
   const std::vector<uint32_t> before = triangles(100000);
   std::vector<uint32_t> after(before.begin(), before.begin() + 3 * 40000);
-  constexpr size_t kNew = 500;  // more than is looked for ahead
+  constexpr size_t kNew = 500;  // more than the search distance
   for (uint32_t i = 0; i < 3 * kNew; ++i) after.push_back(1000000 + i);
   after.insert(after.end(), before.begin() + 3 * 40300, before.end());
   const TriangleEdits edits = editsBetween(before, after);
@@ -52,7 +52,7 @@ TEST(TopologyChange, AnyTwoListsAreBroughtTogether) {
   const auto list = [&](size_t most) {
     std::vector<uint32_t> out;
     for (size_t n = random() % most; n > 0; --n) {
-      const uint32_t triangle = random() % 40;  // many are the same, out of order
+      const uint32_t triangle = random() % 40;  // many are equal, out of order
       for (uint32_t i = 0; i < 3; ++i) out.push_back(3 * triangle + i);
     }
     return out;

@@ -27,12 +27,13 @@ Pose at(double x, double y, double z) {
   return {Vector3d(x, y, z), Quaterniond::Identity()};
 }
 
-/// Nodes of one body against the triangles of another.
+/// Passages of nodes of one body through the triangles of another.
 class Passages {
  public:
   Passages(const Model& model, size_t nodes, size_t triangles) : model_(model), nodes_(nodes), triangles_(triangles) {}
 
-  /// How many nodes went through a triangle since the last look: over it before and after, on different sides.
+  /// Returns the number of nodes that passed through a triangle since the last call: over it before and after, on
+  /// different sides.
   int look(const HostState& state) {
     std::vector<double> heights;
     for (const auto& t : model_.bodies[triangles_].network->triangles) {
@@ -49,7 +50,8 @@ class Passages {
   }
 
  private:
-  /// Along the triangle's normal [m]; NaN beside it, and farther away than a node can come in a substep.
+  /// Returns the height along the triangle's normal [m]; NaN outside it, and farther away than a node can move in a
+  /// substep.
   static double heightOver(const Vector3d& ax, const Vector3d& ab, const Vector3d& ac) {
     const Vector3d n = ab.cross(ac);
     const double s = ax.cross(ac).dot(n) / n.squaredNorm(), r = ab.cross(ax).dot(n) / n.squaredNorm();
@@ -69,7 +71,8 @@ struct Encounter {
   double speed_m_per_s;  ///< relative
 };
 
-/// @param cells  relative motion along z in a substep, in cells of the search, of the fastest nodes
+/// Returns two sheets that meet. @param cells  relative displacement along z in a substep, in cells of the search, of
+/// the fastest nodes
 Encounter sheetsMeeting(double cells, uint32_t seed, bool held) {
   Encounter e;
   Body top = looseCloth(6, 6, kSpacing_m), bottom = looseCloth(14, 14, kSpacing_m);
@@ -86,7 +89,7 @@ Encounter sheetsMeeting(double cells, uint32_t seed, bool held) {
   place(e.model, 0, at(shift.x(), shift.y(), 1.3 * kSpacing_m + std::abs(shift.z())),
         Vector3d(0, 0, -share * e.speed_m_per_s), e.state);
   place(e.model, 1, at(0, 0, 0), Vector3d(0, 0, (1 - share) * e.speed_m_per_s), e.state);
-  for (const uint32_t slot : top.lattice.active_slots) {  // every node at a speed of its own, and aside
+  for (const uint32_t slot : top.lattice.active_slots) {  // every node has a speed of its own, also sideways
     layout::vec4& v = e.state.velocity_m_per_s[slot];
     const Vector3d r = randomVector(random, 1);
     v = vec4(xyz(v) * (1 - 0.3 * std::abs(r.z())) + 0.2 * e.speed_m_per_s * Vector3d(r.x(), r.y(), 0));
@@ -116,7 +119,7 @@ TEST_P(Collide, SheetsThatMeetAtHalfACellPerSubstepDoNotPassThroughEachOther) {
   }
 }
 
-/// What the tests around this one rest on: passages are seen where there are some.
+/// The tests around this one rely on it: passages are detected where there are some.
 TEST_P(Collide, SheetsPassThroughEachOtherWhereNothingCollides) {
   Encounter e = sheetsMeeting(0.25, 1, false);
   e.scene.collision.enabled = false;
@@ -158,7 +161,7 @@ TEST_P(Collide, MomentaAddUpToWhatTheyWere) {
   const auto solver = make(e.model, scene);
   solver->writeState(e.state);
   const Vector3d before = momentum(e.model, e.state);
-  double passing = 0;  // what the sheets have given each other
+  double passing = 0;  // momentum that the sheets have given each other
   for (int s = 0; s < 40; ++s) {
     solver->step({});
     passing = std::max(passing, (momentum(e.model, solver->readState()) - before).norm());
@@ -204,7 +207,7 @@ TEST_P(Collide, RestitutionOneThrowsBackAndNoneStops) {
   }
 }
 
-/// A sheet that lies on another one, whose nodes are so near to each other that it is nearly flat, and slides.
+/// A sheet that slides on another one. Its nodes are so close together that it is nearly flat.
 class Sliding : public Collide {
  protected:
   /// @param longer  substep over leapfrog's
@@ -233,7 +236,7 @@ class Sliding : public Collide {
       speeds_.push_back(sum.x());
     }
   }
-  /// Once it lies, and before it rests [m/s2].
+  /// Returns the deceleration after it has settled and before it rests [m/s2].
   double deceleration() const {
     constexpr double kLies_s = 0.015, kSlow_m_per_s = 0.06;
     const auto first = static_cast<size_t>(kLies_s / dt_s_);
@@ -242,13 +245,13 @@ class Sliding : public Collide {
     return (speeds_[first] - speeds_[last]) / (static_cast<double>(last - first) * dt_s_);
   }
 
-  std::vector<double> speeds_;  ///< [substeps] mean of the upper sheet's nodes [m/s]
+  std::vector<double> speeds_;  ///< [substeps] mean speed of the upper sheet's nodes [m/s]
   double dt_s_ = 0;
 };
 INSTANTIATE_TEST_SUITE_P(Backends, Sliding, ::testing::ValuesIn(backendKinds()), backendSuffix);
 
 TEST_P(Sliding, ASheetOnAnotherSlowsByFrictionTimesGravityAndThenRests) {
-  constexpr double kLaw = 0.1;  // of mu g: nodes are round, and the sheet hops where it meets those below
+  constexpr double kLaw = 0.1;  // of mu g: nodes are round, and the sheet hops over those below
   constexpr double kFriction = 0.6;
   slide(kFriction);
   EXPECT_NEAR(deceleration() / (kFriction * kGravity_m_per_s2), 1, kLaw);
@@ -279,7 +282,7 @@ TEST_P(Collide, NodesTooFarFromEachOtherDoNothingAtAll) {
 
 TEST_P(Collide, TheSameSceneGivesTheSameBits) {
   const Encounter e = sheetsMeeting(0.4, 5, false);
-  const auto hash = [&](const std::unique_ptr<Ticks>& solver) {
+  const auto hash = [&](const std::unique_ptr<TissueStepper>& solver) {
     solver->writeState(e.state);
     for (int s = 0; s < 50; ++s) solver->step({});
     return stateHash(e.model, solver->readState());

@@ -11,7 +11,7 @@ using namespace viscera::test;
 namespace {
 
 constexpr double kCollisionSearchSpacing_m = 0.01;
-// Positions are float32 sums of numbers up to 1 m; pairs this near to their distance may go either way.
+// Positions are float32 sums of numbers up to 1 m; pairs this close to their contact distance may be found or not.
 constexpr double kTolerance_m = 5e-7;
 
 Scene collisionSearchCollidingScene(const Model& model) {
@@ -20,7 +20,7 @@ Scene collisionSearchCollidingScene(const Model& model) {
   return scene;
 }
 
-/// Nodes of all bodies anywhere in a cube.
+/// Returns a state with the nodes of all bodies anywhere in a cube.
 HostState cloudState(const Model& model, double cube_m, uint32_t seed) {
   std::mt19937 random(seed);
   HostState state = restState(model);
@@ -33,7 +33,7 @@ HostState cloudState(const Model& model, double cube_m, uint32_t seed) {
   return state;
 }
 
-/// A sheet rolled up along y, in as many layers as it takes, `gap_m` apart.
+/// Returns a sheet rolled up along y, in as many layers as needed, `gap_m` apart.
 HostState rolledState(const Model& model, double radius_m, double gap_m) {
   HostState state = restState(model);
   const Body& cloth = model.bodies[0];
@@ -141,7 +141,7 @@ TEST(SearchOnBothBackends, GivesTheSamePairsForEverySizeOfWorkGroup) {
   EXPECT_EQ(pairsOf("cpu", model, scene, state), pairs);
 }
 
-/// A body that has collapsed into one point, another that is as it was, and a sheet beside that.
+/// A body collapsed into one point, another one at rest, and a sheet next to it.
 TEST(SearchOnBothBackends, PassesOverACrowdAndSeesEverybodyElse) {
   const gpu::Context context;
   const int edge = 70;  // 4900 nodes
@@ -151,10 +151,10 @@ TEST(SearchOnBothBackends, PassesOverACrowdAndSeesEverybodyElse) {
   const Scene scene = collisionSearchCollidingScene(model);
   const FeatureSet features = featuresOf(model, scene, 1);
   LatticeBuffers buffers(model, bodyParams(model, safeTimeStep(model)), features);
-  const SurroundingsPass pass(model, scene, features, buffers);
+  const EnvironmentPass pass(model, scene, features, buffers);
   CpuLattice lattice(model, bodyParams(model, safeTimeStep(model)), features);
   const Serial serial;
-  CpuSurroundings on_cpu(model, scene, lattice, serial);
+  CpuEnvironment on_cpu(model, scene, lattice, serial);
   size_t compared = 0;
   for (const bool collapsed : {false, true}) {
     HostState state = restState(model);

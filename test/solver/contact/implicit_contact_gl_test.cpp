@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Probes and obstacles are part of the solution of an implicit substep: what they feel does not depend on its length.
+// Probes and obstacles are part of the solution of an implicit substep: their forces do not depend on its length.
 #include "model/scene/integrators.h"
-#include "solver/contact/surroundings.h"
+#include "solver/contact/environment.h"
 #include "solver/reference/statics.h"
 #include "support/random_state.h"
 #include "support/solver_rig.h"
@@ -13,16 +13,17 @@ using namespace viscera::test;
 namespace {
 
 constexpr double kImplicitContactSpacing_m = 0.01;
-// Of the force of the static equilibrium: the promise. What is left is rounding of tools' positions, and of sweeps.
+// Of the force of the static equilibrium, as promised. The rest is rounding of tools' positions, and remaining
+// iteration error.
 constexpr double kImplicitContactForce = 0.01;
 
 struct Way {
   Integrator integrator;
-  double fraction;  ///< of dt_safe
+  double fraction;  ///< over dt_safe
 };
 constexpr Way kWays[] = {
     {Integrator::kLeapfrog, 0.5}, {Integrator::kPd, 2}, {Integrator::kPd, 5}, {Integrator::kPd, 10}};
-constexpr int kIterations = 20;  // the default: what is at rest is the solution, however few
+constexpr int kIterations = 20;  // the default: a state at rest is the solution, however few
 
 class ImplicitContact : public OnBackend {
  protected:
@@ -56,7 +57,7 @@ ObstacleConfig planeAt(double z_m) {
 
 TEST_P(ImplicitContact, AStaticProbeFeelsTheSameForceWhateverTheIntegratorAndTheSubstep) {
   Body body = boxBody({2, 2, 2}, kImplicitContactSpacing_m);
-  body.material.drag_per_s = 20;
+  body.material.mass_damping_per_s = 20;
   fixBottom(body);
   const Model model = modelOf({body});
   constexpr double kDepth_m = 1e-3, kRadius_m = 3e-3;
@@ -84,7 +85,7 @@ TEST_P(ImplicitContact, AStaticProbeFeelsTheSameForceWhateverTheIntegratorAndThe
 
 TEST_P(ImplicitContact, AnObstacleBearsTheWeightOfWhatLiesOnItWhateverTheIntegratorAndTheSubstep) {
   Body body = boxBody({3, 3, 2}, kImplicitContactSpacing_m);
-  body.material.drag_per_s = 20;
+  body.material.mass_damping_per_s = 20;
   const Model model = modelOf({body});
   const Vector3d gravity(0, 0, -9.81);
   ReferenceSolver masses(model, gravity, 1);

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Contacts between nodes are part of the solution of an implicit substep of any length: what lies on others is borne.
-#include "solver/contact/surroundings.h"
+// Contacts between nodes are part of the solution of an implicit substep of any length: resting bodies are supported.
+#include "solver/contact/environment.h"
 #include "support/loose_cloth.h"
 #include "support/momentum.h"
 #include "support/random_state.h"
@@ -16,14 +16,13 @@ constexpr double kNodeContactSpacing_m = 0.01;
 const Vector3d kGravity(0, 0, -9.81);
 constexpr int kNodeContactIterations = 20;  // the default
 constexpr double kNodeContactSpeed_m_per_s = 0.3;
-constexpr double kNodeContactForce = 0.01;  // of the weight: the promise
-// Of the distance that nodes keep: those of the solution keep it, but for what forces that are shared unevenly leave,
-// and contacts after it begin at a thousandth.
+constexpr double kNodeContactForce = 0.01;  // of the weight, as promised
+// Of the contact distance. Pairs of the solution keep it, except for the effect of unevenly shared forces, and contacts
+// after the solution begin at a thousandth.
 constexpr double kSinks = 5e-3;
-constexpr double kMomentum =
-    2e-5;                         // of what there is: what 400 sweeps leave at 5 dt_safe (measured: 4e-6), and float32
-constexpr double kEnergy = 0.01;  // of what there is, as for leapfrog's contacts
-constexpr double kLies = 0.3;     // of a spacing: nodes of one body keep it by halves, those between others lie lower
+constexpr double kMomentum = 2e-5;  // of the total: remaining error of 400 sweeps at 5 dt_safe (measured: 4e-6)
+constexpr double kEnergy = 0.01;    // of the total, as for leapfrog's contacts
+constexpr double kLies = 0.3;       // of a spacing: nodes of one body keep half the distance; those between are lower
 constexpr double kRests_m_per_s = 1e-2;
 
 /// Substeps over dt_safe.
@@ -31,7 +30,7 @@ constexpr double kFractions[] = {2, 5, 10};
 
 class NodeContact : public OnBackend {
  protected:
-  /// A software OpenGL takes its time.
+  /// A software OpenGL is slow.
   static std::vector<double> fractions() {
     if (GetParam() == "gpu") return {5};
     return {std::begin(kFractions), std::end(kFractions)};
@@ -42,14 +41,14 @@ INSTANTIATE_TEST_SUITE_P(Backends, NodeContact, ::testing::ValuesIn(backendKinds
 Body box(const Vector3i& cells, const Vector3d& origin_m) {
   Body body = boxBody(cells, kNodeContactSpacing_m);
   body.lattice.origin_m = origin_m;
-  body.material.drag_per_s = 20;
+  body.material.mass_damping_per_s = 20;
   return body;
 }
 
-/// Nothing slows it down.
+/// Returns a box without damping.
 Body loose(const Vector3i& cells, const Vector3d& origin_m) {
   Body body = box(cells, origin_m);
-  body.material.drag_per_s = body.material.dashpot_ratio = 0;
+  body.material.mass_damping_per_s = body.material.stiffness_damping_ratio = 0;
   return body;
 }
 
@@ -62,7 +61,7 @@ ObstacleConfig planeAt(const Vector3d& position_m, const Vector3d& rotation_deg)
   return out;
 }
 
-/// Bodies that may touch each other, on a floor at z = 0.
+/// Returns a scene with bodies that may touch each other, on a floor at z = 0.
 Scene onAFloor(double fraction, const Model& model, int substeps, std::vector<StylusConfig> styluses = {}) {
   Scene scene =
       sceneWith(Integrator::kPd, model, substeps, fraction, kNodeContactIterations, std::move(styluses), kGravity);
@@ -71,12 +70,12 @@ Scene onAFloor(double fraction, const Model& model, int substeps, std::vector<St
   return scene;
 }
 
-/// By an obstacle in the last tick [N].
-Vector3d borne(Ticks& solver, const Scene& scene, size_t obstacle) {
+/// Returns the force of an obstacle in the last tick [N].
+Vector3d borne(TissueStepper& solver, const Scene& scene, size_t obstacle) {
   return xyz(lastStats(solver).obstacle_impulse[obstacle]) * scene.solver.tick_hz;
 }
 
-/// Distance of the nodes of two bodies that are nearest to each other [m].
+/// Returns the smallest distance between nodes of two bodies [m].
 double nearest(const Model& model, const HostState& state) {
   double least = 1e9;
   forEachNode(model, 0, state, [&](const Vector3d& a, const Vector3d&) {
@@ -96,7 +95,7 @@ double weight(const Model& model, size_t body) {
 }  // namespace
 
 TEST_P(NodeContact, ABodyBearsTheWeightOfTheOneOnItWhateverTheSubstep) {
-  // Nodes of the upper one are above the insides of faces of the lower one.
+  // Nodes of the upper one are above the interior of faces of the lower one.
   const Model model = modelOf(
       {box({2, 2, 1}, {0, 0, 0}),
        box({1, 1, 1}, {0.5 * kNodeContactSpacing_m, 0.4 * kNodeContactSpacing_m, 2.0 * kNodeContactSpacing_m})});
@@ -115,7 +114,7 @@ TEST_P(NodeContact, ABodyBearsTheWeightOfTheOneOnItWhateverTheSubstep) {
 }
 
 TEST_P(NodeContact, NodesThatTouchObstaclesAndOtherNodesAtOnceBearBoth) {
-  // Two boxes on the ground, pulled against a wall: the one leans on the other.
+  // Two boxes on the ground, pulled against a wall: one leans on the other.
   const Model model = modelOf(
       {box({1, 2, 1}, {0, 0, 0}), box({1, 1, 1}, {1.95 * kNodeContactSpacing_m, 0.5 * kNodeContactSpacing_m, 0})});
   const Vector3d gravity(-4, 0, -9.81);
@@ -156,11 +155,11 @@ TEST_P(NodeContact, ABoxThatIsPressedOnAnotherByAProbePassesItsForceOn) {
   }
 }
 
-/// What two boxes that collide do.
+/// Result of a collision of two boxes.
 struct Collision {
-  double momentum_off = 0;  ///< largest change of the sum of their momenta, of that at the start
-  double passed = 0;        ///< momentum that the one which was hit got, of that at the start
-  double energy = 0;        ///< largest after the start, of that at the start
+  double momentum_off = 0;  ///< largest change of the sum of their momenta, over that at the start
+  double passed = 0;        ///< momentum that the hit box received, over that at the start
+  double energy = 0;        ///< largest energy after the start, over that at the start
 };
 
 class NodeCollision : public NodeContact {
@@ -199,7 +198,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, NodeCollision, ::testing::ValuesIn(backendKin
 TEST_P(NodeCollision, KeepsMomentum) {
   constexpr int kConverged = 400;
   for (const double fraction : fractions()) {
-    if (fraction > 5) continue;  // takes four times the sweeps
+    if (fraction > 5) continue;  // needs four times the sweeps
     SCOPED_TRACE(fraction);
     const Collision collision = collide(fraction, kConverged, 0.5);
     EXPECT_GT(collision.passed, 0.3);
@@ -245,7 +244,7 @@ TEST_P(NodeContact, AClothThatFoldsOntoItselfLiesOnItself) {
 }
 
 TEST_P(NodeContact, TheSameSceneGivesTheSameBitsAfterAReset) {
-  // They touch from the start on, and one falls towards the other: what contacts did last must be forgotten.
+  // They touch from the start on, and one falls towards the other: the last contacts must be cleared.
   Body lower = box({2, 2, 1}, {0, 0, 0});
   for (const uint32_t slot : lower.lattice.active_slots) lower.lattice.nodes[slot].lo |= layout::kFixedBit;
   const Model model = modelOf({lower, box({1, 1, 1}, {0.004, 0.003, 1.8 * kNodeContactSpacing_m})});

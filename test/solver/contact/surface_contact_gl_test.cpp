@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies whose cells are tissue in part are touched at their surface, not at the nodes outside of it.
+// Bodies with partially filled cells are touched at their surface, not at the nodes outside it.
 #include "layout/touch_depths.h"
 #include "solver/contact/collision.h"
-#include "solver/contact/surroundings.h"
-#include "solver/reference/reference_surroundings.h"
+#include "solver/contact/environment.h"
+#include "solver/reference/reference_environment.h"
 #include "support/backends.h"
 #include "support/momentum.h"
 #include "support/random_state.h"
@@ -16,22 +16,22 @@ using namespace viscera::test;
 namespace {
 
 constexpr double kSurfaceContactSpacing_m = 0.01;
-constexpr double kTop_m = 0.5 * 0.0273;          // of the body's surface
-constexpr double kTopNodes_m = kTop_m + 0.0027;  // the last cells are tissue to 0.73
+constexpr double kTop_m = 0.5 * 0.0273;          // height of the body's surface
+constexpr double kTopNodes_m = kTop_m + 0.0027;  // the last cells are filled to 0.73
 constexpr double kPress_m = 1e-3;
-constexpr double kPlace_m = 2e-6;  // of a node that is pressed: a substep's way of what settles, and float rounding
+constexpr double kPlace_m = 2e-6;  // of a pressed node: displacement of a substep while it settles, and rounding
 
 class SurfaceContact : public OnBackend {};
 INSTANTIATE_TEST_SUITE_P(Backends, SurfaceContact, ::testing::ValuesIn(backendKinds()), backendSuffix);
 
-/// A box of 3 x 3 x 2.73 cells, held at its lowest nodes.
+/// Returns a box of 3 x 3 x 2.73 cells, fixed at its lowest nodes.
 Model slab() {
   Scene scene;
   BodyConfig config;
   config.source = TissueSource::kBox;
   config.box_size_m = {0.03, 0.03, 0.0273};
   config.spacing_m = kSurfaceContactSpacing_m;
-  config.material.drag_per_s = 20;
+  config.material.mass_damping_per_s = 20;
   FixedConfig bottom;
   bottom.shape = FixedShape::kPlane;
   bottom.point_m = {0, 0, -kTop_m};
@@ -40,7 +40,7 @@ Model slab() {
   return buildModel(scene);
 }
 
-/// Displacements of the outermost nodes [m].
+/// Returns the displacements of the outermost nodes [m].
 std::vector<Vector3d> topDisplacements(const Model& model, const HostState& state) {
   std::vector<Vector3d> out;
   const Lattice& lattice = model.bodies[0].lattice;
@@ -101,13 +101,13 @@ TEST_P(SurfaceContact, AProbeMeetsTheSurfaceWhereItIs) {
   for (int t = 0; t < 10; ++t) solver->step(probeAt(above + Vector3d(0, 0, 1e-4)));
   for (const Vector3d& u : topDisplacements(model, solver->readState())) EXPECT_EQ(u, Vector3d::Zero().eval());
   for (double t = 0; t < 0.5; t += 1 / scene.solver.tick_hz) solver->step(probeAt(above - Vector3d(0, 0, kPress_m)));
-  // The node below the tip gives way sideways too: what holds is its distance.
+  // The node below the tip also yields sideways: its distance is tested.
   const Vector3d tip = above - Vector3d(0, 0, kPress_m), rest(above.x(), above.y(), kTopNodes_m);
   Vector3d lowest = Vector3d::Zero();
   for (const Vector3d& u : topDisplacements(model, solver->readState())) {
     if (u.z() < lowest.z()) lowest = u;
   }
-  // Tips meet the springs beside it too, which hold it off by what a cone of their slope does.
+  // Tips also touch the adjacent springs, which hold them off like a cone of their slope.
   const double seen_m = kRadius_m - (kTopNodes_m - kTop_m), away_m = (rest + lowest - tip).norm();
   const double cone_m = 0.02 * seen_m;  // slope 0.2
   EXPECT_GE(away_m, seen_m - kPlace_m);
@@ -138,7 +138,7 @@ TEST_P(SurfaceContact, TheReferenceMeetsItThere) {
 
 namespace {
 
-/// A slab of as many cells, held below, and another one upside down above it, `gap_m` between their surfaces.
+/// Returns a slab of so many cells, fixed below, and another one upside down above it, `gap_m` between their surfaces.
 Scene twoSlabs(double cells, double gap_m) {
   const double height_m = cells * kSurfaceContactSpacing_m;
   Scene scene;
@@ -146,7 +146,7 @@ Scene twoSlabs(double cells, double gap_m) {
   lower.source = TissueSource::kBox;
   lower.box_size_m = {0.03, 0.03, height_m};
   lower.spacing_m = kSurfaceContactSpacing_m;
-  lower.material.drag_per_s = 20;
+  lower.material.mass_damping_per_s = 20;
   BodyConfig upper = lower;
   FixedConfig bottom;
   bottom.shape = FixedShape::kPlane;
@@ -160,7 +160,7 @@ Scene twoSlabs(double cells, double gap_m) {
   return scene;
 }
 
-/// How near the surfaces of two bodies are, as their touching nodes show it [m].
+/// Returns the distance between the surfaces of two bodies, from their touching nodes [m].
 double betweenSurfaces(const Model& model, const HostState& state) {
   const std::vector<float> depths_m = touchDepths(model, {});
   ReferenceSolver reference(model, Vector3d::Zero(), 1);
@@ -187,12 +187,12 @@ double farthestMoved(const HostState& state) {
 }  // namespace
 
 TEST_P(SurfaceContact, BodiesTouchWhereTheirSurfacesAre) {
-  constexpr double kNear_m = kSurfaceContactSpacing_m;  // how near surfaces of such lattices touch
-  constexpr double kApart_m = 1e-4;                     // what is left of the way in the time given
-  for (const double cells : {2.05, 2.52}) {             // nodes that touch lie just below the surface, and half a cell
+  constexpr double kNear_m = kSurfaceContactSpacing_m;  // distance at which surfaces of such lattices touch
+  constexpr double kApart_m = 1e-4;                     // remaining distance in the given time
+  for (const double cells : {2.05, 2.52}) {  // touching nodes are just below the surface, and half a cell deep
     SCOPED_TRACE(::testing::Message() << "cells " << cells);
     for (const double gap_m : {kNear_m + 1e-4, kNear_m - 1e-3}) {
-      const double seconds = gap_m > kNear_m ? 0.05 : 0.3;  // what does not move at first never does
+      const double seconds = gap_m > kNear_m ? 0.05 : 0.3;  // what does not move initially never does
       const Model model = buildModel(twoSlabs(cells, gap_m));
       Scene scene = sceneWith(Integrator::kLeapfrog, model, 4, 0.5);
       scene.collision.enabled = true;
@@ -218,7 +218,7 @@ TEST_P(SurfaceContact, TheReferenceHasThemTouchThere) {
   const auto solver = make(model, scene);
   ReferenceOptions options;
   options.push_speed_m_per_s = pushSpeed(model);
-  options.surroundings = std::make_shared<ReferenceSurroundings>(model, scene);
+  options.environment = std::make_shared<ReferenceEnvironment>(model, scene);
   ReferenceSolver reference(model, Vector3d::Zero(), static_cast<float>(solver->dt_s()), options);
   const HostState bent = randomState(model, 2e-4, 0.05, 9);
   HostState start = solver->readState();
@@ -239,15 +239,15 @@ TEST_P(SurfaceContact, TheReferenceHasThemTouchThere) {
 
 namespace {
 
-/// A ball beside another one that comes at it; nothing else acts on them, and nothing takes energy but what they do to
-/// each other.
+/// Returns a ball and another one that moves towards it. Nothing else acts on them, and only their contact may
+/// dissipate energy.
 Scene twoBalls() {
   Scene scene;
   BodyConfig ball;
   ball.source = TissueSource::kBall;
   ball.ball_radius_m = 0.024;
   ball.spacing_m = kSurfaceContactSpacing_m;
-  ball.material.drag_per_s = ball.material.dashpot_ratio = 0;
+  ball.material.mass_damping_per_s = ball.material.stiffness_damping_ratio = 0;
   scene.bodies = {ball, ball};
   scene.bodies[0].name = "still";
   scene.bodies[1].name = "thrown";
@@ -255,7 +255,7 @@ Scene twoBalls() {
   return scene;
 }
 
-/// By mass [m/s].
+/// Returns the mean velocity, weighted by mass [m/s].
 Vector3d meanVelocity(const Model& model, const HostState& state, size_t body) {
   ReferenceSolver reference(model, Vector3d::Zero(), 1);
   Vector3d sum = Vector3d::Zero();
@@ -270,15 +270,13 @@ Vector3d meanVelocity(const Model& model, const HostState& state, size_t body) {
 
 }  // namespace
 
-// Where a point of the surface touches that neighbours carry along, and only its node is pushed, energy comes from
-// nothing: balls in a cloth never rested. Where what a substep's own forces add is thrown back too, a ball gains half
-// as much again.
+// If a surface point that moves with neighbours makes contact, and only its node is pushed, energy is created: balls in
+// a cloth never came to rest. If the velocity from a substep's own forces bounces too, a ball gains half as much again.
 TEST_P(SurfaceContact, BallsThatBounceKeepTheirMomentumAndGainNoEnergy) {
   constexpr double kSpeed_m_per_s = 0.5;
-  constexpr double kRounded = 1e-5;  // of what there is: float32 in some hundred substeps
-  constexpr double kHalfStep =
-      0.03;  // of what there is: while they touch, as velocities are those of half a substep earlier
-  constexpr double kGains = 1e-3;  // of what there is, afterwards: what pushes nodes apart makes no velocity, but bends
+  constexpr double kRounded = 1e-5;   // of the total: float32 in some hundred substeps
+  constexpr double kHalfStep = 0.03;  // of the total: during contact, as velocities are half a substep earlier
+  constexpr double kGains = 1e-3;     // of the total, afterwards: pushing nodes apart adds no velocity, but deforms
   const Model model = buildModel(twoBalls());
   for (const double restitution : {0.0, 1.0}) {
     SCOPED_TRACE(::testing::Message() << "restitution " << restitution);

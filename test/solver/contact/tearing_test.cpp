@@ -19,11 +19,11 @@ namespace viscera {
 namespace {
 
 constexpr double kTearingStep_m = 0.001;
-constexpr int kTorn = 60;      // ticks: the grip is 6 cm off then
-constexpr double kRow = 0.88;  // of the toughness: what springs are given, docs/cutting.md 8
+constexpr int kTorn = 60;      // ticks: the grip is 6 cm away then
+constexpr double kRow = 0.88;  // of the toughness: the share given to springs, docs/physics.md 12
 constexpr double kSum = 1e-3;  // of an integral by steps
 
-/// A block that is held below, with a grip above.
+/// Returns a block that is fixed below, with a grip above.
 Scene tearingScene(const std::string& tear, const std::string& more = "") {
   return parseScene(
       "name: tears\nbodies:\n  - {source: box, structure: lattice, box_size_m: [0.04, 0.04, 0.024],\n"
@@ -41,7 +41,7 @@ std::string tearingToughness(double j_per_m2) {
   return ", tear: {toughness_j_per_m2: " + std::to_string(j_per_m2) + "}";
 }
 
-/// A hand that has hold of the middle of the upper side, and lifts it.
+/// A stylus that grips the middle of the upper side, and lifts it.
 class TearingHand {
  public:
   explicit TearingHand(const Scene& scene) : scene_(scene), model_(buildModel(scene_)), solver_(model_, scene_) {}
@@ -72,7 +72,7 @@ class TearingHand {
   uint64_t bad_ = 0;
 };
 
-/// Of a spring that is pulled apart [J].
+/// Returns the work to pull a spring apart [J].
 double workOf(const TearLaw& law, bool axial, double stiffness_n_per_m) {
   constexpr int kSteps = 10000;
   const double step_m = law.springs[axial ? 0 : 1].end_m / kSteps;

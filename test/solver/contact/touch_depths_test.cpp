@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Nodes that touch others stand for the surface, wherever it lies in the cells.
+// Touching nodes represent the surface, anywhere in the cells.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kTouchDepthsSpacing_m = 0.01, kWidth_m = 0.08;
 
-/// A plate, askew in its cells.
+/// Returns a plate oblique to its cells.
 BodyConfig touchDepthsPlate(double cells) {
   BodyConfig out;
   out.source = TissueSource::kBox;
@@ -28,7 +28,8 @@ BodyConfig touchDepthsPlate(double cells) {
   return out;
 }
 
-/// How far above a plate's faces a point stops that comes down on them, in spacings: least and most of many places.
+/// Returns the height above a plate's faces at which an approaching point stops, in spacings: least and largest of many
+/// positions.
 std::array<double, 2> stopsAbove(double cells) {
   Scene scene;
   scene.bodies = {touchDepthsPlate(cells)};
@@ -57,13 +58,13 @@ std::array<double, 2> stopsAbove(double cells) {
 
 }  // namespace
 
-// Spheres that stand for the surface reach to it above their nodes, and leave dips between them.
+// Spheres that represent the surface reach it above their nodes, and leave dips between them.
 TEST(TouchDepths, NothingComesThroughASurfaceNorStopsFarAboveIt) {
-  constexpr double kLeast = 0.25;  // of the distance that nodes keep, where a square of them on the surface leaves 0.71
+  constexpr double kLeast = 0.25;  // of the distance that nodes keep; a square of them on the surface leaves 0.71
   for (const double cells : {0.2, 0.4, 0.6, 0.8, 1.0, 1.3, 1.7, 2.5, 4.0}) {
     SCOPED_TRACE(cells);
     const auto [least, most] = stopsAbove(cells);
     EXPECT_GT(least, kLeast);
-    EXPECT_LT(most, cells < 1 ? 1.45 : 1.05);  // nodes within a wall stand for both of its faces, where there are some
+    EXPECT_LT(most, cells < 1 ? 1.45 : 1.05);  // nodes within a wall represent both of its faces, where there are some
   }
 }

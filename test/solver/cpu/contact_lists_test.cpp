@@ -3,8 +3,8 @@
 #include <cstring>
 #include <limits>
 
-#include "solver/cpu/steps/surroundings.h"
-#include "solver/cpu/store/thread_pool.h"
+#include "solver/cpu/state/thread_pool.h"
+#include "solver/cpu/steps/environment.h"
 #include "solver/tissue/substeps.h"
 #include "support/backends.h"
 #include "support/features.h"
@@ -19,15 +19,15 @@ constexpr double kSpacing_m = 0.01;
 constexpr int kSubsteps = 300;
 constexpr float kDt_s = 1e-3f;
 
-/// A sheet that drops crumpled onto another one and a block, all nodes with velocities of their own, without springs'
+/// A crumpled sheet that drops onto another one and a block, with individual velocities of all nodes and without spring
 /// forces: only contacts act.
 struct Crowd {
   Crowd()
       : model(
             modelOf({looseCloth(16, 16, kSpacing_m), looseCloth(12, 12, kSpacing_m), boxBody({4, 4, 4}, kSpacing_m)})),
         scene(sceneFor(model, 1)),
-        surroundings((scene.collision.enabled = true, model), scene) {
-    surroundings.beginTick(kDt_s, 1, {});
+        environment((scene.collision.enabled = true, model), scene) {
+    environment.beginTick(kDt_s, 1, {});
   }
   HostState start() const {
     std::mt19937 random(17);
@@ -45,10 +45,10 @@ struct Crowd {
   }
   Model model;
   Scene scene;
-  Surroundings surroundings;
+  Environment environment;
 };
 
-/// The crowd with lists of a margin of its own.
+/// The crowd with lists of a given margin.
 class Trial {
  public:
   Trial(const Crowd& crowd, const Parallel& parallel, double margin, uint32_t most_in_bucket = kMostInBucket)
@@ -57,7 +57,7 @@ class Trial {
         contacts_(crowd.model, crowd.scene, lattice_, parallel, margin, most_in_bucket) {
     lattice_.write(crowd.start());
   }
-  /// What an integrator without forces does, then contacts.
+  /// Acts as an integrator without forces, then applies contacts.
   void substep() {
     const AlignedVector<float>&u = lattice_.state.displacement[lattice_.state.current],
           &v = lattice_.state.velocity[lattice_.state.current];
@@ -68,14 +68,14 @@ class Trial {
     Substep step;
     step.dt_s = step.kick_s = kDt_s;
     step.push_speed_m_per_s = 0.1f;
-    contacts_.run(lattice_, step, crowd_.surroundings);
+    contacts_.run(lattice_, step, crowd_.environment);
   }
-  /// What happens to tissue in the course of a scene.
+  /// Makes the changes that tissue undergoes in a scene.
   void disturb(int substep) {
     const uint32_t box = crowd_.model.slotOffset(2), cloth = crowd_.model.slotOffset(1);
     if (substep == 60) lattice_.store.nodes[box + inside()].lo |= layout::kSeveredBit;
     if (substep == 90) {
-      lattice_.store.nodes[cloth + 7].lo &= ~layout::kAxialMask;  // alone
+      lattice_.store.nodes[cloth + 7].lo &= ~layout::kAxialMask;  // isolated
       lattice_.store.nodes[cloth + 7].hi &= ~layout::kDiagonalMask;
     }
     if (substep == 120) move(9, 0.02f);
@@ -99,7 +99,7 @@ class Trial {
   }
   const Crowd& crowd_;
   CpuLattice lattice_;
-  CpuSurroundings contacts_;
+  CpuEnvironment contacts_;
 };
 
 }  // namespace
@@ -108,7 +108,7 @@ TEST(ContactLists, ChangeNoBitAgainstASearchInEverySubstep) {
   const Crowd crowd;
   const Serial serial;
   const ThreadPool pool(3);
-  Trial every(crowd, serial, 0), listed(crowd, serial, CpuSurroundings::kListMargin), wide(crowd, pool, 2);
+  Trial every(crowd, serial, 0), listed(crowd, serial, CpuEnvironment::kListMargin), wide(crowd, pool, 2);
   size_t most_pairs = 0;
   for (int s = 0; s < kSubsteps; ++s) {
     for (Trial* run : {&every, &listed, &wide}) {
@@ -122,13 +122,13 @@ TEST(ContactLists, ChangeNoBitAgainstASearchInEverySubstep) {
   EXPECT_GT(most_pairs, 50u);
 }
 
-/// Where a bucket holds few, crowds come and go all the time.
+/// If a bucket's limit is small, crowds form and dissolve all the time.
 TEST(ContactLists, ChangeNoBitWhereNodesCrowdAndSpread) {
   constexpr uint32_t kMost = 3;
   const Crowd crowd;
   const Serial serial;
   const ThreadPool pool(3);
-  Trial every(crowd, serial, 0, kMost), listed(crowd, serial, CpuSurroundings::kListMargin, kMost);
+  Trial every(crowd, serial, 0, kMost), listed(crowd, serial, CpuEnvironment::kListMargin, kMost);
   Trial wide(crowd, pool, 2, kMost), whole(crowd, serial, 0);
   uint32_t fewest = std::numeric_limits<uint32_t>::max(), most = 0;
   for (int s = 0; s < kSubsteps; ++s) {
@@ -151,7 +151,7 @@ TEST(ContactLists, ChangeNoBitWhereNodesCrowdAndSpread) {
 TEST(ContactLists, HoldTheSamePairsAsASearchInEverySubstep) {
   const Crowd crowd;
   const Serial serial;
-  Trial every(crowd, serial, 0), listed(crowd, serial, CpuSurroundings::kListMargin);
+  Trial every(crowd, serial, 0), listed(crowd, serial, CpuEnvironment::kListMargin);
   for (int s = 0; s < kSubsteps; ++s) {
     for (Trial* run : {&every, &listed}) {
       run->disturb(s);
@@ -164,7 +164,7 @@ TEST(ContactLists, HoldTheSamePairsAsASearchInEverySubstep) {
 TEST(ContactLists, AreMadeAgainOnlyNowAndThen) {
   const Crowd crowd;
   const Serial serial;
-  Trial every(crowd, serial, 0), listed(crowd, serial, CpuSurroundings::kListMargin);
+  Trial every(crowd, serial, 0), listed(crowd, serial, CpuEnvironment::kListMargin);
   for (int s = 0; s < kSubsteps; ++s) {
     every.substep();
     listed.substep();

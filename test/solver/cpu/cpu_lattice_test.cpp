@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/cpu/store/cpu_lattice.h"
+#include "solver/cpu/state/cpu_lattice.h"
 
 #include "solver/tissue/joined_lattice.h"
 #include "support/features.h"
@@ -22,7 +22,7 @@ Model twoBodies() {
   return modelOf({box, blob});
 }
 
-/// Stiffness of any spring as the kernels find it: odd ones at their far end.
+/// Returns the stiffness of any spring as the kernels find it: odd ones at their far end.
 float stiffness(const CpuLattice& lattice, const ReferenceLattice& reference, uint32_t slot, uint32_t spring) {
   const uint32_t owner = spring % 2 ? reference.farEnd(slot, spring) : slot;
   return lattice.strengths.stiffness[stiffnessAt(owner, spring / 2)];
@@ -38,7 +38,7 @@ void expectSameStrengths(const Model& model, const CpuLattice& lattice, const Re
     ASSERT_FLOAT_EQ(bulk_j, reference.nodes[slot].lo & layout::kCellBit ? whole_bulk_j[slot] : 0);
     for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
       const float expected = static_cast<float>(reference.stiffness(slot, s));
-      if (expected == 0 && s % 2) continue;  // never looked at
+      if (expected == 0 && s % 2) continue;  // never read
       ASSERT_FLOAT_EQ(stiffness(lattice, reference, slot, s), expected) << slot << " " << s;
     }
   }
@@ -128,7 +128,7 @@ TEST(CpuLattice, GivesACutSpringNoStiffnessFromBothEnds) {
       lattice.refresh(other);
     }
     expectSameStrengths(model, lattice, reference);
-    EXPECT_EQ(lattice.strengths.mobility[slot], 0);  // alone now
+    EXPECT_EQ(lattice.strengths.mobility[slot], 0);  // isolated now
     lattice.reset();
     expectSameStrengths(model, lattice, ReferenceLattice(model));
     EXPECT_FLOAT_EQ(lattice.strengths.mobility[slot], 1 / lattice.strengths.mass[slot]);
@@ -145,7 +145,7 @@ TEST(CpuLattice, LetsAllButFixedNodesMove) {
   for (uint32_t slot = 0; slot < lattice.slotCount(); ++slot) mobile += lattice.strengths.mobility[slot] > 0;
   EXPECT_EQ(mobile, lattice.store.active.size() - 1);
   EXPECT_EQ(lattice.strengths.mobility[fixed], 0);
-  EXPECT_GT(lattice.strengths.mobility[held], 0);  // where it goes is its stylus' affair, but it feels forces
+  EXPECT_GT(lattice.strengths.mobility[held], 0);  // its stylus prescribes its motion, but forces on it count
 }
 
 TEST(CpuLattice, IsAtRestAfterReset) {

@@ -13,28 +13,28 @@ using namespace viscera::test;
 
 namespace {
 
-constexpr double kCpuSolverSpacing_m = 1.0 / 64;  // so that places of nodes and their differences have no rounding
+constexpr double kCpuSolverSpacing_m = 1.0 / 64;  // so positions of nodes and their differences have no rounding
 constexpr int kCpuSolverSubsteps = 10;
 // As for the GPU (leapfrog_gl_test.cpp): relative to the largest value, after ten substeps.
 constexpr double kFloat32Displacement = 1e-6;
 constexpr double kFloat32Velocity = 5e-6;
 // Velocities after a single substep, that is forces, where springs have any length: two Newton steps on estimates of 12
-// bits, and lengths of which 1 + q has lost up to three digits.
+// bits, and lengths in which 1 + q has lost up to three digits.
 constexpr double kAnyLength = 1e-5;
 constexpr double kOneRounding = 1.0 / (1 << 24);
 
-/// A kind of every feature: dashpots, drag, fixed nodes, a part; bricks that are full and that are not.
+/// Returns a model with every feature: dashpots, drag, fixed nodes, a part; full bricks and partial ones.
 /// @param law  of one of two bodies
 Model everything(Law law = Law::kSprings) {
   Body body = twoPartBody();
-  body.material.drag_per_s = 30;
+  body.material.mass_damping_per_s = 30;
   Body other = boxBody({13, 9, 10}, 0.01);
   other.material.law = law;
   other.lattice.origin_m = Vector3d(0.2, 0, 0);
   return modelOf({body, other});
 }
 
-/// The state after pulling, probing and coming to itself.
+/// Returns the state after pulling, probing and settling.
 HostState stateAfterTools(const std::string& simd, const Model& model, int threads) {
   const PullAndProbe tools;
   const auto solver = makeCpu(simd, model, sceneFor(model, kCpuSolverSubsteps, tools.styluses, {0, 0, -9.81}), threads);
@@ -43,14 +43,14 @@ HostState stateAfterTools(const std::string& simd, const Model& model, int threa
   return solver->readState();
 }
 
-/// A box of which every spring may have any length. Its dashpots are so strong that they count.
+/// Returns a box in which every spring may have any length. Its dashpots are strong enough to matter.
 Body looseBox() {
   Body body = boxBody({6, 5, 7}, kCpuSolverSpacing_m);
-  body.material.drag_per_s = 0;
+  body.material.mass_damping_per_s = 0;
   return body;
 }
 
-/// Everything at the place of one node, to the bit: springs of length 0.
+/// Returns a state with everything at the position of one node, to the bit: springs of length 0.
 HostState onePoint(const Model& model) {
   const Lattice& lattice = model.bodies[0].lattice;
   HostState state = restState(model);
@@ -59,7 +59,8 @@ HostState onePoint(const Model& model) {
   return state;
 }
 
-/// At rest but for one corner, where springs are long, short, or of no length at all: all paths beside each other.
+/// Returns a state at rest except for one corner, where springs are long, short, or of zero length: all code paths at
+/// once.
 HostState mildWildAndCollapsed(const Model& model) {
   const Lattice& lattice = model.bodies[0].lattice;
   HostState state = randomState(model, 0.01 * kCpuSolverSpacing_m, 0.1, 3);
@@ -88,8 +89,8 @@ class Cpu : public ::testing::TestWithParam<std::string> {
       difference_m = std::max(difference_m, (xyz(here.displacement_m[slot]) - u).norm());
       difference_m_per_s = std::max(difference_m_per_s, (xyz(here.velocity_m_per_s[slot]) - v).norm());
     }
-    // Four ticks instead of one, and the rounding of two states instead of one: how far SSE4 is from AVX-512 depends on
-    // the processor, whose estimates of roots it begins with.
+    // Four ticks in place of one, and the rounding of two states in place of one. The distance of SSE4 from AVX-512
+    // depends on the processor, with the estimates of roots from which it starts.
     EXPECT_LT(difference_m, 2 * 4 * kFloat32Displacement * largest_m);
     EXPECT_LT(difference_m_per_s, 2 * 4 * kFloat32Velocity * fastest);
   }
@@ -136,10 +137,10 @@ class Cpu : public ::testing::TestWithParam<std::string> {
     EXPECT_LT(relativeError(solver->readState().velocity_m_per_s, reference.v_m_per_s, reference.active), kAnyLength);
   }
   void expectForcesLikeReference(HostState (*start)(const Model&)) {
-    for (const double dashpot_ratio : {0.0, 0.2}) {
-      SCOPED_TRACE(dashpot_ratio);
+    for (const double stiffness_damping_ratio : {0.0, 0.2}) {
+      SCOPED_TRACE(stiffness_damping_ratio);
       Body body = looseBox();
-      body.material.dashpot_ratio = dashpot_ratio;
+      body.material.stiffness_damping_ratio = stiffness_damping_ratio;
       expectForcesLikeReference(body, start);
     }
   }
@@ -223,23 +224,23 @@ TEST_P(Cpu, PullsLikeTheReferenceWhereSomeSpringsAreCutAndOthersHalf) {
   }
 }
 
-/// Springs that are not there join nodes at any distance: no power of it may overflow, and none may slow the rest down.
+/// Missing springs connect nodes at any distance: no power of it may overflow, and none may slow the rest down.
 TEST_P(Cpu, PieceThatIsFarAwayDoesNotDisturbTheRest) {
   for (const Law law : {Law::kSprings, Law::kNeoHookean}) expectUndisturbedByAPieceFarAway(law);
 }
 
 TEST_P(Cpu, ForcesOfARandomStateSumToNothing) {
   for (const Law law : {Law::kSprings, Law::kNeoHookean}) {
-    for (const double dashpot_ratio : {0.0, 0.2}) {
+    for (const double stiffness_damping_ratio : {0.0, 0.2}) {
       Body body = looseBox();
       body.material.law = law;
-      body.material.dashpot_ratio = dashpot_ratio;
+      body.material.stiffness_damping_ratio = stiffness_damping_ratio;
       const Model model = modelOf({body});
       const auto solver = make(model, sceneFor(model, 1));
       for (const auto& start : {mildWildAndCollapsed(model), randomState(model, 0.02 * kCpuSolverSpacing_m, 0.1, 5)}) {
         HostState state = start;
         for (layout::vec4& v : state.velocity_m_per_s) {
-          if (dashpot_ratio == 0) v = {};
+          if (stiffness_damping_ratio == 0) v = {};
         }
         solver->writeState(state);
         solver->step({});
@@ -252,14 +253,15 @@ TEST_P(Cpu, ForcesOfARandomStateSumToNothing) {
           size += eighths * xyz(after.velocity_m_per_s[slot]).norm();
         }
         EXPECT_GT(size, 0);
-        EXPECT_LT(sum.norm(), kOneRounding * size) << "law " << static_cast<int>(law) << ", dashpot " << dashpot_ratio;
+        EXPECT_LT(sum.norm(), kOneRounding * size)
+            << "law " << static_cast<int>(law) << ", dashpot " << stiffness_damping_ratio;
       }
     }
   }
 }
 
-/// A cube of 14 nodes to a side has bricks of whole springs inside. Where one spring of a brick is missing, all of its
-/// stiffnesses are looked up, with the same result for every node that had not that spring.
+/// A cube with edges of 14 nodes has bricks of whole springs inside. If one spring of a brick is missing, all of its
+/// stiffnesses are read from memory, with the same result for every node without that spring.
 TEST_P(Cpu, BricksOfWholeSpringsStepLikeThoseThatAreLookedUp) {
   Body whole = boxBody({13, 13, 13}, 0.01), lacking = whole;
   const Lattice& lattice = whole.lattice;

@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Integrators of the CPU by themselves, on threads of a test's own; that they are right is tested on every backend
+// Integrators of the CPU alone, on threads of the test. Their correctness is tested on every backend
 // (test/solver/*_gl_test.cpp).
-#include "solver/cpu/store/cpu_stepper.h"
+#include "solver/cpu/state/cpu_stepper.h"
 
 #include <thread>
 
-#include "solver/cpu/text/tool_passes.h"
+#include "solver/cpu/kernels/tool_passes.h"
 #include "support/features.h"
 #include "support/implicit.h"
 #include "tools/motion_packing.h"
@@ -16,7 +16,7 @@ using namespace viscera::test;
 
 namespace {
 
-/// Each job on a thread of its own, the last one first; ranges in the smallest portions.
+/// Runs each job on a thread of its own, the last one first; ranges in the smallest portions.
 class Scattered : public Parallel {
  protected:
   void run(size_t count, Portions portions, Call call, const void* job) const override {

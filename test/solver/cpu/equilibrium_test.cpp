@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Equilibria: beside the float64 reference, and beside what the dynamics come to.
+// Equilibria, compared with the float64 reference and with the final state of the dynamics.
 #include "solver/cpu/equilibrium.h"
 
 #include <gtest/gtest.h>
@@ -13,9 +13,9 @@
 namespace viscera::test {
 namespace {
 
-/// Of the largest displacement: what the issue asks of equilibria.
+/// Of the largest displacement, as required of equilibria.
 constexpr double kOfTheSag = 1e-4;
-/// The same for nearly incompressible cells, whose forces float32 rounds to more.
+/// The same for nearly incompressible cells, with larger float32 rounding of forces.
 constexpr double kOfTheSagAtNu49 = 1e-3;
 
 TEST(Equilibrium, IsThatOfTheReference) {
@@ -58,7 +58,7 @@ TEST(Equilibrium, HeedsForcesOnBodies) {
 }
 
 TEST(Equilibrium, StartsThereAndStays) {
-  constexpr double kStays = 3e-4;  // of the sag: what is left of the way swings to the other side
+  constexpr double kStays = 3e-4;  // of the sag: the remaining distance swings to the other side
   const Model model = modelOf({block(8, 2e4, 0.45)});
   Scene scene = sceneOf(Integrator::kLeapfrog);
   scene.solver.start = SolverStart::kEquilibrium;
@@ -72,7 +72,7 @@ TEST(Equilibrium, StartsThereAndStays) {
   EXPECT_EQ(stateHash(model, solver->readState()), stateHash(model, start));
 }
 
-/// Thin walls, and slivers of tissue that hang on next to nothing: long dynamics from there move no node.
+/// Thin walls, and slivers of tissue with little support: long dynamics from there move no node.
 TEST(Equilibrium, OfTheShippedHeartIsWhatItsDynamicsComeTo) {
   Scene scene = parseScene(R"(
 bodies:

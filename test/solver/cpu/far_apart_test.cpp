@@ -15,13 +15,13 @@ namespace {
 constexpr double kSpacing_m = 0.005;
 constexpr float kApart_m = 1, kSpeed_m_per_s = 20;  // 200 spacings: their 24th power is infinite in float32
 
-/// A box of one brick, of which the half x > 1 was cut off and is far away and fast.
+/// A box of one brick. The half x > 1 was cut off and is far away and fast.
 class FarApart : public ::testing::Test {
  protected:
   FarApart() : model_(test::modelOf({test::boxBody({3, 3, 3}, kSpacing_m)})) {
-    model_.bodies[0].material.dashpot_ratio = 0.2;
+    model_.bodies[0].material.stiffness_damping_ratio = 0.2;
     scene_.environment.gravity_m_per_s2 = Vector3d::Zero();
-    scene_.solver.governor = false;
+    scene_.solver.stability_monitor = false;
     scene_.solver.sleep_distance_m = 10;
     scene_.solver.tick_hz = 500;
     state_.nodes = allNodes(model_);
@@ -58,10 +58,10 @@ TEST_F(FarApart, PiecesThatShareABrickDoNotFeelEachOther) {
   solver.step({});
   const HostState after = solver.readState();
   const double passed_s = 1 / scene_.solver.tick_hz - solver.velocityLag_s();
-  const double drag = std::exp(-MaterialConfig{}.drag_per_s * passed_s);
+  const double drag = std::exp(-MaterialConfig{}.mass_damping_per_s * passed_s);
   for (uint32_t slot : model_.bodies[0].lattice.active_slots) {
     const double expected = isCutOff(slot) ? static_cast<double>(kSpeed_m_per_s) * drag : 0;
-    // m/s: 1 m rounded in float32 is a strain of 1e-5 in a spring of 5 mm; waves of it are 1e-4 m/s fast.
+    // m/s: 1 m rounded in float32 is a strain of 1e-5 in a spring of 5 mm; waves of it move at 1e-4 m/s.
     EXPECT_NEAR(static_cast<double>(after.velocity_m_per_s[slot].x), expected, 1e-3) << slot;
   }
 }

@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// One text, compiled as C++ with features in either order: nothing of a variant reaches the next.
+// One text, compiled as C++ with features in either order: no definitions leak from one variant into the next.
 #include <gtest/gtest.h>
 
 #include <type_traits>
 
-#include "solver/cpu/text/glsl_kernel.h"
+#include "solver/cpu/kernels/glsl_kernel.h"
 #include "viscera/layout/tick_stats.h"
 #include "viscera/layout/tool_motion.h"
 
@@ -28,19 +28,19 @@ struct HandKernel : Kernel {
   uint beside() {                          \
     return neighborSlot(stylus, ivec3(1)); \
   }
-#include "solver/cpu/text/glsl_variant.inc"
+#include "solver/cpu/kernels/glsl_variant.inc"
 
 #define VARIANT_NAME Hold
 #define VARIANT_BASE HandKernel
 #define VARIANT_TEXT "shaders/solver/tools/grab.comp"
 #define VARIANT_FEATURES WITH_TOOLS
-#include "solver/cpu/text/glsl_variant.inc"
+#include "solver/cpu/kernels/glsl_variant.inc"
 
 #define VARIANT_NAME ReleaseAfterwards
 #define VARIANT_BASE HandKernel
 #define VARIANT_TEXT "shaders/solver/tools/grab.comp"
 #define VARIANT_FEATURES WITH_TOOLS | WITH_RELEASE
-#include "solver/cpu/text/glsl_variant.inc"
+#include "solver/cpu/kernels/glsl_variant.inc"
 
 #if defined(TOOLS) || defined(RELEASE) || defined(LATTICE) || defined(NETWORK) || defined(INOUT) ||       \
     defined(precise) || defined(FOR_EACH_SPRING) || defined(VARIANT_NAME) || defined(VARIANT_FEATURES) || \
@@ -48,7 +48,8 @@ struct HandKernel : Kernel {
 #error "a variant has left macros behind"
 #endif
 
-/// A kernel without feature RELEASE has a function takeHold(), one of variant ReleaseFirst beside().
+/// Whether a variant has a function takeHold(), as a kernel without feature RELEASE; variant ReleaseFirst has
+/// `beside()`.
 template <class Variant, class = void>
 struct Holds : std::false_type {};
 template <class Variant>

@@ -16,7 +16,7 @@ namespace {
 constexpr int kWarmUpTicks = 50, kTicks = 1000;
 constexpr double kSpacing_m = 0.004;
 constexpr Integrator kAllIntegrators[] = {Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kPd};
-// Heap and stacks of threads that come and go elsewhere in the process; 1000 ticks of one float each would be 4 kB.
+// Heap and stacks of threads that start and end elsewhere in the process; 1000 ticks of one float each would be 4 kB.
 constexpr double kResidentNoise_bytes = 256 * 1024;
 
 double residentBytes() {
@@ -26,7 +26,7 @@ double residentBytes() {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-/// A block held at its bottom with everything that a scene may have: parts aside, a law, a dashpot, the governor, two
+/// A block fixed at its bottom with every feature of a scene except parts: a law, a dashpot, the stability monitor, two
 /// styluses.
 class HotLoop : public ::testing::Test {
  protected:
@@ -47,7 +47,7 @@ class HotLoop : public ::testing::Test {
     return body;
   }
 
-  /// A stylus that goes to and fro over the block's top, as deep as its nodes.
+  /// Returns a stylus that moves back and forth over the block's top, as deep as its nodes.
   static ToolMotions motionsAt(int tick, ToolMode mode) {
     const auto place = [](int t) { return Vector3d(0.018 + 0.004 * std::sin(0.05 * t), 0.018, 0.02); };
     ToolMotions motions;
@@ -60,7 +60,7 @@ class HotLoop : public ::testing::Test {
     return motions;
   }
 
-  /// Probe, grab and cut in turn, or the probe alone. @return nodes touched, over all ticks
+  /// Runs probe, grab and cut in turn, or the probe alone. @return nodes touched, over all ticks
   uint64_t run(CpuSolver& solver, int ticks, bool all_tools) {
     constexpr ToolMode kModes[] = {ToolMode::kProbe, ToolMode::kGrab, ToolMode::kCut, ToolMode::kCutParticles};
     uint64_t touched = 0;

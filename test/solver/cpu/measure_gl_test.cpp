@@ -13,9 +13,9 @@ namespace {
 
 // Float32 sums of some hundred terms, relative to the sum.
 constexpr double kSum = 1e-5;
-// A number that comes from one node or spring, after a substep of each backend.
+// A number from one node or spring, after a substep of each backend.
 constexpr double kSingle = 5e-6;
-// Of cells of a law, each of which is twice as far from float64 at most (law_gl_test.cpp).
+// For cells of a law, each at most twice as far from float64 (law_gl_test.cpp).
 constexpr double kLawSum = 4e-5, kLawSingle = 2e-5;
 
 float number(uint32_t bits) {
@@ -26,7 +26,7 @@ float number(uint32_t bits) {
 
 class Measured : public GpuTest, public ::testing::WithParamInterface<std::string> {
  protected:
-  /// As randomState, but fixed nodes stand.
+  /// Returns the same as randomState, with fixed nodes at rest.
   static HostState movedAtRandom(const Model& model, double size_m) {
     HostState state = randomState(model, size_m, 0.5, 3);
     for (uint32_t slot : model.bodies[0].lattice.active_slots) {
@@ -34,7 +34,7 @@ class Measured : public GpuTest, public ::testing::WithParamInterface<std::strin
     }
     return state;
   }
-  /// What a backend measures after one substep from a state.
+  /// Returns a backend's measurements after one substep from a state.
   layout::TickStats statsOf(const std::string& backend, const Model& model, const HostState& start,
                             const ToolMotions& motions = {}) {
     const PullAndProbe tools;
@@ -126,7 +126,7 @@ TEST_P(Measured, WhatToolsDidLikeTheGpus) {
   expectSame(model, movedAtRandom(model, 1e-3), motions);
 }
 
-/// A node that is not a number makes its neighbours so in the next substep: springs to it, and cells that it shares.
+/// A NaN in a node spreads to its neighbours in the next substep: through its springs and shared cells.
 TEST_P(Measured, NodesThatAreNoNumbersLikeTheGpus) {
   for (const Law law : {Law::kSprings, Law::kNeoHookean}) {
     const Model model = boxOf(law);

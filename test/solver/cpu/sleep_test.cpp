@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What sleep of bricks has of its own on the CPU; the rest is in test/solver/sleep_gl_test.cpp.
+// Sleep of bricks specific to the CPU; the rest is in test/solver/sleep_gl_test.cpp.
 #include "support/sleeping.h"
 
 using namespace viscera;

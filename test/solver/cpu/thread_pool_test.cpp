@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/cpu/store/thread_pool.h"
+#include "solver/cpu/state/thread_pool.h"
 
 #include <gtest/gtest.h>
 #include <time.h>
@@ -15,7 +15,7 @@ using namespace viscera;
 
 namespace {
 
-/// Processor time of all threads of this process [s].
+/// Returns the processor time of all threads of this process [s].
 double processorTime() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -26,7 +26,7 @@ void rest(std::chrono::microseconds time) {
   std::this_thread::sleep_for(time);
 }
 
-/// Rounds of jobs of changing number, each of which must have run once when a round ends.
+/// Runs rounds of jobs of varying number; each must have run once when a round ends.
 void expectEveryJobOnce(const ThreadPool& pool, int rounds, std::chrono::microseconds between) {
   std::vector<std::atomic<uint32_t>> runs(100);
   for (int round = 0; round < rounds; ++round) {
@@ -53,7 +53,7 @@ TEST(ThreadPool, RunsEveryJobOnceWhereThreadsHaveGoneToSleepBetweenRounds) {
   for (int threads = 2; threads <= 4; ++threads) {
     SCOPED_TRACE(threads);
     const ThreadPool pool(threads);
-    expectEveryJobOnce(pool, 200, std::chrono::microseconds(20));   // some still watch
+    expectEveryJobOnce(pool, 200, std::chrono::microseconds(20));   // some still spin
     expectEveryJobOnce(pool, 200, std::chrono::microseconds(200));  // all are asleep
   }
 }
@@ -73,7 +73,7 @@ TEST(ThreadPool, OtherThreadsTakeWhatOneIsSlowWith) {
   std::atomic<int> done{0};
   std::atomic<bool> waited_in_vain{false};
   pool(8, [&](size_t) {
-    // One of the jobs waits for all others: they can only be done by the other thread.
+    // One of the jobs waits for all others: only the other thread can run them.
     if (done++ != 0) return;
     const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(10);
     while (done < 8 && std::chrono::steady_clock::now() < until) std::this_thread::yield();
@@ -87,7 +87,7 @@ TEST(ThreadPool, IdleThreadsTakeNoProcessorTime) {
   const ThreadPool pool(4);
   std::atomic<int> jobs{0};
   pool(100, [&](size_t) { ++jobs; });
-  rest(std::chrono::milliseconds(5));  // they watch for a while, 50 us of each
+  rest(std::chrono::milliseconds(5));  // they spin for a while, 50 us each
   const double before = processorTime();
   rest(std::chrono::milliseconds(static_cast<int>(1000 * kIdle_s)));
   EXPECT_LT(processorTime() - before, kBusyShare * kIdle_s);
@@ -158,7 +158,7 @@ TEST(ThreadPool, RunsEveryJobOnceWhileThreadsJoinAndLeave) {
 }
 
 TEST(ThreadPool, ThreadsThatAreLeftOutTakeNoProcessorTime) {
-  constexpr double kBusy_s = 0.2, kMore = 0.1;  // share of what the caller takes
+  constexpr double kBusy_s = 0.2, kMore = 0.1;  // share of the caller's time
   ThreadPool pool(3);
   pool.limit(1);
   const auto rounds = [&](double seconds) {
@@ -188,7 +188,7 @@ TEST(ThreadPool, WhatAJobThrowsIsThrownToTheCallerAndTheNextRoundIsWhole) {
         pool(100, [&](size_t i) {
           ++runs;
           if (i == bad || i == bad + 1) throw std::runtime_error("job " + std::to_string(bad));
-          rest(std::chrono::microseconds(20));  // so that every thread has some
+          rest(std::chrono::microseconds(20));  // so every thread has some
         });
       } catch (const std::runtime_error& error) {
         said = error.what();

@@ -1,14 +1,14 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Results are the same to the bit on any number of threads, also where threads join and leave in the middle.
+// Results are the same to the bit on any number of threads, also where threads join and leave during a run.
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <thread>
 
 #include "solver/cpu/cpu_solver.h"
-#include "solver/cpu/store/thread_pool.h"
+#include "solver/cpu/state/thread_pool.h"
 #include "support/lattices.h"
 #include "viscera/math/state_hash.h"
 #include "viscera/model/scene/scene.h"
@@ -20,7 +20,7 @@ constexpr int kTicks = 5, kMost = 7;
 constexpr double kThreadsJoinAndLeaveSpacing_m = 0.004;
 constexpr Integrator kAllIntegrators[] = {Integrator::kLeapfrog, Integrator::kVerletPaper, Integrator::kPd};
 
-/// A block held at its bottom, with a dashpot; of a law, where leapfrog steps it.
+/// Returns a block fixed at its bottom, with a dashpot; of a law, if leapfrog steps it.
 Model heldBlock(Integrator integrator) {
   Body body = test::boxBody({13, 13, 9}, kThreadsJoinAndLeaveSpacing_m);
   if (integrator == Integrator::kLeapfrog) body = test::ofLaw(body);
@@ -40,7 +40,7 @@ Scene sceneOf(Integrator integrator) {
   return scene;
 }
 
-/// A probe that goes into the block's top and along it.
+/// Returns a probe that moves into the block's top and along it.
 ToolMotions motionsAt(int tick) {
   const auto place = [](int t) { return Vector3d(0.02 + 0.0005 * t, 0.024, 0.034 - 0.0004 * t); };
   ToolMotions motions;
@@ -59,7 +59,7 @@ uint64_t hashOf(const Model& model, Integrator integrator, const std::shared_ptr
   return stateHash(model, solver.readState());
 }
 
-/// Changes the number of threads as long as it lives.
+/// Changes the number of threads during its lifetime.
 class Restless {
  public:
   explicit Restless(ThreadPool& pool)

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/cpu/text/tool_passes.h"
+#include "solver/cpu/kernels/tool_passes.h"
 
 #include "support/features.h"
 #include "support/random_state.h"
@@ -12,7 +12,7 @@ using namespace viscera::test;
 namespace {
 
 constexpr float kToolPassesDt_s = 1e-4f;
-// Absolute positions of up to 0.2 m in float32, a few times rounded [m].
+// Absolute positions of up to 0.2 m in float32, rounded a few times [m].
 constexpr double kPosition_m = 4 * 0.2 / (1 << 24);
 // Springs that are touched add the roundings of both ends in each round.
 constexpr double kEdges_m = 2 * kPosition_m;
@@ -49,10 +49,10 @@ class CpuTools : public ::testing::Test {
         lattice_(model_, bodyParams(model_, safeTimeStep(model_)), featuresFor(model_, true)),
         reference_(model_, Vector3d::Zero(), static_cast<double>(kToolPassesDt_s), options()) {}
 
-  /// Six cells of a law to a side, held at the bottom; two bricks to a side.
+  /// Returns six cells of a law per edge, fixed at the bottom; two bricks per edge.
   static Body rubberBox() {
     Body body = ofLaw(boxBody({6, 6, 6}, 0.01), 0.4);
-    body.material.dashpot_ratio = body.material.drag_per_s = 0;
+    body.material.stiffness_damping_ratio = body.material.mass_damping_per_s = 0;
     for (uint32_t slot : body.lattice.active_slots) {
       if (body.lattice.nodeAt(slot).z() == 0) body.lattice.nodes[slot].lo |= layout::kFixedBit;
     }
@@ -69,7 +69,8 @@ class CpuTools : public ::testing::Test {
     load(reference_, state);
     reference_.restart();
   }
-  /// Everything displaced and moving alike: no force acts, and a substep is what tools do in it.
+  /// Returns a state with everything displaced and moving alike: no force acts, and a substep is the effect of tools
+  /// alone.
   HostState drifting(const Vector3d& u_m, const Vector3d& v_m_per_s) {
     HostState state = restState(model_);
     for (uint32_t slot : lattice_.store.active) {
@@ -79,7 +80,7 @@ class CpuTools : public ::testing::Test {
     }
     return state;
   }
-  /// A substep of both, tools alone. @return nodes that a tool moved
+  /// Makes a substep of both, tools alone. @return number of nodes that a tool moved
   size_t expectSameSubstep(const layout::ToolMotion (&motions)[2]) {
     reference_.impulse_n_s = {Vector3d::Zero(), Vector3d::Zero()};
     reference_.substep({motions[0], motions[1]});
@@ -147,7 +148,7 @@ TEST_F(CpuTools, ProbesPushNodesLikeTheReferences) {
     const layout::TickStats stats = reactions(a, b);
     for (size_t s = 0; s < 2; ++s) {
       const Vector3d truth = reference_.impulse_n_s[s];
-      // Roundings of velocities, times the mass of a node, for every node touched.
+      // Roundings of velocities, times the mass of a node, for every touched node.
       const double allowed =
           3 * kVelocity_m_per_s * static_cast<double>(lattice_.strengths.mass[lattice_.store.active[60]]);
       EXPECT_LT((xyz(stats.impulse[s]) - truth).norm(), allowed * (1 + stats.touched[s]));
@@ -215,7 +216,7 @@ TEST_F(CpuTools, CutTheSpringsAndCellsThatTheReferenceCuts) {
   for (int t = 0; t < 60; ++t) {
     SCOPED_TRACE(t);
     HostState state = randomState(model_, 2e-3, 0, static_cast<uint32_t>(t));
-    if (t % 10 != 0) state.nodes = lattice_.store.nodes;  // cuts add up, then all is whole again
+    if (t % 10 != 0) state.nodes = lattice_.store.nodes;  // cuts accumulate, then all is whole again
     write(state);
     const Vector3d turns(angle(random), angle(random), angle(random));
     const Vector3d from = Vector3d::Constant(0.03) + randomVector(random, 0.08);
@@ -233,7 +234,7 @@ TEST_F(CpuTools, CutTheSpringsAndCellsThatTheReferenceCuts) {
       ASSERT_EQ(lattice_.strengths.bulk[slot], fresh.strengths.bulk[slot]);
     }
     ASSERT_EQ(lattice_.strengths.stiffness,
-              fresh.strengths.stiffness);  // what is derived from the bits was kept up with them
+              fresh.strengths.stiffness);  // data derived from the bits was updated with them
   }
   EXPECT_GT(cut, 500u);
   EXPECT_EQ(cut, reference_.springs_cut);
@@ -246,10 +247,10 @@ TEST_F(CpuTools, LookOnlyAtBricksThatTheBladeMayReach) {
   CpuCut cut(lattice, serial, *simd::kernelsFor({}));
   const layout::ToolMotion motion = row(ToolMode::kCut, at({0.0005, -0.001, 0.005}), at({0.0005, 0.004, 0.005}));
   EXPECT_EQ(cut.run(lattice, motion, false), 4u * 4 + 2 * (2 * 3 * 4));  // all springs between two layers of 4 x 4
-  // The blade is 80 mm long and points down: its sphere has a radius of 40 mm and 12 mm for long springs.
+  // The blade is 80 mm long and points down: its sphere has a radius of 40 mm plus 12 mm for long springs.
   EXPECT_GT(cut.bricks().size(), 0u);
   EXPECT_LT(cut.bricks().size(), lattice.brickCount());
-  HostState state = restState(model);  // tissue that was pulled away is looked for where it is
+  HostState state = restState(model);  // tissue that was pulled away is found at its position
   for (uint32_t slot : lattice.store.active) state.displacement_m[slot].x = 1;
   lattice.write(state);
   EXPECT_EQ(cut.run(lattice, motion, false), 0u);

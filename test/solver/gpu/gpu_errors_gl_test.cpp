@@ -33,13 +33,13 @@ TEST_F(GpuSolverErrors, OfOpenGlComeOutOfTheTickInWhichTheyHappen) {
   EXPECT_TRUE(says(messageOf<GpuError>([&] { solver_.step({}); }), {"0x0500", "tick"}));
 }
 
-/// As when memory that a driver promised is not there: what is read back is nothing but zeros.
+/// As when memory that a driver promised is missing: everything read back is zero.
 TEST_F(GpuSolverErrors, EmptyMeasurementsAreNotTakenForTissueAtRest) {
   EXPECT_TRUE(says(messageOf<GpuError>([] { requireSignOfLife({}); }), {"does not step the tissue", "out of memory"}));
   EXPECT_NO_THROW(step());
   layout::TickStats at_rest{};
   solver_.step({});
   ASSERT_TRUE(solver_.pollStats(at_rest, true));
-  EXPECT_EQ(at_rest.kinetic_j, 0);  // tissue at rest has none of this, and yet is told apart
+  EXPECT_EQ(at_rest.kinetic_j, 0);  // tissue at rest has none of this, and is distinguished nevertheless
   EXPECT_NO_THROW(requireSignOfLife(at_rest));
 }

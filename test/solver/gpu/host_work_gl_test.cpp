@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What the host does for a substep on the GPU, and whether it waits for it.
+// Work of the host for a substep on the GPU, and whether it waits for it.
 #include <set>
 
 #include "gpu/gl.h"
@@ -13,7 +13,7 @@ namespace {
 
 int calls = 0;
 
-/// Counts the calls of one OpenGL function while it lives. @tparam Entry  GLEW's pointer to it
+/// Counts the calls of one OpenGL function during its lifetime. @tparam Entry  GLEW's pointer to it
 template <auto& Entry>
 class Counted {
  public:
@@ -37,7 +37,7 @@ class Counted {
 template <auto&... Entries>
 struct AllCounted : Counted<Entries>... {};
 
-/// All that a substep of the solver calls.
+/// All functions that a substep of the solver calls.
 using SubstepCalls =
     AllCounted<__glewUseProgram, __glewUniform1ui, __glewUniform1f, __glewUniform3fv, __glewUniform4fv,
                __glewProgramUniform1ui, __glewProgramUniform1f, __glewProgramUniform3fv, __glewProgramUniform4fv,
@@ -45,7 +45,7 @@ using SubstepCalls =
                __glewBindTextures, __glewBindBuffer, __glewDispatchCompute, __glewDispatchComputeIndirect,
                __glewMemoryBarrier, __glewNamedBufferSubData>;
 
-/// A GPU that has done nothing of what it was asked since the last finishAll(), as far as fences tell.
+/// A GPU that, as reported by fences, has finished no work since the last finishAll().
 class SlowGpu {
  public:
   SlowGpu() {
@@ -76,9 +76,9 @@ class SlowGpu {
 
 class HostWork : public GpuTest {
  protected:
-  /// OpenGL calls that one more substep in a tick takes, after a tick that has set up everything.
+  /// Returns the number of OpenGL calls of one more substep in a tick, after a tick that has set up everything.
   double callsPerSubstep(Scene scene, const Model& model, const ToolMotions& motions = {}) const {
-    constexpr int kFew = 12, kMany = 36;  // whole looks for who sleeps
+    constexpr int kFew = 12, kMany = 36;  // multiples of the interval of sleep checks
     int in_tick[2];
     for (int substeps : {kFew, kMany}) {
       scene.solver.tick_hz *= substeps == kMany ? static_cast<double>(kFew) / kMany : 1;
@@ -104,8 +104,8 @@ TEST_F(HostWork, PlainSubstepTakesFiveOpenGlCalls) {
 }
 
 TEST_F(HostWork, SleepTakesOneMoreASubstepAndALookInEverySixth) {
-  // Which list is dispatched over; and of a look: use, number, dispatch, barrier for who is fast and for the lists,
-  // and the substep's own kernel again.
+  // The list that is dispatched over. For a check: use, number, dispatch, barrier for the speeds and for the lists, and
+  // the substep's own kernel again.
   Scene scene = sceneWith(Integrator::kLeapfrog, model_, 10, 0.5);
   scene.solver.sleep_speed_m_per_s = 1e-9;
   const double calls = callsPerSubstep(scene, model_);
@@ -117,13 +117,13 @@ TEST_F(HostWork, CellsOfALawTakeThreeMoreAndAProbeFive) {
   const Model law = modelOf({ofLaw(boxBody({4, 4, 4}, 0.01))});
   EXPECT_EQ(callsPerSubstep(sceneWith(Integrator::kLeapfrog, law, 10, 0.5), law), 8);
   const Scene probed = sceneWith(Integrator::kLeapfrog, model_, 10, 0.5, 20, {StylusConfig{}});
-  // The motions; the list of nodes, and use, dispatch, barrier of what meets springs.
+  // The motions; the list of nodes; and use, dispatch, barrier for the contact with springs.
   EXPECT_EQ(callsPerSubstep(probed, model_, probeAt({0.02, 0.02, 0.038})), 10);
 }
 
 TEST_F(HostWork, GovernedTickIsNotWaitedForUntilTheNextOneIsUnderWay) {
   Scene scene = sceneWith(Integrator::kLeapfrog, model_, 10, 0.5);
-  scene.solver.governor = true;
+  scene.solver.stability_monitor = true;
   const SlowGpu slow;
   GpuSolver solver(model_, scene);
   for (int t = 0; t < 20; ++t) {

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What only the GPU's integrators have; the rest is in solver/*_gl_test.cpp.
+// Features of the GPU's integrators only; the rest is in solver/*_gl_test.cpp.
 #include "support/implicit.h"
 
 using namespace viscera;

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What no other test would notice if an error of the papers came back (docs/paper_errors.md).
+// Tests that would detect a return of the papers' errors (docs/papers.md) where no other test would.
 #include <limits>
 
 #include "support/solver_rig.h"
@@ -18,11 +18,11 @@ class PaperErrors : public GpuTest {
   static uint32_t slotAt(const Model& model, const Vector3i& node) {
     return static_cast<uint32_t>(model.bodies[0].lattice.slotAt(node));
   }
-  /// One tick with the first stylus.
+  /// Makes one tick with the first stylus.
   static void tick(GpuSolver& solver, const StylusMotion& stylus) { solver.step(ToolMotions{stylus}); }
 };
 
-/// Of the papers' own integrator, whose probes meet nodes alone.
+/// Returns a scene of the papers' own integrator, in which probes touch nodes only.
 Scene probeScene(const Model& model, double radius_m) {
   StylusConfig config;
   config.probe.radius_m = radius_m;
@@ -47,7 +47,7 @@ TEST_F(PaperErrors, ProbeThatPassesANodeWithinASubstepPutsItOutOfItsWay) {
   const Vector3d node = model.bodies[0].lattice.restPosition(slot);
   const Vector3d beside = node + Vector3d(0.5 * kRadius_m, 0, 0), half_way(0, 0, 5 * kRadius_m);
   tick(solver, motionOf(ToolMode::kProbe, beside + half_way, beside - half_way));
-  // At either end the sphere is five radii away; between, its axis passes the node at half a radius.
+  // At either end the sphere is five radii away; in between, its axis passes the node at half a radius.
   const Vector3d x = node + xyz(solver.readState().displacement_m[slot]);
   EXPECT_NEAR(x.x(), beside.x() - kRadius_m, 1e-8);  // m: a few roundings of positions below 0.03 m
   EXPECT_NEAR(x.z(), node.z(), 1e-8);                // sideways, not along
@@ -63,7 +63,7 @@ TEST_F(PaperErrors, ProbeWithANodeExactlyAtItsCentrePushesItUpwards) {
   EXPECT_LT((u - Vector3d(0, 0, 0.1 * kSpacing_m)).norm(), 1e-8);  // m: a few roundings of positions below 0.03 m
 }
 
-/// A probe at rest that appears around a node moves it, but the way out is not a speed: the node was not on its way.
+/// A probe at rest that appears around a node moves it, but without velocity: the probe did not move towards it.
 TEST_F(PaperErrors, NodeThatAProbeMovesOutTakesTheSpeedOfTheToolAndNotOfItsWayOut) {
   constexpr double kRadius_m = 0.1 * kSpacing_m;
   const Model model = block({4, 4, 4});
@@ -76,7 +76,7 @@ TEST_F(PaperErrors, NodeThatAProbeMovesOutTakesTheSpeedOfTheToolAndNotOfItsWayOu
   EXPECT_EQ(xyz(state.velocity_m_per_s[slot]), Vector3d::Zero().eval());    // at rest, like the tool
 }
 
-/// Projected to the surface at once, nodes would leap a whole radius in a substep.
+/// Projected to the surface at once, nodes would jump by a whole radius in a substep.
 TEST_F(PaperErrors, ProbeThatAppearsDeepInTissueMovesNodesOutNoFasterThanItsPushSpeed) {
   const Model model = block({6, 6, 6});
   GpuSolver solver(model, sceneFor(model, 1, {thinProbe(3 * kSpacing_m)}));
@@ -123,7 +123,7 @@ TEST_F(PaperErrors, InfinitiesAreCountedAsNotFiniteLikeNan) {
     state.displacement_m[middle].x = bad;
     solver.writeState(state);
     solver.step({});
-    EXPECT_EQ(lastStats(solver).nonfinite, 1u) << bad;  // nothing moves, so no other check catches it
+    EXPECT_EQ(lastStats(solver).nonfinite, 1u) << bad;  // nothing moves, so no other check detects it
   }
 }
 
@@ -142,13 +142,13 @@ TEST_F(PaperErrors, FragmentsThatFallAreStoppedWhereSleepDistanceEnds) {
   }
 }
 
-/// Free fall in numbers that float32 holds exactly: dt^2 a is a quarter of a digit of u, which is lost whenever it is
-/// added to u alone. With what it moves on anyway it is (n - 1/2)/4 digits in substep n: roundings cancel every fourth.
+/// Free fall in numbers that float32 represents exactly. dt^2 a is a quarter of an ulp of u, and is lost whenever it is
+/// added to u alone. The total displacement in substep n is (n - 1/2)/4 ulps: roundings cancel every fourth substep.
 TEST_F(PaperErrors, IncrementsAreSummedBeforeTheyAreAddedToTheDisplacement) {
   constexpr int kTicks = 8, kSubsteps = 128;
   constexpr double kDt_s = 1.0 / 8192, kGravity = 2, kStart_m = 1.25, kDigit_m = 1.0 / (1 << 23);
   Model model = block({1, 1, 1});
-  model.bodies[0].material.drag_per_s = 0;
+  model.bodies[0].material.mass_damping_per_s = 0;
   Scene scene = sceneFor(model, kSubsteps, {}, Vector3d(kGravity, 0, 0));
   scene.solver.tick_hz = 1 / (kSubsteps * kDt_s);
   scene.solver.substeps = kSubsteps;

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What sleep of bricks has of its own on the GPU: the same bricks as on the CPU, and a tick in which all sleep costs
-// nearly nothing. The rest is in test/solver/sleep_gl_test.cpp.
+// Sleep of bricks specific to the GPU: the same bricks as on the CPU, and almost no cost of a tick in which all sleep.
+// The rest is in test/solver/sleep_gl_test.cpp.
 #include "gpu/gl.h"
 #include "support/networks.h"
 #include "support/random_state.h"
@@ -12,8 +12,8 @@ using namespace viscera::test;
 
 namespace {
 
-// Float32 on both backends: what the tissue does within the sleep speed and the time that drag leaves it, in which one
-// may fall asleep a look before the other.
+// Float32 on both backends: motion of the tissue within the sleep speed and the decay time of drag, during which one
+// may fall asleep a check before the other.
 constexpr double kApart_m = 2e-7;
 
 class SleepingOnGpu : public GpuTest {
@@ -21,7 +21,7 @@ class SleepingOnGpu : public GpuTest {
   std::unique_ptr<GpuSolver> make(const SleepKind& kind = {}) const {
     return std::make_unique<GpuSolver>(model_, sleepyScene(model_, kind));
   }
-  /// As settle(), until the host knows.
+  /// Steps as settle(), until the host knows.
   static void rest(GpuSolver& solver) {
     settle(solver);
     layout::TickStats stats;
@@ -37,7 +37,7 @@ class SleepingOnGpu : public GpuTest {
   const Model model_ = modelOf({sleepyCube()});
 };
 
-/// Counts the kernels that OpenGL is told to run while it lives.
+/// Counts the kernels that OpenGL runs during its lifetime.
 class CountedDispatches {
  public:
   CountedDispatches() {
@@ -92,7 +92,7 @@ TEST_F(SleepingOnGpu, SameBricksSleepAsOnTheCpuWhateverToolsDo) {
   for (const Law law : {Law::kSprings, Law::kNeoHookean}) {
     SCOPED_TRACE(static_cast<int>(law));
     const Model model = modelOf({sleepyCube(law)});
-    // Fast things sleep: there is more between awake and asleep.
+    // Fast motion counts as sleep: there is more difference between awake and asleep.
     const Scene scene = sleepyScene(model, {20 * kSleepSpeed_m_per_s});
     const auto cpu = makeCpu("", model, scene);
     GpuSolver gpu(model, scene);
@@ -118,8 +118,8 @@ TEST_F(SleepingOnGpu, SameBricksSleepAsOnTheCpuWhateverToolsDo) {
 }
 
 TEST_F(SleepingOnGpu, TickAsleepRunsNoKernelOnceTheHostKnows) {
-  for (const bool governor : {false, true}) {
-    const auto solver = make({kSleepSpeed_m_per_s, 0, governor});
+  for (const bool stability_monitor : {false, true}) {
+    const auto solver = make({kSleepSpeed_m_per_s, 0, stability_monitor});
     rest(*solver);
     const uint64_t hash = hashOf(*solver);
     {
@@ -137,10 +137,10 @@ TEST_F(SleepingOnGpu, TickAsleepRunsNoKernelOnceTheHostKnows) {
 }
 
 TEST_F(SleepingOnGpu, ResultDoesNotDependOnWhenMeasurementsAreReadBack) {
-  for (const bool governor : {false, true}) {
+  for (const bool stability_monitor : {false, true}) {
     uint64_t first = 0;
     for (const int poll_every : {1, 3, 1000}) {
-      const auto solver = make({20 * kSleepSpeed_m_per_s, 0, governor});
+      const auto solver = make({20 * kSleepSpeed_m_per_s, 0, stability_monitor});
       layout::TickStats stats;
       int rested = 0;
       for (int t = 0; t < 120; ++t) {
@@ -207,7 +207,7 @@ TEST_F(SleepingOnGpu, GovernorsRollbackWakesAll) {
 
 TEST_F(SleepingOnGpu, NetworksBesideALatticeGoOn) {
   Body net = clothBody(6, 6, 0.005);
-  net.material.drag_per_s = 5;
+  net.material.mass_damping_per_s = 5;
   const Model model = modelOf({sleepyCube(), net});
   for (const double speed_m_per_s : {0.0, kSleepSpeed_m_per_s}) {
     GpuSolver solver(model, sleepyScene(model, {speed_m_per_s}));

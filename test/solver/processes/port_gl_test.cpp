@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What processes rely on, of both backends and of the reference.
+// The contract of TissuePort, tested on both backends and on the reference.
 #include "solver/processes/port.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ namespace {
 constexpr float kPushed_s = 1e-3F;
 constexpr double kSamePush = 1e-6;  // of float32 sums, over their size
 
-/// One of those that implement the port, with a way to set and to read all of its state.
+/// An implementation of the port, with means to set and to read all of its state.
 class Target {
  public:
   Target(const std::string& name, const Model& model, const Scene& scene) : plan_(planTicks(model, scene)) {
@@ -54,7 +54,7 @@ class Target {
     }
     if (backend_) backend_->loadState(state);
   }
-  /// Momentum that a stylus has given so far.
+  /// Returns the momentum that a stylus has given so far.
   Vector3d given(uint32_t stylus) {
     if (reference_) return reference_->impulse_n_s[stylus];
     layout::TickStats stats;
@@ -72,8 +72,8 @@ class Target {
   std::unique_ptr<ReferenceSolver> reference_;
 };
 
-/// Two blocks beside each other, the first of which is fixed at its low side; a stylus has clips, so that the GPU keeps
-/// what the port needs.
+/// Returns two adjacent blocks, the first of which is fixed at its low side. A stylus has clips, so the GPU keeps the
+/// data that the port needs.
 Scene blocks() {
   return parseScene(
       "bodies:\n"
@@ -94,7 +94,7 @@ class Port : public ::testing::TestWithParam<std::string> {
   uint32_t slotOf(size_t body, size_t node) const {
     return model_.slotOffset(body) + model_.bodies[body].lattice.active_slots[node];
   }
-  /// Of the left block.
+  /// Returns the first fixed or free slot of the left block.
   uint32_t firstOf(bool fixed) const {
     const HostState state = target_.read();
     for (const uint32_t local : model_.bodies[0].lattice.active_slots) {
@@ -151,7 +151,7 @@ TEST_P(Port, PushesFreeNodesAndCountsTheirMomentum) {
   EXPECT_EQ(target_.given(0), Vector3d(0, 0, 0)) << "it is no stylus's";
 }
 
-/// A plane across the right body's middle cuts what it crosses there, whatever the tissue's shape is now.
+/// A plane across the right body's middle cuts the springs that it crosses there, whatever the tissue's current shape.
 TEST_P(Port, CutsTheSelectedBodyAsItIsAtRest) {
   const uint32_t moved = slotOf(1, 0);
   target_.set({{moved, {0.02F, 0.02F, 0.02F}}});

@@ -29,12 +29,12 @@ Scene blockWith(const std::string& keys, const std::string& stylus) {
           stylus +
           "}]\n"
           "environment: {gravity_m_per_s2: [0, 0, 0]}\n"
-          "solver: {backend: cpu, threads: 1, governor: false, measured_limit: false}\n"
+          "solver: {backend: cpu, threads: 1, stability_monitor: false, measured_limit: false}\n"
           "cameras: []\n",
       "block.yaml");
 }
 
-/// Makes the same ticks on both, and compares what the tissue came to.
+/// Makes the same ticks on both, and compares the resulting tissue.
 void makeTicks(CpuSolver& cpu, ReferenceTicks& reference, int ticks, const std::function<StylusMotion(int)>& hand) {
   for (int t = 0; t < ticks; ++t) {
     ToolMotions motions{};
@@ -93,8 +93,8 @@ TEST(ReferenceProcesses, ClipsHoldWithTheSameForce) {
     motion.opens_from_rad = motion.opens_to_rad = t > 0 ? 0 : 0.5;
     return motion;
   });
-  const SeenClips seen = findProcess<Clips>(cpu)->seen();
-  const SeenClips truth = findProcess<Clips>(reference.processes())->seen();
+  const ClipStates seen = findProcess<Clips>(cpu)->seen();
+  const ClipStates truth = findProcess<Clips>(reference.processes())->seen();
   ASSERT_EQ(seen.on.size(), 1U);
   ASSERT_EQ(truth.on.size(), 1U);
   expectSame(seen.on[0].force_n, truth.on[0].force_n);
@@ -112,7 +112,7 @@ TEST(ReferenceProcesses, BurntTissueShrinksAlike) {
     motion.from = motion.to = Pose{{0.0003, 0.0002, 0.0077}, Quaterniond::Identity()};
     return motion;
   });
-  const SeenBurns truth = findProcess<Burns>(reference.processes())->seen();
+  const BurnReport truth = findProcess<Burns>(reference.processes())->seen();
   expectSame(findProcess<Burns>(cpu)->seen().given_j, truth.given_j);
   EXPECT_GT(truth.hottest_c, 60);
 }

@@ -14,9 +14,9 @@ namespace viscera {
 namespace {
 
 constexpr double kSpacing_m = 0.003, kDt_s = 5e-4;
-constexpr double kRounding = 1e-6;             // float32 of weights and places, over their size
-constexpr double kTissuePointsPlace_m = 1e-7;  // the same of a place
-constexpr double kFound_m = 2e-6;              // find() ends its steps within kArrived of a spacing
+constexpr double kRounding = 1e-6;             // float32 of weights and positions, over their size
+constexpr double kTissuePointsPlace_m = 1e-7;  // the same of a position
+constexpr double kFound_m = 2e-6;              // find() stops within kArrived of a spacing
 
 /// A state of the tissue that tests set.
 class Nodes : public TissuePort {
@@ -45,7 +45,7 @@ class Nodes : public TissuePort {
   mutable size_t most_read = 0;
 };
 
-/// Turned and strained; a sheet keeps its thickness.
+/// Maps a rest position: rotated and strained; a sheet keeps its thickness.
 Vector3d mapped(const Vector3d& rest_m) {
   Eigen::Matrix3d by;
   by << 0.8, -0.5, 0.1, 0.6, 0.9, -0.1, 0.05, 0.1, 1.2;

@@ -6,10 +6,10 @@
 
 namespace viscera::test {
 
-constexpr double kStep = 1e-5;       ///< of numerical derivatives, in spacings: the best for central differences
-constexpr double kAgreement = 1e-6;  ///< of numerical derivatives, over the largest value
+constexpr double kStep = 1e-5;       ///< step of numerical derivatives, in spacings: the best for central differences
+constexpr double kAgreement = 1e-6;  ///< error of numerical derivatives, over the largest value
 
-/// Every force against the slope of the energy, over the largest force.
+/// Compares every force with the slope of the energy. Returns the largest difference over the largest force.
 inline double forceError(const ReferenceLattice& lattice, const Field& u_m, double spacing_m) {
   const Field forces = lattice.elasticForces(u_m);
   double error = 0, largest = 0;
@@ -29,7 +29,8 @@ inline double forceError(const ReferenceLattice& lattice, const Field& u_m, doub
   return error / largest;
 }
 
-/// Every element of the stiffness matrix against the slope of the forces, over the largest.
+/// Compares every entry of the stiffness matrix with the slope of the forces. Returns the largest difference over the
+/// largest entry.
 inline double stiffnessError(const ReferenceLattice& lattice, const Field& u_m, double spacing_m) {
   const Eigen::MatrixXd k = lattice.stiffnessMatrix(u_m);
   double error = 0;

@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-/// Blows the body up, or turns it inside out.
+/// Returns displacements that scale the body, or invert it.
 Field blownUp(const ReferenceLattice& lattice, double factor, double disorder) {
   Field u = randomField(lattice, disorder, 3);
   for (uint32_t slot : lattice.active) u[slot] += (factor - 1) * lattice.restPosition(slot);

@@ -20,13 +20,13 @@ ReferenceOptions with(ReferenceIntegrator integrator) {
   return options;
 }
 
-/// A standing block that starts with a smooth bend and swings; drag and dashpot as given.
+/// A standing block that starts with a smooth bend and oscillates, with the given drag and dashpot.
 class Swing {
  public:
-  Swing(double drag_per_s, double dashpot_ratio) {
+  Swing(double mass_damping_per_s, double stiffness_damping_ratio) {
     Body body = standing(unitBody({2, 2, 3}));
-    body.material.drag_per_s = drag_per_s;
-    body.material.dashpot_ratio = dashpot_ratio;
+    body.material.mass_damping_per_s = mass_damping_per_s;
+    body.material.stiffness_damping_ratio = stiffness_damping_ratio;
     model_ = modelOf({body});
   }
   double dtSafe_s() const { return safeTimeStep(model_); }
@@ -40,7 +40,8 @@ class Swing {
     for (int i = 0; i < steps; ++i) solver.substep();
     return solver.u_m;
   }
-  /// log2 of how the error shrinks when the substep is halved; the truth has substeps `finer` times shorter.
+  /// Returns log2 of the ratio of errors when the substep is halved; the reference solution has `finer` times shorter
+  /// substeps.
   double order(ReferenceIntegrator integrator, double fraction, int steps, int finer) const {
     const double dt = fraction * dtSafe_s();
     const Field truth = after(steps * finer, dt / finer, integrator);
@@ -57,7 +58,8 @@ class Swing {
   Model model_;
 };
 
-/// m (v+ - v)/dt = F(u+) + m g - gamma m v+ and u+ = u + dt v+, per node, over the largest force.
+/// Returns the residual of m (v+ - v)/dt = F(u+) + m g - gamma m v+ and u+ = u + dt v+, per node, over the largest
+/// force.
 double implicitEulerError(const ReferenceSolver& before, const ReferenceSolver& after, double dt_s) {
   double error = 0, largest = 0;
   for (uint32_t slot : after.active) {
@@ -65,7 +67,7 @@ double implicitEulerError(const ReferenceSolver& before, const ReferenceSolver& 
     const double m = after.mass(slot);
     const Vector3d force = after.force(slot);
     const Vector3d balance = m * (after.v_m_per_s[slot] - before.v_m_per_s[slot]) / dt_s - force - m * after.gravity() +
-                             m * after.drag_per_s(slot) * after.v_m_per_s[slot];
+                             m * after.mass_damping_per_s(slot) * after.v_m_per_s[slot];
     const Vector3d motion = after.u_m[slot] - before.u_m[slot] - dt_s * after.v_m_per_s[slot];
     error = std::max({error, balance.norm(), motion.norm()});
     largest = std::max(largest, force.norm());
@@ -110,7 +112,7 @@ TEST(ReferenceLeapfrog, IsOfSecondOrder) {
 }
 
 TEST(ReferenceImplicitEuler, IsOfFirstOrder) {
-  // The truth must be much finer here: at dt / 16 its own error would show as a slope of 1.1.
+  // The reference solution must be much finer here: at dt / 16 its own error would appear as a slope of 1.1.
   EXPECT_NEAR(Swing(0.5, 0.2).order(ReferenceIntegrator::kImplicitEuler, 0.2, 10, 128), 1, 0.1);  // issue 3
 }
 
@@ -135,8 +137,8 @@ TEST(ReferenceLeapfrog, KicksOverTheMeanOfTwoSubsteps) {
 
 TEST(ReferenceImplicitEuler, SolvesItsEquation) {
   Body body = standing(unitBody({2, 2, 3}));
-  body.material.drag_per_s = 0.7;
-  body.material.dashpot_ratio = 0.3;
+  body.material.mass_damping_per_s = 0.7;
+  body.material.stiffness_damping_ratio = 0.3;
   const Model model = modelOf({body});
   for (double fraction : {0.5, 10.0, 100.0}) {
     const double dt = fraction * safeTimeStep(model);
@@ -173,7 +175,7 @@ TEST(ReferenceImplicitEuler, NeverGainsEnergyFromExtremeStarts) {
 TEST(ReferenceTools, ToolsGiveAllTheMomentumThereIs) {
   for (ReferenceIntegrator integrator : kAll) {
     Body body = unitBody({3, 3, 3});
-    body.material.dashpot_ratio = 0.2;
+    body.material.stiffness_damping_ratio = 0.2;
     const Model model = modelOf({body});
     const double dt = 0.4 * safeTimeStep(model);
     ReferenceSolver solver(model, Vector3d::Zero(), dt, with(integrator));
@@ -201,7 +203,7 @@ TEST(ReferenceTools, ProbePushesNodesOutNoFasterThanAllowed) {
   const Model model = modelOf({body});
   ReferenceOptions options;
   options.push_speed_m_per_s = 2;
-  options.integrator = ReferenceIntegrator::kVerletPaper;  // whose probes meet nodes alone
+  options.integrator = ReferenceIntegrator::kVerletPaper;  // with probes that touch nodes only
   constexpr double kDt = 0.05;
   ReferenceSolver solver(model, Vector3d::Zero(), kDt, options);
   const uint32_t corner = slotAt(body, 0, 0, 0);

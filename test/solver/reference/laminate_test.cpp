@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Cells that two materials share, against exact laminates: a bar of two layers, their border anywhere within a cell.
+// Cells with two materials, against exact laminates: a bar of two layers, with their border anywhere within a cell.
 // Each test prints a table, of docs/physics.md.
 #include <gtest/gtest.h>
 
@@ -23,9 +23,9 @@ const Vector3i kCells(8, 2, 4);
 struct Bar {
   double nu = 0;
   int across = 2;      ///< axis along which the layers are stacked
-  double border = 0;   ///< [cells] up to which the first layer reaches along it
+  double border = 0;   ///< extent of the first layer along it [cells]
   double ratio = 4;    ///< E of the second layer over that of the first
-  bool shares = true;  ///< false: each cell is of one material, that of its middle
+  bool shares = true;  ///< false: each cell has one material, that at its centre
 };
 
 Body bodyOf(const Bar& bar) {
@@ -45,7 +45,7 @@ Body bodyOf(const Bar& bar) {
   return body;
 }
 
-/// Force and moment about y at the far end, whose planes are held at u_x = stretch + turn (z - at_m).
+/// Force and moment about y at the far end, at which u_x = stretch + turn (z - at_m) is prescribed.
 struct Load {
   double force_n = 0, moment_nm = 0;
 };
@@ -77,7 +77,7 @@ const double kLength_m = kCells.x() * kSpacing_m, kWidth_m = kCells.y() * kSpaci
 const double kHeight_m = kCells.z() * kSpacing_m, kArea_m2 = kWidth_m * kHeight_m;
 constexpr double kStretch_m = 1e-5, kTurn = 1e-4;
 
-/// Measured over exact stiffness of a bar that is pulled along its layers.
+/// Returns the measured over the exact stiffness of a bar in tension along its layers.
 double alongLayers(const Bar& bar) {
   const double share = bar.border / kCells.z(), exact_pa = kSoft_pa * (share + (1 - share) * bar.ratio);
   return loadOf(bar, kStretch_m, 0, 0).force_n / (exact_pa * kArea_m2 * kStretch_m / kLength_m);
@@ -89,7 +89,7 @@ double acrossLayers(const Bar& bar) {
   return loadOf(bar, kStretch_m, 0, 0).force_n / exact_n;
 }
 
-/// Of the transformed section.
+/// Returns the same for bending, from the transformed section.
 double bending(const Bar& bar) {
   const double low_m = bar.border * kSpacing_m, high_m = kHeight_m - low_m;
   const double ea_low = kSoft_pa * kWidth_m * low_m, ea_high = bar.ratio * kSoft_pa * kWidth_m * high_m;
@@ -109,7 +109,7 @@ void print(const char* what, const Bar& bar, double shared, double whole) {
 
 }  // namespace
 
-/// E = sum f E, whatever Poisson's ratio they have in common.
+/// E = sum f E, for any common Poisson's ratio.
 TEST(Laminate, AlongLayersIsExact) {
   for (const double nu : {0.0, 0.25, 0.4}) {
     for (const double border : kBorders) {
@@ -121,7 +121,7 @@ TEST(Laminate, AlongLayersIsExact) {
   }
 }
 
-/// 1/E = sum f/E: the layers of the cell on the border bear one traction.
+/// 1/E = sum f/E: the layers of the cell on the border have equal tractions.
 TEST(Laminate, AcrossLayersIsExact) {
   for (const double ratio : {4.0, 10.0, 100.0}) {
     for (const double border : kBorders) {
@@ -133,8 +133,9 @@ TEST(Laminate, AcrossLayersIsExact) {
   }
 }
 
-/// Two half spaces that are pulled across and sheared along their border, which is askew in the lattice: each has one
-/// gradient, F and F + a N^T, and tractions are one. The block's outer nodes are where they would be.
+/// Two half spaces in tension across their border and in shear along it; the border is oblique to the lattice. Each has
+/// a uniform gradient, F and F + a N^T, and the tractions are equal. The block's outer nodes have the exact
+/// displacements. Returns the energy over the exact one.
 double askewEnergyOverExact(double angle_deg, double ratio, bool shares) {
   constexpr int kSize = 8;
   constexpr double kNu = 0.3, kSmall = 1e-6;
@@ -149,7 +150,7 @@ double askewEnergyOverExact(double angle_deg, double ratio, bool shares) {
   Model model;
   model.bodies = {body};
   const ReferenceSolver solver(model, Vector3d::Zero(), 1);
-  // Normal stress s and shear stress s: strains e_nn and 2 e_nt of either side, none along the border.
+  // Normal stress s and shear stress s: strains e_nn and 2 e_nt on either side, none along the border.
   const double mu = young_pa / (2 * (1 + kNu)), wave = 2 * mu * (1 - kNu) / (1 - 2 * kNu);
   const auto moved = [&](const Vector3d& cells) {
     const double d = h * (cells.dot(n) - at), over = d > 0 ? ratio : 1;
@@ -175,7 +176,7 @@ double askewEnergyOverExact(double angle_deg, double ratio, bool shares) {
 }
 
 TEST(Laminate, AskewBordersHaveTheEnergyOfTheirLayers) {
-  constexpr double kOfNormals = 0.03;  // normals by centroids are off by up to 8 degrees, and corners see a kink
+  constexpr double kOfNormals = 0.03;  // normals from centroids are off by up to 8 degrees; corners see a kink
   for (const double ratio : {4.0, 10.0}) {
     for (const double angle : {0.0, 10.0, 20.0, 30.0, 45.0}) {
       const double shared = askewEnergyOverExact(angle, ratio, true);
@@ -187,7 +188,7 @@ TEST(Laminate, AskewBordersHaveTheEnergyOfTheirLayers) {
   }
 }
 
-/// Parts of three materials in a cell have no one plane between them.
+/// Parts of three materials in a cell have no single plane between them.
 TEST(Laminate, CellsOfThreeMaterialsKeepTheirMean) {
   Body body = twoMaterials(ofLaw(boxBody({2, 2, 2}, kSpacing_m), 0.3), {1, 0, 0}, 0.5, {"stiff", 1e5, 0.3, 1e3});
   EXPECT_EQ(cellLaminates(body).cells.size(), 4u);
@@ -233,7 +234,7 @@ TEST(Laminate, MassIsThatOfTheLayers) {
   }
 }
 
-/// To the bit: a border that divides nothing is not seen.
+/// To the bit: a border between equal materials has no effect.
 TEST(Laminate, EqualMaterialsAreOneMaterial) {
   Body body = bodyOf({0.3, 2, 2.4, 1, true});
   body.parts[0].density_kg_per_m3 = body.material.density_kg_per_m3;

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The neo-Hookean law in float64, against what is known of it.
+// The neo-Hookean law in float64, against known solutions.
 #include <Eigen/Geometry>
 #include <cmath>
 
@@ -21,7 +21,7 @@ Model lawBlockModel() {
   return modelOf({ofLaw(boxBody({3, 3, 3}, kLawBlockSpacing_m), kNu)});
 }
 
-/// u = (F - 1) x of all nodes.
+/// Returns u = (F - 1) x of all nodes.
 Field affine(const Model& model, const ReferenceLattice& lattice, const Eigen::Matrix3d& f) {
   Field out(model.slots(), Vector3d::Zero());
   for (const uint32_t slot : lattice.active) out[slot] = (f - Eigen::Matrix3d::Identity()) * lattice.restPosition(slot);
@@ -70,10 +70,10 @@ TEST(Law, ForcesAndStiffnessAreDerivativesOfTheEnergy) {
   }
 }
 
-/// Held all over, tissue keeps the whole of its prestress, and would be at rest as it was asked to be: shorter by the
-/// strain along each axis.
+/// Fixed everywhere, tissue keeps its whole prestress. Freed, it would be at rest shortened by the prescribed strain
+/// along each axis.
 TEST(Law, TissueThatIsFreedTakesTheShapeThatItsPrestressAsksFor) {
-  constexpr double kOfFloatStress = 1e-6;  // of the force that one face of a cell bears
+  constexpr double kOfFloatStress = 1e-6;  // of the force on one face of a cell
   PrestressConfig prestress;
   prestress.strain = 0.05;
   prestress.strains = {0.2, 0, -0.1};
@@ -124,10 +124,10 @@ TEST(Law, RigidMotionHasNoEnergyAndTurningChangesNone) {
   EXPECT_NEAR(lattice.elasticEnergy(rigid), 0, kRounding * energy_j);
 }
 
-/// A full cell bends as a plate and twists as a bar: E h / (6 (1 - nu^2)) [[1, nu], [nu, 1]] and mu h/3 with mu h/6
-/// between.
+/// A full cell bends as a plate and twists as a bar: E h / (6 (1 - nu^2)) [[1, nu], [nu, 1]], and mu h/3 with mu h/6 as
+/// the coupling.
 TEST(Law, OneCellBendsAndTwistsAsTheSolidDoes) {
-  constexpr double kSmall = 1e-4;  // of the spacing: strains above are of second order
+  constexpr double kSmall = 1e-4;  // of the spacing: larger strains show second-order terms
   for (const double nu : {0.0, 0.25, 0.45}) {
     const Body body = ofLaw(boxBody({1, 1, 1}, kLawBlockSpacing_m), nu);
     const Model model = modelOf({body});
@@ -151,10 +151,11 @@ TEST(Law, OneCellBendsAndTwistsAsTheSolidDoes) {
   }
 }
 
-/// A plate of cells of which the lower half is tissue: what bends is half a cell thick, and about its own middle.
+/// A plate of cells that are half filled from below: the bending part is half a cell thick, and bends about its own
+/// middle.
 TEST(Law, TissueOnOneSideOfACellBendsAboutItsOwnMiddle) {
-  constexpr double kBend = 3e-5;         // of the spacing: strains above are of second order
-  constexpr double kSecondOrder = 1e-3;  // what is left of them
+  constexpr double kBend = 3e-5;         // of the spacing: larger strains show second-order terms
+  constexpr double kSecondOrder = 1e-3;  // remaining second-order terms
   constexpr int kLength = 4;             // [cells]
   const Body body = momentBody({kLength, 1, 1}, kLawBlockSpacing_m, [](const Vector3d& p) { return p.z() < 0.5; });
   const Model model = modelOf({body});
@@ -174,7 +175,7 @@ TEST(Law, TissueOnOneSideOfACellBendsAboutItsOwnMiddle) {
   EXPECT_NEAR(energy(0.5) / (plate * (of_itself + 0.5 * 0.25 * 0.25)), 1, kSecondOrder);
 }
 
-/// Sides held: ever more until a fifth of the volume is left, and from there it is still pushed open.
+/// Sides fixed: resistance increases until a fifth of the volume is left, and from there it is still pushed open.
 TEST(Law, ASqueezedCellResistsEverMoreAndIsNeverTurnedInsideOutForNothing) {
   for (const double nu : {0.0, 0.25, 0.45}) {
     const Model model = modelOf({ofLaw(boxBody({1, 1, 1}, kLawBlockSpacing_m), nu)});

@@ -14,7 +14,7 @@ using namespace test;
 
 constexpr double kFloatStiffness = 2e-7;  ///< relative: stiffness and mass are float32 numbers
 
-/// A body of these nodes and springs, without drag and dashpot; every node of 1 kg.
+/// Returns a body of these nodes and springs, without drag and dashpot; every node of 1 kg.
 Body linkedBody(const std::vector<Vector3d>& positions_m, const std::vector<NetworkSpring>& springs) {
   SpringNetwork network;
   network.positions_m = positions_m;
@@ -27,8 +27,8 @@ Body linkedBody(const std::vector<Vector3d>& positions_m, const std::vector<Netw
   return body;
 }
 
-/// Five nodes with every kind of spring: at rest, stretched and compressed at rest, two between the same nodes, one
-/// without rest length between nodes that are apart and one between nodes at the same place.
+/// Returns five nodes with every kind of spring: at rest, stretched and compressed at rest, two between the same nodes,
+/// one without rest length between separate nodes and one between coincident nodes.
 Body oddBody() {
   const std::vector<Vector3d> at = {{0, 0, 0}, {1, 0.1, 0}, {0.3, 0.9, 0.2}, {0.5, 0.4, 1.1}, {0.5, 0.4, 1.1}};
   const auto length = [&](uint32_t a, uint32_t b) { return (at[b] - at[a]).norm(); };
@@ -50,7 +50,7 @@ uint32_t slotNear(const Body& body, const Vector3d& at) {
   return nearest;
 }
 
-/// A blade that points along -z from z = 2 and sweeps along y in the plane x = `x`, far beyond everything.
+/// Returns a blade that points along -z from z = 2 and sweeps along y in the plane x = `x`, far beyond everything.
 SubstepMotions sweepAt(float x, ToolMode mode = ToolMode::kCut) {
   SubstepMotions motions{};
   motions[0].from = {x, -5, 5, 0.1f};
@@ -107,13 +107,14 @@ TEST(ReferenceNetwork, SpringThatIsCollapsedToAPointKeepsItsDirectionAtRest) {
   Field u(model.slots(), Vector3d::Zero());
   const uint32_t low = slotNear(body, {0, 0, 0});
   u[low].y() = 2;
-  EXPECT_LT((lattice.elasticForce(u, low) - Vector3d(0, -6, 0)).norm(), 1e-12);  // 3 N/m of 2 m, apart
+  EXPECT_LT((lattice.elasticForce(u, low) - Vector3d(0, -6, 0)).norm(),
+            1e-12);  // 3 N/m times 2 m, in opposite directions
 }
 
 TEST(ReferenceNetwork, LatticeOfLinksIsTheImplicitOne) {
   for (const bool parts : {false, true}) {
     Body body = parts ? patchworkBody() : standing(unitBody({3, 2, 4}));
-    body.material.dashpot_ratio = 0.2;
+    body.material.stiffness_damping_ratio = 0.2;
     const Model implicit = modelOf({body});
     body.network = latticeNetwork(body);
     const Model links = modelOf({body});

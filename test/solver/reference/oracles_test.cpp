@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// The oracles of physics.md 6 in float64: what fails here is the lattice itself, not a kernel.
+// The oracles of physics.md 6 in float64: a failure here is a fault of the lattice itself, not of a kernel.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-/// Frequencies along z of the free nodes of a chain, ascending [rad/s].
+/// Returns the frequencies along z of the free nodes of a chain, ascending [rad/s].
 std::vector<double> chainFrequencies(const Body& body) {
   const Model model = modelOf({body});
   const ReferenceSolver solver(model, Vector3d::Zero(), 1);
@@ -34,7 +34,7 @@ std::vector<double> chainFrequencies(const Body& body) {
   return out;
 }
 
-/// Prescribes x on both end faces, and of the others just what keeps the block from moving away or turning.
+/// Prescribes x on both end faces, and otherwise only what prevents rigid motion of the block.
 std::vector<PrescribedDof> stretched(const Body& body, const Vector3i& cells, double end_m) {
   std::vector<PrescribedDof> out;
   for (uint32_t slot : body.lattice.active_slots) {
@@ -50,7 +50,7 @@ std::vector<PrescribedDof> stretched(const Body& body, const Vector3i& cells, do
 
 struct Tension {
   double lateral_y, lateral_z;  ///< stretches of the far edge
-  double stress_pa;             ///< nominal: pull over the face at rest
+  double stress_pa;             ///< nominal: force over the face at rest
   int iterations;
 };
 Tension pull(const Body& body, const Vector3i& cells, double stretch, int load_steps) {
@@ -70,8 +70,9 @@ Tension pull(const Body& body, const Vector3i& cells, double stretch, int load_s
           report.iterations};
 }
 
-/// Mean deflection of the tip face over Timoshenko's, of a beam n x n x 5 n cells clamped at one end. The load on the
-/// other is uniform: a quarter of a cell face's share to each of its corners. kappa = 10 (1 + nu) / (12 + 11 nu).
+/// Returns the mean deflection of the tip face over Timoshenko's, of a beam n x n x 5 n cells clamped at one end. The
+/// load on the other is uniform: a quarter of a cell face's share on each of its corners. kappa = 10 (1 + nu) / (12 +
+/// 11 nu).
 double tipOverTimoshenko(int n) {
   const Body body = standing(unitBody({n, n, 5 * n}));
   const Model model = modelOf({body});
@@ -115,7 +116,7 @@ TEST(ReferenceOracle, ChainsHaveTheirFrequencies) {
 
 namespace {
 
-/// Of mu h = 1 and a mass of 1 kg.
+/// Compares plane waves in a body with mu h = 1 and a mass of 1 kg.
 void expectPlaneWaves(const Body& body, double kept) {
   const Model model = modelOf({body});
   const ReferenceSolver solver(model, Vector3d::Zero(), 1);
@@ -124,7 +125,7 @@ void expectPlaneWaves(const Body& body, double kept) {
   const double c_p = std::sqrt(2 + 2 * nu / (1 - 2 * nu)), c_s = 1;  // of springs h sqrt(3 k/m), h sqrt(k/m)
   const Eigen::SparseMatrix<double> stiffness = solver.stiffnessMatrix();
   for (double q : {0.3, 1.0, 2.5}) {
-    for (int axis : {0, 1}) {  // along and across the wave's way, x
+    for (int axis : {0, 1}) {  // along and across the direction of the wave, x
       Eigen::VectorXd wave = Eigen::VectorXd::Zero(solver.dofs());
       for (uint32_t slot : solver.active)
         wave[solver.dof(slot, axis)] = std::cos(q * (body.lattice.nodeAt(slot).x() - 2));
@@ -140,7 +141,7 @@ void expectPlaneWaves(const Body& body, double kept) {
 
 TEST(ReferenceOracle, PlaneWavesHaveTheirFrequencies) {
   constexpr double kSprings = 1e-6;  // float32 stiffness
-  constexpr double kLaw = 1e-5;      // the stiffness of cells is a difference of forces, to 1e-7 of its largest
+  constexpr double kLaw = 1e-5;      // the stiffness of cells is a difference of forces, to 1e-7 of its largest entry
   expectPlaneWaves(unitBody({4, 4, 4}), kSprings);
   for (double nu : {0.0, 0.25, 0.45}) expectPlaneWaves(unitLawBody({4, 4, 4}, nu), kLaw);
 }
@@ -162,7 +163,7 @@ TEST(ReferenceOracle, FiniteStretchHasTheTablesStrainAndStress) {
 }
 
 TEST(ReferenceOracle, TensionTestsGiveBackYoungsModulusAndPoissonsRatio) {
-  constexpr double kAsked = 1e-3;  // what issue 3 asks for; the strain of 1e-4 itself makes 1e-4
+  constexpr double kAsked = 1e-3;  // required by issue 3; the strain of 1e-4 itself causes 1e-4
   double worst = 0;
   const auto expectBack = [&](const Body& body, const Vector3i& cells) {
     const double strain = 1e-4, young = body.material.young_modulus_pa, nu = body.material.poisson_ratio;
@@ -210,7 +211,7 @@ TEST(ReferenceStatics, SaysSoWhenAMotionIsLeftFree) {
 TEST(ReferenceStatics, SaysSoWhenThereIsNoEquilibrium) {
   const Body body = unitBody({2, 1, 1});
   const Model model = modelOf({body});
-  ReferenceSolver solver(model, Vector3d(0, 0, -1), 1);  // nothing holds it
+  ReferenceSolver solver(model, Vector3d(0, 0, -1), 1);  // nothing fixes it
   EXPECT_THROW(solveStatics(solver, {}), ConvergenceError);
 }
 

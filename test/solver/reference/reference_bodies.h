@@ -9,31 +9,31 @@
 
 namespace viscera::test {
 
-/// Springs without drag and dashpot.
+/// Returns a material of springs without drag and dashpot.
 inline MaterialConfig undamped(double young_modulus_pa, double density_kg_per_m3, Weights weights) {
   MaterialConfig material;
   material.young_modulus_pa = young_modulus_pa;
   material.density_kg_per_m3 = density_kg_per_m3;
-  material.drag_per_s = material.dashpot_ratio = 0;
+  material.mass_damping_per_s = material.stiffness_damping_ratio = 0;
   material.weights = weights;
   return material;
 }
 
-/// Springs without drag and dashpot, k = h = 1 and a cell of 1 kg; exact in float32.
+/// Returns a box of springs without drag and dashpot, k = h = 1 and a cell of 1 kg; exact in float32.
 inline Body unitBody(const Vector3i& cells) {
   Body body = boxBody(cells, 1.0);
   body.material = undamped(2.5, 1, Weights::kCell);
   return body;
 }
 
-/// The same of cells of the neo-Hookean law: mu = 1.
+/// Returns the same with cells of the neo-Hookean law: mu = 1.
 inline Body unitLawBody(const Vector3i& cells, double poisson_ratio) {
   Body body = ofLaw(unitBody(cells), poisson_ratio);
   body.material.young_modulus_pa = 2 * (1 + poisson_ratio);
   return body;
 }
 
-/// Chain of unit masses and unit springs along z.
+/// Returns a chain of unit masses and unit springs along z.
 inline Body unitChain(int count) {
   Body body = chainBody(count, 1.0);
   body.material = unitBody({1, 1, 1}).material;
@@ -60,7 +60,7 @@ inline Field randomField(const ReferenceLattice& lattice, double size, uint32_t 
   return out;
 }
 
-/// A body of two parts whose cells differ in everything; some cells are missing.
+/// Returns a body of two parts with cells that differ in all parameters; some cells are missing.
 inline Body patchworkBody(Weights weights = Weights::kCell) {
   Solid solid;
   solid.spacing_m = 0.5;

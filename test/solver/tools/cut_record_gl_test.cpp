@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Lattices remember where their axial springs were cut (HostState::axial_cut).
+// Lattices record where their axial springs were cut (HostState::axial_cut).
 #include "solver/network_rig.h"
 #include "support/random_state.h"
 #include "support/solver_rig.h"
@@ -13,10 +13,10 @@ namespace {
 constexpr double kSpacing_m = 0.01;
 constexpr int kSubsteps = 20;
 constexpr double kBlade_m = 0.2;
-constexpr double kLeastShare = 0.02;  // as in blade.glsl: nearer to an end no cut is noted
+constexpr double kLeastShare = 0.02;  // as in blade.glsl: a cut nearer to an end is not recorded
 // In spacings: float32 positions of 0.1 m (6e-9 m) and vectors of 0.2 m from the blade's tip (1.2e-8 m), a few of them.
 constexpr double kOnPlane = 1e-4;
-constexpr double kUndecided_m = 1e-6;  // nodes nearer to the plane may be taken to lie on either side of it
+constexpr double kUndecided_m = 1e-6;  // nodes nearer to the plane may count as on either side
 
 StylusConfig stylusConfig() {
   StylusConfig config;
@@ -27,7 +27,7 @@ StylusConfig stylusConfig() {
   return config;
 }
 
-/// A blade down along -z of its own axes that sweeps from one place to the other, in these axes about the middle.
+/// A blade along -z of its own axes that sweeps from one position to the other, in these axes about the middle.
 struct Sweep {
   Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
   Vector3d from_m, to_m;
@@ -44,7 +44,7 @@ struct Sweep {
   }
 };
 
-/// Along y through the whole body, `beside_m` from its middle.
+/// Returns a sweep along y through the whole body, `beside_m` from its middle.
 Sweep turned(const Vector3d& degrees, double beside_m) {
   Sweep out;
   out.turn = rotationFromDegrees(degrees);
@@ -71,7 +71,7 @@ class CutRecords : public BesideReference {
       }
     }
   }
-  /// Springs have noted a cut, and only those, that are cut; of a body's slots nothing else has.
+  /// Expects a record for all cut springs and for nothing else, in the slots of a body.
   void expectOfCutSprings(const HostState& state) const {
     ASSERT_EQ(state.axial_cut.size(), 3 * model_.slots());
     size_t noted = 0, cut = 0;
@@ -121,7 +121,7 @@ TEST_P(CutRecords, EveryCrossedSpringSaysWhereThePlaneOfTheBladeIs) {
   }
 }
 
-/// Of a blade that hardly moves, the sweep is a sliver: its plane must not be lost in the rounding of a cross product.
+/// The sweep of a blade that hardly moves is a sliver: its plane must not be lost in the rounding of a cross product.
 TEST_P(CutRecords, ABladeThatHardlyMovesIsNotedAsWell) {
   constexpr double kShare = 0.37;
   const auto slot = static_cast<uint32_t>(lattice().slotAt({3, 3, 3}));
@@ -131,8 +131,8 @@ TEST_P(CutRecords, ABladeThatHardlyMovesIsNotedAsWell) {
       reset();
       Sweep sweep = turned(angles, 0);
       sweep.middle_m += kShare * kSpacing_m * Vector3d::Unit(axis);
-      // 1e-5 m in a substep, across the spring in the eleventh, a fifth of the way into it: there the sweep is the
-      // triangle of two blades.
+      // 1e-5 m in a substep, across the spring in the eleventh, a fifth of the substep after its start: there the sweep
+      // is the triangle of two blades.
       sweep.from_m.y() = -1.02e-4;
       sweep.to_m.y() = 0.98e-4;
       tick(sweep);
@@ -207,7 +207,7 @@ TEST_P(CutRecords, WrittenStateBringsThemWithIt) {
   EXPECT_EQ(record(), cut.axial_cut);
   HostState whole = cut;
   whole.axial_cut.clear();
-  EXPECT_EQ(stateHash(model_, whole), stateHash(model_, cut));  // what is known of a cut changes no motion
+  EXPECT_EQ(stateHash(model_, whole), stateHash(model_, cut));  // the record of a cut does not affect the motion
   solver_->writeState(whole);
   EXPECT_EQ(record(), std::vector<float>(3 * model_.slots()));
 }
@@ -265,12 +265,12 @@ TEST_P(CutRecords, ExplicitLatticesHaveTheSame) {
   }
 }
 
-/// Nodes outside of their tissue: whether a spring is cut, the tissue says; where, the nodes.
+/// Nodes outside their tissue: the tissue decides whether a spring is cut, the nodes where.
 TEST_P(CutRecords, WhereCellsArePartlyFilledTheyAreOfTheNodes) {
   Scene scene;
   scene.bodies.emplace_back();
   scene.bodies[0].source = TissueSource::kBox;
-  scene.bodies[0].box_size_m = {0.06, 0.06, 0.0573};  // its upper nodes lie outside, about the origin
+  scene.bodies[0].box_size_m = {0.06, 0.06, 0.0573};  // its upper nodes are outside, about the origin
   scene.bodies[0].spacing_m = kSpacing_m;
   use(buildModel(scene));
   size_t outside = 0;
@@ -284,7 +284,7 @@ TEST_P(CutRecords, WhereCellsArePartlyFilledTheyAreOfTheNodes) {
     expectLikeTheReference();
     const std::vector<float> shares = record();
     forEachAxialSpring([&](size_t at, uint32_t slot, uint32_t) {
-      outside += shares[at] != 0 && !reference_->wayToSurface(reference_->u_m, slot).isZero();
+      outside += shares[at] != 0 && !reference_->offsetToSurface(reference_->u_m, slot).isZero();
     });
   }
   EXPECT_GT(outside, 50u);
@@ -306,7 +306,7 @@ TEST_P(CutRecords, OfTwoBodiesAreEachOnesOwn) {
 
 TEST_P(CutRecords, CutsOfATickThatIsTakenBackStayWithWhatIsKnownOfThem) {
   Scene scene = sceneFor(model_, kSubsteps, styluses_);
-  scene.solver.governor = true;
+  scene.solver.stability_monitor = true;
   scene.solver.dt_fraction = scene.solver.dt_fraction_strained = 10;
   scene.solver.tick_hz /= 20;
   SolverOptions unstable;
@@ -330,7 +330,7 @@ TEST_P(CutRecords, AreNotMadeWhereNoToolCuts) {
   for (StylusConfig& config : styluses_) config.idle = config.button1 = config.button2 = ToolMode::kProbe;
   use(model_);
   EXPECT_TRUE(record().empty());
-  tick(turned({0, 0, 0}, 0.0037));  // asked for all the same, it gives the cut, without a record
+  tick(turned({0, 0, 0}, 0.0037));  // requested nevertheless, it returns the cut, without a record
   EXPECT_TRUE(record().empty());
   CutState cuts;
   EXPECT_TRUE(solver_->readCuts(cuts));

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Pieces that nothing holds come to lie where solver.sleep_distance_m ends, whatever pushes them.
+// Isolated pieces come to rest at solver.sleep_distance_m, whatever pushes them.
 #include "math/float_bits.h"
 #include "solver/reference/reference_ticks.h"
 #include "support/loose_cloth.h"
@@ -14,8 +14,8 @@ using namespace viscera::test;
 namespace {
 
 constexpr double kSleep_m = 0.05;
-constexpr double kBeyond_m = 1e-4;  ///< a node is stopped in the substep that takes it there
-constexpr double kTime_s = 2;       ///< of which a tenth would do to get there
+constexpr double kBeyond_m = 1e-4;  ///< a node is stopped in the substep in which it gets there
+constexpr double kTime_s = 2;       ///< a tenth of it is enough to get there
 
 class Fragments : public OnSolver {
  protected:
@@ -39,7 +39,7 @@ class Fragments : public OnSolver {
       EXPECT_GT(xyz(state.displacement_m[slot]).norm(), 0.5 * kSleep_m);
     }
   }
-  std::unique_ptr<Ticks> solver_;
+  std::unique_ptr<TissueStepper> solver_;
 };
 
 INSTANTIATE_TEST_SUITE_P(Backends, Fragments, solversUnderTest({Integrator::kLeapfrog, Integrator::kPd}), solverSuffix);
@@ -75,10 +75,10 @@ TEST_P(Fragments, ThatSlideOffAnObstacleLieWhereTheySleep) {
 
 namespace {
 
-constexpr double kStep_m = 0.002, kWay_m = 2 * kSleep_m;  ///< of a hand, per tick and in all
+constexpr double kStep_m = 0.002, kWay_m = 2 * kSleep_m;  ///< displacement of a stylus, per tick and in total
 constexpr double kFloat_m = 1e-7;                         ///< float32 of kWay_m, a few times
 
-/// A block that a hand holds by all its nodes and carries along x.
+/// Returns a block that a stylus holds by all its nodes and carries along x.
 Scene carryingScene(const Model& model, double sleep_m) {
   StylusConfig stylus;
   stylus.grab.radius_m = 0.1;  // all of it
@@ -99,7 +99,7 @@ class HeldFragments : public OnSolver {
  protected:
   struct Carried {
     HostState state;
-    Vector3d given_n_s{0, 0, 0};  ///< to the tissue by the hand
+    Vector3d given_n_s{0, 0, 0};  ///< momentum that the stylus gave the tissue
   };
   Carried carried(const Model& model, double sleep_m) const {
     const auto solver = make(model, carryingScene(model, sleep_m));
@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, HeldFragments,
 
 }  // namespace
 
-/// Where fragments come to lie is nothing to a hand: neither to where it takes them nor to what it feels.
+/// The sleep distance does not affect held fragments: neither their motion nor the force on the stylus.
 TEST_P(HeldFragments, GoWithTheHandBeyondWhereTheyWouldSleep) {
   const Model model = modelOf({boxBody({2, 2, 2}, 0.01)});
   const Carried near = carried(model, 1e6), far = carried(model, kSleep_m);

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What surrounds held nodes is felt by the tool that holds them: momentum is kept.
+// External effects on held nodes act on the tool that holds them: momentum is conserved.
 #include "support/loose_cloth.h"
 #include "support/momentum.h"
 #include "support/solver_rig.h"
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kHeldReactionSpacing_m = 0.01;
 constexpr int kNodes = 6;  ///< along an edge of a cloth
-/// Of what is given: sums of float32 over some thousand contacts.
+/// Of the exchanged momentum: float32 sums over some thousand contacts.
 constexpr double kRounding = 1e-4;
 
 StylusConfig wideGrip() {
@@ -30,7 +30,7 @@ ToolMotions holding(bool begins) {
 
 class HeldReaction : public OnSolver {
  protected:
-  /// Holds a cloth that lies in z = 0 with all its nodes, in place.
+  /// Holds a cloth in z = 0 with all its nodes, in place. Returns the momentum given by the tool.
   Vector3d given(const Model& model, const Scene& scene, const HostState& state, int ticks) {
     solver_ = make(model, scene);
     solver_->writeState(state);
@@ -43,7 +43,7 @@ class HeldReaction : public OnSolver {
     EXPECT_EQ(stats.grabbed[0], static_cast<uint32_t>(kNodes * kNodes));
     return sum;
   }
-  std::unique_ptr<Ticks> solver_;
+  std::unique_ptr<TissueStepper> solver_;
 };
 
 INSTANTIATE_TEST_SUITE_P(Backends, HeldReaction, solversUnderTest({Integrator::kLeapfrog, Integrator::kPd}),

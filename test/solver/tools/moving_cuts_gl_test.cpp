@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Blades and lattices that move at the same time: a cut goes along the blade's way as springs see it, and nodes keep
-// the side on which it met them.
+// Blades and lattices that move at the same time: a cut follows the blade's path relative to the springs, and nodes
+// keep the side on which the blade met them.
 #include "support/random_state.h"
 #include "support/solver_rig.h"
 
@@ -11,10 +11,11 @@ using namespace viscera::test;
 namespace {
 
 constexpr double kMovingCutsSpacing_m = 0.01;
-// Of where a spring is cut: float32 positions of 0.1 m (6e-9 m) over springs of 1 cm, at a slant, after some substeps.
+// Of the position of a cut on a spring: float32 positions of 0.1 m (6e-9 m) over springs of 1 cm, at an angle, after
+// some substeps.
 constexpr double kShare = 1e-4;
 
-/// A blade down along -z over the body's whole height.
+/// Returns a blade along -z over the body's whole height.
 StylusMotion blade(const Vector3d& from, const Vector3d& to) {
   return motionOf(ToolMode::kCut, from, to);
 }
@@ -24,16 +25,17 @@ class MovingCuts : public BesideReference {
   MovingCuts() : BesideReference(20, wideTools()) { use(modelOf({freeBox()})); }
   static Body freeBox() {
     Body body = boxBody({6, 6, 6}, kMovingCutsSpacing_m);
-    body.material.drag_per_s = body.material.dashpot_ratio = 0;
+    body.material.mass_damping_per_s = body.material.stiffness_damping_ratio = 0;
     return body;
   }
-  /// The whole body moves by so much in a tick, and no force acts.
+  /// Returns a state in which the whole body moves by that displacement in a tick, without forces.
   HostState drifting(const Vector3d& way_m) const {
     HostState state = restState(model_);
     for (const uint32_t slot : lattice().active_slots) state.velocity_m_per_s[slot] = vec4(way_m / tick_s());
     return state;
   }
-  /// Both ends of every spring agree with each other and with the reference, and so does where it was cut.
+  /// Expects that both ends of every spring agree with each other and with the reference, and that the positions of
+  /// cuts do.
   void expectLikeTheReference() const {
     const HostState state = solver_->readState();
     for (const uint32_t slot : lattice().active_slots) {
@@ -55,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, MovingCuts, ::testing::ValuesIn(backendNames(
 
 }  // namespace
 
-/// The sweeps of two substeps leave room between them unless each is taken as its spring sees it.
+/// The sweeps of two substeps have a gap between them unless each is taken relative to its spring.
 TEST_P(MovingCuts, BladeMissesNoSpringThatComesTowardsIt) {
   const double x_m = 0.0137;
   write(drifting({0, -0.1, 0}));  // half a spacing in a substep
@@ -72,7 +74,7 @@ TEST_P(MovingCuts, BladeMissesNoSpringThatComesTowardsIt) {
   }
 }
 
-/// A blade has no edge of its own: only along its way it cuts.
+/// A blade cuts only along its path.
 TEST_P(MovingCuts, TissueThatSwaysAgainstABladeAtRestStaysWhole) {
   const Vector3d tip(0.0137, 0.0251, 0.16);
   write(drifting({0.006, 0.006, 0}));
@@ -81,7 +83,7 @@ TEST_P(MovingCuts, TissueThatSwaysAgainstABladeAtRestStaysWhole) {
   EXPECT_EQ(reference_->springs_cut, 0u);
 }
 
-/// A layer of nodes sways across the blade's way while the blade goes along it: each loses springs to one side.
+/// A layer of nodes moves across the blade's path while the blade moves along it: each loses springs on one side.
 TEST_P(MovingCuts, NodesKeepTheSideOnWhichTheBladeMetThem) {
   write(drifting({0.001, 0, 0}));  // the layer at 0.02 is in the plane when the blade is half way through
   tick({blade({0.0205, -0.0093, 0.16}, {0.0205, 0.0701, 0.16}), {}});
@@ -105,7 +107,7 @@ TEST_P(MovingCuts, NodesKeepTheSideOnWhichTheBladeMetThem) {
 
 TEST_P(MovingCuts, ABladeThatGoesWithTheTissueCutsNothing) {
   write(drifting({0, 0.006, 0}));
-  tick({});  // what they did before is known from the second tick on
+  tick({});  // their previous motion is known from the second tick on
   tick({blade({0.0137, 0.0322, 0.16}, {0.0137, 0.0382, 0.16}), {}});  // 0.1 mm behind diagonals
   expectLikeTheReference();
   EXPECT_EQ(reference_->springs_cut, 0u);

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Styluses and the governor on explicit connections (VR05 2.7, physics.md 3, 5).
+// Styluses and the stability monitor on explicit connections (VR05 2.7, physics.md 3, 5).
 #include "solver/network_rig.h"
 #include "support/solver_rig.h"
 
@@ -9,18 +9,19 @@ using namespace viscera::test;
 
 namespace {
 
-// Of where a blade crosses a spring: float32 positions of 0.1 m (6e-9 m) over springs of 1 cm, at a slant.
+// Of the position at which a blade crosses a spring: float32 positions of 0.1 m (6e-9 m) over springs of 1 cm, at an
+// angle.
 constexpr double kFraction = 1e-4;
-// A cut is noted no nearer to an end than this share of the spring (kLeastShare of blade.glsl).
+// A cut is recorded no nearer to an end than this share of the spring (kLeastShare of blade.glsl).
 constexpr double kNetworkToolsLeastShare = 0.02;
 constexpr int kNetworkToolsSubsteps = 10;
 
-/// A blade down along -z that sweeps along y in the plane x = `x_m`.
+/// Returns a blade along -z that sweeps along y in the plane x = `x_m`.
 StylusMotion sweep(double x_m, ToolMode mode = ToolMode::kCut) {
   return motionOf(mode, {x_m, -0.2, 0.1}, {x_m, 0.2, 0.1});
 }
 
-/// A cloth of 13 x 13 nodes in z = 0 that is held at its corners.
+/// A cloth of 13 x 13 nodes in z = 0, fixed at its corners.
 class ToolsOnNetwork : public BesideReference {
  protected:
   ToolsOnNetwork() : BesideReference(kNetworkToolsSubsteps, wideTools()) {
@@ -28,7 +29,8 @@ class ToolsOnNetwork : public BesideReference {
     fixNearest(cloth, {{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}, {1, 1, 0}});
     use(modelOf({cloth}));
   }
-  /// Every spring is whole or cut, and cut at the same place, as in the reference; so are valences.
+  /// Expects that every spring is whole or cut, and cut at the same position, as in the reference, and the same
+  /// valences.
   void expectSameCuts() {
     const HostState state = solver_->readState();
     const std::vector<float>& truth = reference_->spring_cut;
@@ -71,7 +73,7 @@ TEST_P(ToolsOnNetwork, ProbeDentsAndIsToldTheMomentumLikeTheReference) {
 }
 
 TEST_P(ToolsOnNetwork, ThinProbeBetweenNodesDentsLikeTheReference) {
-  styluses_[0].probe.radius_m = 0.003;  // of 10 mm between nodes
+  styluses_[0].probe.radius_m = 0.003;  // spacing of nodes 10 mm
   use(Model(model_));
   for (int t = 0; t < 8; ++t) {
     const double z = 0.0035 - 0.0004 * t;
@@ -83,14 +85,14 @@ TEST_P(ToolsOnNetwork, ThinProbeBetweenNodesDentsLikeTheReference) {
   EXPECT_GE(s.touched[0], 2u);
 }
 
-/// Springs against bending span two others: nothing is there between their ends.
+/// Springs against bending span two others: there is no tissue along them.
 TEST_P(ToolsOnNetwork, ProbesDoNotMeetSpringsAgainstBending) {
   styluses_[0].probe.radius_m = 0.003;
   use(modelOf({clothBody(5, 5, 0.01, 0.1)}));
   const auto& springs = body().network->springs;
   const auto spring = std::find_if(springs.begin(), springs.end(), [](const auto& s) { return s.against_bending; });
   ASSERT_NE(spring, springs.end());
-  // Between the ends of one that the cloth has been folded away from.
+  // Between the ends of one, away from which the cloth has been folded.
   const Vector3d a = body().network->positions_m[spring->a], b = body().network->positions_m[spring->b];
   const Vector3d middle = 0.5 * (a + b);
   HostState state = solver_->readState();
@@ -146,9 +148,10 @@ TEST_P(ToolsOnNetwork, BladeCutsTheSpringsItCrossesFromBothEndsAndNotesWhere) {
   EXPECT_EQ(stats().springs_cut, crossing);
 }
 
-/// Where springs move, the sweeps of two substeps leave room between them unless each is taken as its spring sees it.
+/// Where springs move, the sweeps of two substeps have a gap between them unless each is taken relative to its spring.
 TEST_P(ToolsOnNetwork, BladeMissesNoSpringThatComesTowardsIt) {
-  const double x_m = 0.0013, way_m = 0.01;  // of the blade's plane; of the cloth in a substep, the blade goes 0.04
+  const double x_m = 0.0013, way_m = 0.01;  // offset of the blade's plane; displacement of the cloth in a substep, in
+                                            // which the blade moves 0.04
   use(modelOf({undamped(clothBody(13, 13, 0.01))}));
   HostState state = restState(model_);
   for (uint32_t slot : reference_->active) state.velocity_m_per_s[slot] = vec4({0, -way_m / solver_->dt_s(), 0});
@@ -210,7 +213,7 @@ TEST_P(ToolsOnNetwork, ErasedNodesAreAloneAndRest) {
 TEST_P(ToolsOnNetwork, SeveredHalvesExertNoForceOnEachOther) {
   tickWith(sweep(0.0037));
   HostState state = solver_->readState();
-  for (uint32_t slot : body().lattice.active_slots) {  // the half beyond the cut goes away by a centimetre
+  for (uint32_t slot : body().lattice.active_slots) {  // the half beyond the cut moves away by a centimetre
     state.velocity_m_per_s[slot] = {};
     state.displacement_m[slot] = {};
     if (restPosition(body(), slot).x() > 0.0037) state.displacement_m[slot].x = 0.01f;
@@ -227,7 +230,7 @@ TEST_P(ToolsOnNetwork, SeveredHalvesExertNoForceOnEachOther) {
   }
 }
 
-/// Of the squared distance float32 makes an infinity, of which nothing may be left, not even times no stiffness.
+/// The squared distance is infinite in float32. It must have no effect, not even times zero stiffness.
 TEST_P(ToolsOnNetwork, SeveredHalvesDoNotSpoilEachOtherHoweverFarApart) {
   tickWith(sweep(0.0037));
   HostState state = solver_->readState();
@@ -253,7 +256,7 @@ TEST_P(ToolsOnNetwork, CutClothMovesLikeTheReference) {
   motions[1].hold_begins = true;
   tick(motions);
   motions[0] = sweep(0.0037);
-  motions[0].from.position_m.y() -= 0.003;  // so that no substep ends with the blade on a row of nodes
+  motions[0].from.position_m.y() -= 0.003;  // so no substep ends with the blade on a row of nodes
   motions[1] = motionOf(ToolMode::kGrab, {-0.03, 0, 0.004}, {-0.03, 0, 0.01});
   tick(motions);
   expectSameCuts();
@@ -292,14 +295,14 @@ TEST_P(ToolsOnNetwork, BladeAtRestCutsNothing) {
 
 TEST_P(ToolsOnNetwork, NodesDraggedToNoPlaceAtAllAreRolledBack) {
   Scene scene = sceneFor(model_, kNetworkToolsSubsteps, styluses_);
-  scene.solver.governor = true;
+  scene.solver.stability_monitor = true;
   expectNoPlaceIsRolledBack(*make(model_, scene), model_);
 }
 
 TEST_P(ToolsOnNetwork, ExplosionIsRolledBackAndRecoveredFrom) {
-  constexpr double kEnergyBound = 1.01;  // of the start's energy, at the end of any tick
+  constexpr double kEnergyBound = 1.01;  // of the initial energy, at the end of any tick
   Scene scene = sceneWith(Integrator::kLeapfrog, model_, 10, 10);
-  scene.solver.governor = true;
+  scene.solver.stability_monitor = true;
   SolverOptions unstable;
   unstable.allow_unstable = true;
   const auto solver = make(model_, scene, unstable);

@@ -4,7 +4,7 @@
 
 #include "solver/reference/reference_ticks.h"
 #include "support/backends.h"
-#include "viscera/tools/hands.h"
+#include "viscera/tools/tools.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -16,7 +16,7 @@ constexpr int kSuctionSubsteps = 20, kSuctionTicks = 30;
 constexpr double kPull_m = 2e-4;  // per tick
 const Vector3d kTop_m(0.03, 0.03, 0.06);
 
-/// A block on a table, and a stylus that sucks at the middle of its top with button 1.
+/// A block on a table, and a stylus with suction at the middle of its top by button 1.
 class Suction : public OnBackend {
  protected:
   Suction() : model_(modelOf({boxBody({6, 6, 6}, 0.01)})) {
@@ -33,7 +33,7 @@ class Suction : public OnBackend {
     stylus.suction.max_force_n = max_force_n;
     return sceneFor(model_, kSuctionSubsteps, {stylus});
   }
-  /// What the hand does in a tick: button 1 pressed, pulling upwards.
+  /// Returns the stylus in a tick: button 1 pressed, pulling upwards.
   static StylusSamples pull(int tick, bool pressed = true) {
     StylusSamples samples;
     samples[0].valid = true;
@@ -41,7 +41,7 @@ class Suction : public OnBackend {
     samples[0].button1 = pressed;
     return samples;
   }
-  /// Force on the stylus in each tick of a pull that nothing limits [N].
+  /// Returns the force on the stylus in each tick of a pull without limit [N].
   std::vector<double> forces() const {
     const Scene scene = sceneWith(1e3);
     ReferenceTicks reference(model_, scene);
@@ -53,7 +53,7 @@ class Suction : public OnBackend {
     }
     return out;
   }
-  /// A limit that the pull exceeds for the first time after `tick` [N], clear of roundings.
+  /// Returns a limit that the pull exceeds for the first time after `tick` [N], with a margin over rounding.
   double limitThatGivesWayIn(int& tick) const {
     const std::vector<double> force = forces();
     const double half = 0.5 * *std::max_element(force.begin(), force.end());
@@ -113,7 +113,7 @@ TEST_P(Suction, WithoutAForceAboveItsLimitItHoldsLikeAGrab) {
 TEST_P(Suction, HoldsNothingAfterItLetGoUntilTheButtonIsPressedAgainEvenUnderTheGovernor) {
   int last = 0;
   Scene scene = sceneWith(limitThatGivesWayIn(last));
-  scene.solver.governor = true;
+  scene.solver.stability_monitor = true;
   const auto solver = make(model_, scene);
   Tools hands(scene.styluses);
   for (int t = 0; t < kSuctionTicks; ++t) solver->step(hands.advance(pull(t)));

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies whose cells are tissue in part are cut and held where their tissue is, not at the nodes outside of it.
+// Bodies with partially filled cells are cut and held at their tissue, not at the nodes outside it.
 #include "math/decompositions.h"
 #include "support/random_state.h"
 #include "support/solver_rig.h"
@@ -11,7 +11,7 @@ using namespace viscera::test;
 namespace {
 
 constexpr double kSurfaceToolsSpacing_m = 0.01;
-constexpr double kSurfaceToolsTop_m = 0.5 * 0.0273;  // of the body's surface; the nodes above it lie 2.7 mm higher
+constexpr double kSurfaceToolsTop_m = 0.5 * 0.0273;  // height of the surface; nodes above it are 2.7 mm higher
 constexpr double kSurfaceToolsBlade_m = 0.2;
 
 class SurfaceTools : public OnBackend {};
@@ -33,14 +33,14 @@ BodyConfig boxConfig(const Vector3d& size_m) {
   return config;
 }
 
-/// A box of 3 x 3 x 2.73 cells about the origin.
+/// Returns a box of 3 x 3 x 2.73 cells about the origin.
 Model slab() {
   Scene scene;
   scene.bodies = {boxConfig({0.03, 0.03, 0.0273})};
   return buildModel(scene);
 }
 
-/// The state in which the whole body is turned about the origin, at rest.
+/// Returns the state in which the whole body is turned about the origin, at rest.
 HostState turnedState(const Model& model, const Eigen::Matrix3d& turn) {
   const Lattice& lattice = model.bodies[0].lattice;
   HostState state;
@@ -53,7 +53,7 @@ HostState turnedState(const Model& model, const Eigen::Matrix3d& turn) {
   return state;
 }
 
-/// One sweep from `from` to `to`, the blade along `along`, all turned with the body.
+/// Returns one sweep from `from` to `to`, with the blade along `along`, all turned with the body.
 ToolMotions sweep(const Eigen::Matrix3d& turn, const Vector3d& from, const Vector3d& to, const Vector3d& along) {
   ToolMotions out = tool(ToolMode::kCut, turn * from, turn * to);
   out[0].from.orientation = out[0].to.orientation = rotationBetween(-Vector3d::UnitZ(), turn * along);
@@ -65,7 +65,7 @@ struct Cuts {
   uint32_t backend, reference;
 };
 
-Cuts cutsOf(const Model& model, const std::unique_ptr<Ticks>& solver, const HostState& state,
+Cuts cutsOf(const Model& model, const std::unique_ptr<TissueStepper>& solver, const HostState& state,
             const ToolMotions& motions) {
   solver->reset();
   HostState start = solver->readState();
@@ -78,7 +78,7 @@ Cuts cutsOf(const Model& model, const std::unique_ptr<Ticks>& solver, const Host
   return {lastStats(*solver).springs_cut, static_cast<uint32_t>(reference.springs_cut)};
 }
 
-/// Springs between nodes at rest with y below and above 0.
+/// Returns the number of springs between nodes with rest positions y below and above 0.
 uint32_t springsAcross(const Model& model) {
   const Lattice& lattice = model.bodies[0].lattice;
   uint32_t out = 0;
@@ -126,7 +126,7 @@ TEST_P(SurfaceTools, ABladeInTheAirCutsNothing) {
 }
 
 TEST_P(SurfaceTools, RandomSweepsCutAsTheReferenceDoes) {
-  constexpr double kRounded = 0.02;  // of the springs: ways to the surface are kept to 1/256 of a cell
+  constexpr double kRounded = 0.02;  // of the springs: displacements to the surface are stored to 1/256 of a cell
   Scene scene;
   scene.bodies = {boxConfig({0.052, 0.043, 0.037})};
   scene.bodies[0].rotation_deg = {20, 35, 10};

@@ -7,7 +7,7 @@
 namespace viscera {
 namespace {
 
-struct Asked : ToolTarget {
+struct Asked : ToolPort {
   int cuts = 0;
   void takeHold(uint32_t, const Pose&, double) override {}
   void letGo(uint32_t, const Release&) override {}

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/solver_rig.h"
-#include "viscera/tools/hands.h"
+#include "viscera/tools/tools.h"
 
 using namespace viscera;
 using namespace viscera::test;
@@ -48,7 +48,7 @@ TEST_P(ToolsOnTissue, ProbeDentsLikeTheReference) {
   EXPECT_LT(lowest, -0.004);
 }
 
-/// A tip of 0.4 spacings in the middle between four nodes, and beside it, that no node comes near.
+/// A tip of 0.4 spacings in the middle between four nodes, and next to it, that touches no node.
 TEST_P(ToolsOnTissue, ThinProbeBetweenNodesDentsLikeTheReference) {
   styluses_[0].probe.radius_m = 0.004;
   for (const Vector3d& at : {Vector3d(0.035, 0.035, 0), Vector3d(0.035, 0.03, 0), Vector3d(0.0342, 0.0331, 0)}) {
@@ -97,7 +97,7 @@ TEST_P(ToolsOnTissue, ProbeThatJumpsLeavesNoNodeInsideIt) {
   do {
     motions = tools.advance(samples);
     tick(motions);
-  } while (motions[0].held_back);
+  } while (motions[0].speed_limited);
   const HostState state = solver_->readState();
   for (uint32_t slot : lattice().active_slots) {
     const Vector3d x = lattice().restPosition(slot) + xyz(state.displacement_m[slot]);
@@ -208,7 +208,7 @@ TEST_P(ToolsOnTissue, MasksStaySymmetricAndLikeTheReferenceAfterRandomCuts) {
       motions[s].to.orientation = rotationFromDegrees({angle(random), angle(random), angle(random)});
     }
     const HostState before = solver_->readState();
-    load(*reference_, before);  // each round starts from the same state: cuts must agree, not chaos after many of them
+    load(*reference_, before);  // each round starts from the same state: cuts must agree, not the chaos after many
     tick(motions);
     ASSERT_EQ(asymmetricSprings(lattice(), solver_->readState().nodes), 0u) << "after cut " << t;
   }
@@ -266,7 +266,7 @@ TEST_P(ToolsOnTissue, BladeAtRestCutsNothing) {
 TEST_P(ToolsOnTissue, SeveredSpringExertsNoForce) {
   tickWith(motionOf(ToolMode::kCut, {-0.02, 0.035, 0.16}, {0.08, 0.035, 0.16}));
   HostState state = solver_->readState();
-  for (uint32_t slot : lattice().active_slots) {  // the half beyond the cut goes away by a centimetre
+  for (uint32_t slot : lattice().active_slots) {  // the half beyond the cut moves away by a centimetre
     state.velocity_m_per_s[slot] = {};
     state.displacement_m[slot] = {};
     if (lattice().nodeAt(slot).y() >= 4) state.displacement_m[slot].y = 0.01f;

@@ -9,42 +9,45 @@
 
 namespace viscera {
 
-/// What E, nu and rho make of a cell of edge h (physics.md 1).
+/// Constants of a cell of edge h that follow from E, nu and rho (physics.md 1).
 struct Elasticity {
-  double spring_n_per_m;  ///< k = mu h of a full spring, axial or diagonal
-  double bulk_j;          ///< (lambda - mu) h^3: what Poisson's ratio differs by from that of springs, 0 at nu = 1/4
-  double rigidity_j;      ///< mu h^3
-  double cell_mass_kg;    ///< rho h^3
+  double spring_n_per_m;  ///< stiffness k = mu h of a full spring, axial or diagonal [N/m]
+  double bulk_j;      ///< (lambda - mu) h^3 [J]: the volume term beyond the springs' own Poisson's ratio, 0 at nu = 1/4
+  double rigidity_j;  ///< mu h^3 [J]
+  double cell_mass_kg;  ///< rho h^3 [kg]
 };
 Elasticity elasticity(double young_modulus_pa, double poisson_ratio, double density_kg_per_m3, double spacing_m);
 
-/// [1 + parts] of full cells, by label; label 0 has those of no part.
+/// Returns the constants of full cells by label, [1 + parts]; label 0 has those of cells without a part.
 /// @throws SceneError  as strengths()
 std::vector<Elasticity> elasticityByLabel(const Body& body);
 
-/// Strengths of a body whose cells differ, as assembled from them: what a count and a body-wide constant give
-/// elsewhere. A spring between cells of two parts gets from each what it gives: it is as stiff as the cells around it
-/// together. With `weights: paper` springs and masses are those of the mean of the cells around, at full count.
+/// Stiffness and mass of every spring and node of a body with cells that differ, assembled cell by cell. In other
+/// bodies a count and a body-wide constant give them. A spring between cells of two parts gets a share from each cell
+/// around it. With `weights: paper`, springs and masses use the mean of the cells around them, at full count.
 struct Strengths {
-  std::vector<float> spring_n_per_m;  ///< [9 * slots] of the spring 2 i of a node at 9 * slot + i
-  std::vector<float> mass_kg;         ///< [slots]
-  std::vector<float> bulk_j;          ///< [slots] of the cell whose lowest corner is the node; 0 in bodies of springs
-  std::vector<float> rigidity_j;      ///< [slots] likewise
+  std::vector<float> spring_n_per_m;  ///< [9 * slots] stiffness of spring 2 i of a node at 9 * slot + i [N/m]
+  std::vector<float> mass_kg;         ///< [slots] mass of the node [kg]
+  /// [slots] bulk_j of the cell that has the node as its lowest corner [J]; 0 in bodies of springs.
+  std::vector<float> bulk_j;
+  std::vector<float> rigidity_j;  ///< [slots] rigidity_j of that cell [J]; 0 in bodies of springs
 };
 constexpr uint32_t kSpringPairs = layout::kSpringsPerNode / 2;
 
-/// Do its cells differ: are there parts with elasticities of their own, cells that are tissue in part,
-/// or with a stress of their own?
+/// Returns whether the cells of the body differ: parts with elasticities of their own, partly filled cells, or a
+/// prestress.
 bool isHeterogeneous(const Body& body);
-/// @throws SceneError  a part that the body has not, or that stands twice
+/// Assembles the strengths of a heterogeneous body.
+/// @throws SceneError  a part that the body does not have, or that is listed twice
 Strengths strengths(const Body& body);
 
-/// Moments of the tissue in cells (Lattice::cell_fills and fills), weighed by its rigidity where a cell shares
-/// materials.
+/// Moments of the tissue in cells (Lattice::cell_fills and fills), weighted by rigidity where materials share a cell.
 struct CellMoments {
-  std::vector<uint32_t> of_cell;  ///< [slots] 0 those of a full cell, else 1 + index into fills; empty where all are 0
+  /// [slots] 0: moments of a full cell, else 1 + index into fills; empty where all are 0.
+  std::vector<uint32_t> of_cell;
   std::vector<CellFill> fills;
 };
+/// Returns the moments of the cells of a body.
 /// @throws SceneError  as strengths()
 CellMoments cellMoments(const Body& body);
 

@@ -14,47 +14,47 @@
 
 namespace viscera {
 
-/// Implicitly connected lattice of one body: nodes at the corners of the solid's cells, in 4x4x4 bricks.
+/// Lattice of one body, connected implicitly: nodes at the corners of the solid's cells, in bricks of 4x4x4.
 struct Lattice {
   double spacing_m = 0;
   Vector3d origin_m = Vector3d::Zero();  ///< rest position of node (0,0,0), tissue frame
   Vector3i nodes_per_axis = Vector3i::Zero();
-  std::vector<layout::Brick> bricks;    ///< [bricks] ordered by (z, y, x); body is 0 here
+  std::vector<layout::Brick> bricks;    ///< [bricks] ordered by (z, y, x); the body index is 0 here
   std::vector<layout::NodeBits> nodes;  ///< [64 * bricks] all-zero where no node is
-  std::vector<uint16_t> labels;         ///< [64 * bricks] 0 no node, else 1 + part of a cell around it
-  std::vector<uint16_t> cell_labels;    ///< [64 * bricks] of the cell whose lowest corner is the node: 0 none, else
-                                        ///< 1 + part
-  std::vector<CellFill> fills;          ///< of the cells that are tissue in part; empty where all are full
-  std::vector<uint32_t> cell_fills;     ///< [64 * bricks] of the cell whose lowest corner is the node: 0 full or none,
-                                        ///< else 1 + index into fills; empty where all are full
-  std::vector<PartFill> shared;         ///< of cells on the border of parts what each part has, ascending
-  /// [64 * bricks] how deep a node lies below the true surface at rest [m], negative outside, at most spacing_m; empty
-  /// where all cells are full. Exact for meshes and boxes, but too little where parts end within each other.
+  std::vector<uint16_t> labels;         ///< [64 * bricks] 0 no node, else 1 + the part of a cell around it
+  std::vector<uint16_t> cell_labels;  ///< [64 * bricks] label of the cell that has the node as its lowest corner: 0 no
+                                      ///< cell, else 1 + part
+  std::vector<CellFill> fills;        ///< fills of the partly filled cells; empty where all are full
+  std::vector<uint32_t> cell_fills;   ///< [64 * bricks] fill of the cell that has the node as its lowest corner: 0 full
+                                      ///< or no cell, else 1 + index into fills; empty where all are full
+  std::vector<PartFill> shared;       ///< what each part fills of the cells on the border of parts, ascending
+  /// [64 * bricks] depth of a node below the true surface at rest [m], negative outside, at most spacing_m; empty where
+  /// all cells are full. Exact for meshes and boxes, but too small where parts end within each other.
   std::vector<float> depth_m;
-  /// [64 * bricks] from a node outside of the true surface to the nearest point of it at rest [m], 0 of all others;
-  /// empty where all cells are full.
-  std::vector<Eigen::Vector3f> way_to_surface_m;
+  /// [64 * bricks] vector from a node outside the true surface to the nearest point of it at rest [m], 0 for all
+  /// others; empty where all cells are full.
+  std::vector<Eigen::Vector3f> offset_to_surface_m;
   std::vector<uint32_t> active_slots;  ///< [active] slots of nodes, ascending
   std::vector<std::string> part_names;
 
-  /// Slot of the node at integer coordinates, or -1 where there is none.
+  /// Returns the slot of the node at integer coordinates, or -1 where there is none.
   int64_t slotAt(const Vector3i& node) const;
-  /// Slot of the neighbour along a spring index, whether or not a spring is there; -1 where there is no node.
+  /// Returns the slot of the neighbour along a spring index, with or without a spring to it; -1 where there is no node.
   int64_t neighborSlot(uint32_t slot, uint32_t spring) const;
   Vector3i nodeAt(uint32_t slot) const;
-  Vector3d restPosition(uint32_t slot) const;  ///< [m], tissue frame
-  size_t springs() const;                      ///< each spring once
+  Vector3d restPosition(uint32_t slot) const;  ///< rest position [m], tissue frame
+  size_t springs() const;                      ///< number of springs, each counted once
 
-  std::unordered_map<uint64_t, uint32_t> brick_index;  ///< packed brick coordinates -> brick
+  std::unordered_map<uint64_t, uint32_t> brick_index;  ///< from packed brick coordinates to the index of the brick
 };
 
-/// How much of the cell whose lowest corner is the node is tissue, and where.
+/// Returns how much of the cell with this lowest corner is tissue, and where.
 inline CellFill fillOf(const Lattice& lattice, uint32_t lowest) {
   const uint32_t fill = lattice.cell_fills.empty() ? 0 : lattice.cell_fills[lowest];
   return fill == 0 ? CellFill{} : lattice.fills[fill - 1];
 }
 
-/// Calls visit(corner, slot) for the eight nodes of the cell whose lowest corner is at `lowest`.
+/// Calls visit(corner, slot) for the eight nodes of the cell with this lowest corner.
 template <class Visit>
 void forEachCorner(const Lattice& lattice, uint32_t lowest, Visit visit) {
   const Vector3i at = lattice.nodeAt(lowest);
@@ -64,7 +64,7 @@ void forEachCorner(const Lattice& lattice, uint32_t lowest, Visit visit) {
   }
 }
 
-/// Nodes of the solid's cells, weights assembled.
+/// Builds the nodes of the solid's cells and assembles their weights.
 /// @throws LatticeError  no filled cell
 Lattice buildLattice(const Solid& solid, Weights weights);
 

@@ -11,9 +11,8 @@
 
 namespace viscera {
 
-/// The 18 neighbours of a lattice node in the order of the spring index: six axial, then twelve face-diagonal.
-/// The opposite of spring s, seen from its other end, is s ^ 1. shaders/solver/tissue/lattice.glsl lists the same
-/// order.
+/// Offsets of the 18 neighbours of a lattice node, in the order of the spring index: six axial, then twelve
+/// face-diagonal. Spring s, seen from its other end, is s ^ 1. shaders/solver/tissue/lattice.glsl lists the same order.
 constexpr std::array<std::array<int, 3>, layout::kSpringsPerNode> kNeighborOffsets = {{
     {1, 0, 0},
     {-1, 0, 0},
@@ -42,10 +41,10 @@ constexpr bool isAxial(uint32_t spring) {
   return spring < layout::kAxialSprings;
 }
 
-/// Spring index of the neighbour at `offset` (components -1, 0, 1), or -1 where no spring joins the two.
+/// Returns the spring index of the neighbour at `offset` (components -1, 0, 1), or -1 where no spring joins the two.
 int springIndex(const Vector3i& offset);
 
-/// Strength of a spring as a small count: axial 0..4 quarters, diagonal 0..2 halves; 0 is cut or absent.
+/// Returns the strength of a spring as a small count: axial 0..4 quarters, diagonal 0..2 halves; 0: cut or absent.
 inline uint32_t springCount(const layout::NodeBits& bits, uint32_t spring) {
   return isAxial(spring) ? (bits.lo >> (3u * spring)) & 7u : (bits.hi >> (2u * (spring - 6u))) & 3u;
 }

@@ -4,34 +4,34 @@
 
 namespace viscera {
 
-// What the keys of a body choose among.
+// Values of the keys of a body.
 
 enum class TissueSource { kPhantom, kMesh, kBox, kSheet, kBall, kLabels };
 enum class Structure { kLattice, kExplicit, kSurface };
 enum class SkinSource { kAuto, kInput, kVolume };
-enum class Mapping { kAuto, kOneToOne, kConstant, kInterpolated, kAlongNormal };  ///< see docs/mappings.md
+enum class Mapping { kAuto, kOneToOne, kConstant, kInterpolated, kAlongNormal };  ///< see docs/surface.md
 enum class UpAxis { kZ, kY };
 enum class FixedShape { kBox, kSphere, kPlane, kPart };
-/// What of a mesh is tissue.
+/// Region of a mesh that is tissue.
 enum class Fill {
-  kParts,    ///< the inside of each of its parts
-  kEnclosed  ///< what all of them enclose together, gaps closed
+  kParts,    ///< inside of each of its parts
+  kEnclosed  ///< region that all parts enclose together, with gaps closed
 };
 
-/// What the cells of a lattice are made of (docs/physics.md 1).
+/// Law of a lattice's cells (docs/physics.md 1).
 enum class Law {
-  kAuto,       ///< what lawOf() (structure_rules.h) says
+  kAuto,       ///< the law that lawOf() (structure_rules.h) chooses
   kSprings,    ///< springs, as in VR05: Poisson's ratio is 1/4, cells are full or empty
-  kNeoHookean  ///< a hyperelastic energy per cell, of its deformation gradient; cells are tissue in part
+  kNeoHookean  ///< hyperelastic energy of each cell's deformation gradient; cells may be partly filled
 };
 
-/// Where cells in thin walls have their second derivatives along the lattice's axes from (physics.md 1, Thin walls).
+/// Source of the second derivatives of cells in thin walls along the lattice's axes (physics.md 1, Thin walls).
 enum class Walls {
-  kCells,  ///< from what their own corners show
-  kRows    ///< from rows of nodes
+  kCells,  ///< the cells' own corners
+  kRows    ///< rows of nodes
 };
 
-/// How spring and mass weights are assembled (physics.md 1).
+/// Rule by which weights of springs and masses are assembled (physics.md 1).
 enum class Weights {
   kCell,  ///< each solid cell adds k/4 to its edges, k/2 to its face diagonals, m/8 to its nodes
   kPaper  ///< every spring and every node counts in full (VR05)

@@ -10,10 +10,10 @@
 
 namespace viscera {
 
-/// Where the light comes from that a camera sees by.
+/// Light of a camera.
 enum class CameraLight {
-  kLamp,  ///< above the lens, as bright at any distance
-  kLens,  ///< at the lens, as an endoscope's: a cone that fades with the square of the distance
+  kLamp,  ///< above the lens, equally bright at any distance
+  kLens,  ///< at the lens, like an endoscope's: a cone that fades with the square of the distance
 };
 
 struct CameraConfig {
@@ -25,19 +25,20 @@ struct CameraConfig {
   int width_px = 640;
   int height_px = 480;
   double rate_hz = 30;
-  int supersampling = 0;  ///< 0: as the renderer bears, see Renderer
+  int supersampling = 0;  ///< samples per pixel along each axis; 0: as many as the renderer can afford, see Renderer
   Overlays overlays;
   double strain_range = 0.3;
   bool draw_hidden = false;
-  std::string frame;             ///< tf frame that carries it; empty: the tissue frame
-  double stereo_baseline_m = 0;  ///< 0: one eye
-  PlumbBob distortion;           ///< one line of sight per pixel, at most kFarthestSight times as far out
+  std::string frame;             ///< tf frame that the camera is mounted on; empty: the tissue frame
+  double stereo_baseline_m = 0;  ///< distance of the two eyes [m]; 0: one eye
+  /// Lens distortion; lines of sight are unique and reach at most kFarthestSight times as far out.
+  PlumbBob distortion;
   CameraLight light = CameraLight::kLamp;
   double light_cone_deg = 90;
   double contact_shadows = 0;
 };
 
-/// How far from the middle of the image a line of sight may be of what a lens shows there, over a pinhole's.
+/// Largest distance of a line of sight from the middle of a distorted image, over its distance in a pinhole image.
 constexpr double kFarthestSight = 2.5;
 
 }  // namespace viscera

@@ -25,30 +25,31 @@ struct EnvironmentConfig {
   std::string tissue_frame = "tissue";
   Vector3d tissue_position_m = Vector3d::Zero();
   Vector3d tissue_rotation_deg = Vector3d::Zero();
-  Vector3d scan_origin_m = Vector3d::Zero();  ///< of the tissue frame, in the frame of the scan that bodies are from
+  /// Origin of the tissue frame in the frame of the scan that bodies come from [m].
+  Vector3d scan_origin_m = Vector3d::Zero();
   WindConfig wind;
 };
 
-/// Bodies against themselves and each other.
+/// Contacts of bodies with themselves and with each other.
 struct CollisionConfig {
   bool enabled = false;
-  double distance_m = 0;  ///< 0: from the springs
+  double distance_m = 0;  ///< distance of contact [m]; 0: from the springs
   double friction = 0.3;
   double restitution = 0;
 };
 
-/// A rigid thing that nodes do not enter.
+/// Rigid object that nodes do not enter.
 struct ObstacleConfig {
   std::string name = "obstacle";
   ObstacleShape shape = ObstacleShape::kPlane;
   Vector3d position_m = Vector3d::Zero();
-  Vector3d rotation_deg = Vector3d::Zero();  ///< about fixed x, then y, then z
+  Vector3d rotation_deg = Vector3d::Zero();  ///< rotation about fixed x, then y, then z [deg]
   double radius_m = 0.02;
-  double length_m = 0.1;                           ///< capsule: between the centres of its ends, along its z
-  Vector3d size_m = Vector3d::Constant(0.05);      ///< box
-  Vector3d velocity_m_per_s = Vector3d::Zero();    ///< of its position, from the start on
-  Vector3d rotation_deg_per_s = Vector3d::Zero();  ///< rotation vector, tissue frame
-  std::string frame;                               ///< tf frame that carries it; empty: the tissue frame
+  double length_m = 0.1;                         ///< capsule: distance between the centres of its ends, along its z [m]
+  Vector3d size_m = Vector3d::Constant(0.05);    ///< box: edges [m]
+  Vector3d velocity_m_per_s = Vector3d::Zero();  ///< velocity of its position, from the start on [m/s]
+  Vector3d rotation_deg_per_s = Vector3d::Zero();  ///< rotation vector per second, tissue frame [deg/s]
+  std::string frame;  ///< tf frame that the obstacle is mounted on; empty: the tissue frame
   double friction = 0.3;
   double restitution = 0;
 };

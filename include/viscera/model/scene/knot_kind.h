@@ -10,30 +10,31 @@
 
 namespace viscera {
 
-/// What a sequence of throws makes.
+/// Knot that a sequence of throws makes.
 enum class KnotKind { kNone, kHalf, kDoubleHalf, kSquare, kGranny, kSurgeons, kSurgeonsGranny };
-/// As scenes and services write it.
+/// Names of knots in scenes and services.
 constexpr std::array<const char*, 7> kKnotNames = {"none",   "half",     "double_half",    "square",
                                                    "granny", "surgeons", "surgeons_granny"};
 constexpr const char* nameOf(KnotKind kind) {
   return kKnotNames[static_cast<size_t>(kind)];
 }
-/// @throws SceneError  there is no such knot; names those there are
+/// Returns the knot of this name.
+/// @throws SceneError  there is no such knot; lists the names
 KnotKind knotNamed(const std::string& name);
 
-/// What a tail of a thread is tied to.
+/// Object that a tail of a suture is tied to.
 enum class TieTo { kOtherTail, kStrand };
 
-/// A knot that no hand throws: the two tails of a thread, or one of them and a strand of the same thread, are brought
-/// together, drawn tight and tied (docs/thread.md 4).
-struct ThreadTie {
-  double at_s = 0;  ///< since the start or the last reset
+/// Knot that is tied without a tool. Two tails of a suture, or one tail and a strand of the same suture, are brought
+/// together, drawn tight and tied (docs/physics.md 14).
+struct SutureTie {
+  double at_s = 0;  ///< time since the start or the last reset [s]
   KnotKind knot = KnotKind::kSquare;
-  double tension_n = 0.1;  ///< to which its loop is drawn
-  double holds_n = 0;      ///< before it slips; 0: by knot and thread
+  double tension_n = 0.1;  ///< tension to which its loop is drawn [N]
+  double holds_n = 0;      ///< tension that it holds before it slips [N]; 0: by knot and suture
   TieTo to = TieTo::kOtherTail;
-  /// What runs outside of tissue nearest to this place is the strand, and the tail that is nearer along the thread is
-  /// tied to it.
+  /// Position [m] that selects the strand: the nearest piece of the suture outside tissue. The tail that is nearer
+  /// along the suture is tied to it.
   Vector3d strand_m = Vector3d::Zero();
 };
 

@@ -8,24 +8,25 @@
 
 namespace viscera {
 
-/// How what stands around one organ follows when another takes its place: places from box to box, axis by axis;
-/// cameras and tools by a scale each, so that a picture is not sheared and a blade stays straight.
+/// Map from the environment of one organ to those of another that replaces it. Positions are mapped from box to box,
+/// axis by axis. Cameras and tools have one scale each, so that images are not sheared and blades stay straight.
 struct OrganFit {
-  Eigen::AlignedBox3d from_m, to_m;  ///< boxes of the organs, tissue frame
+  Eigen::AlignedBox3d from_m, to_m;  ///< bounding boxes of the organs, tissue frame [m]
   Vector3d stretch = Vector3d::Ones();
-  double view_scale = 1;  ///< of cameras: the largest stretch and some room, so that the whole organ is seen
-  double hand_scale =
-      1;  ///< of tools and strokes: the smaller stretch of the face that cameras see, so that they meet it
+  double view_scale = 1;  ///< scale of cameras: the largest stretch and a margin, so that the whole organ is visible
+  double hand_scale = 1;  ///< scale of tools and strokes: the smaller stretch of the face that cameras see
 
-  /// @param sight  a direction, tissue frame: hands work on the face across the axis that it follows most
+  /// Returns the map between two boxes.
+  /// @param sight  viewing direction, tissue frame: tools work on the face across the axis nearest to it
   static OrganFit between(const Eigen::AlignedBox3d& from_m, const Eigen::AlignedBox3d& to_m, const Vector3d& sight);
-  /// A point [m] of one box at its place in the other.
+  /// Returns the position in the other box of a point [m] of the first.
   Vector3d moved(const Vector3d& point_m) const;
-  /// A point [m] around the organ, as cameras move.
+  /// Returns the position of a point [m] around the organ, mapped as cameras are.
   Vector3d viewed(const Vector3d& point_m) const;
-  /// Organs that differ so much have no tools in common; a unit of length is wrong, or there is no volume.
+  /// Returns whether tools can serve both organs. If the sizes differ too much, a unit of length is wrong or there is
+  /// no volume.
   bool isSound() const;
-  /// One line for a person.
+  /// Returns one line for a person.
   std::string text() const;
 };
 

@@ -9,13 +9,13 @@
 
 namespace viscera {
 
-/// What a camera may draw over the tissue, or in place of its colours (EGVE figures 1, 2 and 6, GW figure 4).
+/// Overlay of a camera, over the tissue or in place of its colours (EGVE figures 1, 2 and 6, GW figure 4).
 enum class Overlay : uint32_t {
-  kLattice = 1,  ///< axial springs between nodes that the skin is bound to; all springs of a network
-  kSprings = 2,  ///< diagonal ones too
-  kNormals = 4,  ///< approximate normals of these nodes (VR05 eq 5); normals of a network's skin
-  kStrain = 8,   ///< root mean square of (L - l0) / l0 of a node's whole springs, as a colour with a legend
-  kForces = 16,  ///< on styluses and on bodies with force_n
+  kLattice = 1,  ///< axial springs between nodes that the surface mesh is bound to; all springs of a network
+  kSprings = 2,  ///< the same with diagonal springs
+  kNormals = 4,  ///< approximate normals of these nodes (VR05 eq 5); normals of a network's surface
+  kStrain = 8,   ///< root mean square of (L - l0) / l0 over a node's intact springs, as a colour with a legend
+  kForces = 16,  ///< forces on styluses and on bodies with force_n
   kWind = 32,    ///< velocity of the air
 };
 
@@ -30,7 +30,7 @@ constexpr std::array<OverlayName, 6> kOverlayNames = {{{"lattice", Overlay::kLat
                                                        {"forces", Overlay::kForces},
                                                        {"wind", Overlay::kWind}}};
 
-/// Some overlays.
+/// Set of overlays.
 class Overlays {
  public:
   bool has(Overlay overlay) const { return (bits_ & static_cast<uint32_t>(overlay)) != 0; }
@@ -42,9 +42,10 @@ class Overlays {
   uint32_t bits_ = 0;
 };
 
-/// "lattice, springs, ...": all names, for messages.
+/// Returns all names for messages: "lattice, springs, ...".
 std::string overlayNames();
-/// @throws SceneError  a name that no overlay has, with those there are
+/// Returns the overlays of these names.
+/// @throws SceneError  a name that no overlay has; lists the names
 Overlays overlaysOf(const std::vector<std::string>& names);
 
 }  // namespace viscera

@@ -7,7 +7,7 @@
 
 namespace viscera {
 
-/// "key=value" as given on the command line or in a launch file; the key is a path such as bodies[0].spacing_m.
+/// List of "key=value" as given on the command line or in a launch file; the key is a path such as bodies[0].spacing_m.
 using Overrides = std::vector<std::string>;
 
 }  // namespace viscera

@@ -13,18 +13,18 @@ struct SolverConfig {
   double dt_fraction = 0.75;
   double dt_fraction_strained = 0.5;
   bool measured_limit = true;
-  int substeps = 0;     ///< 0: from dt_fraction
-  int iterations = 20;  ///< of pd
-  bool governor = true;
+  int substeps = 0;     ///< substeps of a tick; 0: from dt_fraction
+  int iterations = 20;  ///< iterations of pd
+  bool stability_monitor = true;
   double recovery_s = 0.25;
   double sleep_distance_m = 1;
-  double sleep_speed_m_per_s = 1e-5;  ///< 0: tissue never sleeps
+  double sleep_speed_m_per_s = 1e-5;  ///< speed below which tissue sleeps [m/s]; 0: it never sleeps
   bool compensated = false;
   int max_substeps = 2000;
-  double real_time_factor = 1.2;  ///< of bodies with auto_spacing
+  double real_time_factor = 1.2;  ///< real-time factor that the spacing of bodies with auto_spacing is chosen for
   int device = -1;
   Backend backend = Backend::kAuto;
-  int threads = 0;  ///< of the CPU backend; 0: usableProcessors()
+  int threads = 0;  ///< CPU threads of the CPU backend; 0: usableProcessors()
 };
 
 }  // namespace viscera

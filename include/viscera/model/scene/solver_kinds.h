@@ -4,10 +4,10 @@
 
 namespace viscera {
 
-// What the keys of the solver choose among.
+// Values of the keys of the solver.
 
 enum class Integrator { kLeapfrog, kVerletPaper, kPd };
-/// What a simulation begins with: everything at rest, or hanging in its weight.
+/// Initial state of a simulation: everything at rest, or in equilibrium with gravity.
 enum class SolverStart { kRest, kEquilibrium };
 enum class Backend { kAuto, kGpu, kCpu };
 

@@ -9,7 +9,7 @@
 
 namespace viscera {
 
-// What the kinds of tools are told, each in a group of its own.
+// Parameters of the kinds of tools, one group for each.
 struct ProbeConfig {
   double radius_m = 0.006;
 };
@@ -17,27 +17,27 @@ struct GrabConfig {
   double radius_m = 0.008;
   double release_speed_m_per_s = 0.5;
 };
-/// Where a blade lies on the axis of its stylus.
+/// Position of a blade on the axis of its stylus.
 enum class BladeSide {
   kShaft,  ///< from the tip back along the shaft, +z
-  kAhead,  ///< from the tip on, -z
+  kAhead,  ///< ahead of the tip, -z
   kBoth,   ///< on both sides of the tip, its length on each
 };
 
 struct CutConfig {
   double blade_length_m = 0.02;
   BladeSide blade_side = BladeSide::kShaft;
-  double friction_n_per_m = 0;  ///< of both walls together, per length of blade in tissue
-  double point_width_m = 0;     ///< of what the tip parts as the blade is pushed along itself; 0: it parts nothing
+  double friction_n_per_m = 0;  ///< friction of both walls together, per length of blade in tissue [N/m]
+  double point_width_m = 0;     ///< width of the cut that the tip makes along its axis [m]; 0: the tip does not cut
 };
 struct CutParticlesConfig {
   double eraser_radius_m = 0.002;
 };
 
-/// Two blades on a pivot, which is behind their tips, on the shaft; they open across it, along x of the stylus.
+/// Two blades on a pivot, which is on the shaft behind the tips. They open across the shaft, along x of the stylus.
 struct ScissorsConfig {
-  double blade_length_m = 0.012;  ///< from the pivot to the tips
-  double opening_deg = 40;        ///< from blade to blade, when they begin to close
+  double blade_length_m = 0.012;  ///< distance from the pivot to the tips [m]
+  double opening_deg = 40;        ///< angle between the blades when they begin to close [deg]
   double closing_s = 0.3;
 };
 
@@ -47,31 +47,31 @@ struct SuctionConfig {
   double release_speed_m_per_s = 0.5;
 };
 
-/// Two jaws, which hold what is between them by friction.
+/// Two jaws that hold the tissue between them by friction.
 struct GrasperConfig {
-  double radius_m = 0.005;      ///< of what is between them, around the tip
-  double jaw_length_m = 0.014;  ///< from the pivot to the tips; what has slid so far is lost
-  double opening_deg = 40;      ///< from jaw to jaw, when they are open
-  double max_force_n = 5;       ///< at more what they hold slides in them
+  double radius_m = 0.005;      ///< radius around the tip of the region that the jaws hold [m]
+  double jaw_length_m = 0.014;  ///< distance from the pivot to the tips [m]; tissue that slides this far is lost
+  double opening_deg = 40;      ///< angle between the open jaws [deg]
+  double max_force_n = 5;       ///< largest force before the held tissue slides in the jaws [N]
   double release_speed_m_per_s = 0.5;
 };
 
-constexpr size_t kMostClips = 32;  ///< of all hands together, until a reset
+constexpr size_t kMostClips = 32;  ///< clips of all styluses together, until a reset
 
 /// Two jaws on a pivot, which open as scissors do and set a clip.
 struct ClipConfig {
-  double jaw_length_m = 0.012;  ///< from the pivot to the tips
-  double opening_m = 0.012;     ///< between them
-  double width_m = 0.002;       ///< of a clip, along y of the stylus
-  double gap_m = 0.0005;        ///< between the legs of a clip that is closed
-  double force_n = 10;          ///< with which it closes, and stays closed
-  int magazine = 20;            ///< clips that there are
+  double jaw_length_m = 0.012;  ///< distance from the pivot to the tips [m]
+  double opening_m = 0.012;     ///< distance between the open jaws [m]
+  double width_m = 0.002;       ///< width of a clip, along y of the stylus [m]
+  double gap_m = 0.0005;        ///< gap between the legs of a closed clip [m]
+  double force_n = 10;          ///< force with which a clip closes and stays closed [N]
+  int magazine = 20;            ///< number of clips
 };
 
-/// A heated tip, which pushes as a probe does while it burns (docs/lessons/cautery.md).
+/// Heated tip, which pushes like a probe while it burns (docs/lessons/cautery.md).
 struct CauteryConfig {
-  double radius_m = 0.003;  ///< of the tip
-  double power_w = 30;      ///< into the tissue that it touches
+  double radius_m = 0.003;  ///< radius of the tip [m]
+  double power_w = 30;      ///< power into the tissue that it touches [W]
 };
 
 struct StylusConfig {
@@ -81,15 +81,15 @@ struct StylusConfig {
   ToolMode button2 = ToolMode::kCut;
   ProbeConfig probe;
   GrabConfig grab;
-  CutConfig cut;  ///< its blade is that of cut_particles too
+  CutConfig cut;  ///< its blade is also that of cut_particles
   CutParticlesConfig cut_particles;
   SuctionConfig suction;
   ScissorsConfig scissors;
   GrasperConfig grasper;
   ClipConfig clip;
   CauteryConfig cautery;
-  double shaft_length_m = 0.12;  ///< that is drawn, from the tip back; nothing collides with it
-  double jaw_closing_s = 0.2;    ///< from open to closed, of jaws that a button closes
+  double shaft_length_m = 0.12;  ///< length of the drawn shaft, from the tip back [m]; nothing collides with it
+  double jaw_closing_s = 0.2;    ///< time from open to closed, for jaws that a button closes [s]
   double max_force_n = 5;
   double max_force_rate_n_per_s = 100;
   double max_torque_nm = 0.2;

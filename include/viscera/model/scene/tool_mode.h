@@ -4,7 +4,7 @@
 
 namespace viscera {
 
-/// What a tool does; src/model/scene/tool_kinds.h has a row for each.
+/// Action of a tool; src/model/scene/tool_kinds.h has a row for each.
 enum class ToolMode {
   kNone = 0,
   kProbe = 1,

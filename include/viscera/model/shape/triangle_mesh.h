@@ -13,20 +13,20 @@
 
 namespace viscera {
 
-/// Triangles with shared vertices and named parts. Positions in metres, counter-clockwise seen from outside.
+/// Triangles with shared vertices and named parts. Positions are in metres, counter-clockwise seen from outside.
 struct TriangleMesh {
   std::vector<Vector3f> positions_m;               ///< [vertices]
   std::vector<std::array<uint32_t, 3>> triangles;  ///< [triangles] vertex indices
   std::vector<uint16_t> parts;                     ///< [triangles] index into part_names
   std::vector<std::string> part_names;
   std::vector<uint32_t> charts;  ///< [triangles] index into detail->charts, or kNoChart; empty: no triangle has one
-  std::shared_ptr<const SurfaceDetail> detail;  ///< null: nothing beyond its triangles
+  std::shared_ptr<const SurfaceDetail> detail;  ///< null: no detail beyond the triangles
 };
 
-/// Signed volume [m3] by the divergence theorem; exact for closed, outward-oriented meshes.
+/// Returns the signed volume [m3] by the divergence theorem; exact for closed, outward-oriented meshes.
 double signedVolume(const TriangleMesh& mesh);
 
-/// Unit vertex normals, weighted by face area; (0, 0, 1) where a vertex has no area around it.
+/// Returns unit vertex normals, weighted by face area; (0, 0, 1) where a vertex has no area around it.
 std::vector<Vector3f> vertexNormals(const TriangleMesh& mesh);
 
 /// Splits edges longer than `longest_edge_m` at their midpoints until none is left, keeping the mesh conforming.

@@ -7,8 +7,8 @@ namespace viscera {
 namespace {
 
 struct Removed {
-  const char* key;    ///< without indices
-  const char* value;  ///< ""; the key itself
+  const char* key;    ///< path without indices
+  const char* value;  ///< "": the key itself was removed
   const char* instead;
 };
 
@@ -17,15 +17,15 @@ constexpr Removed kRemoved[] = {
      "use leapfrog; solver.start: equilibrium settles stiff tissue before it is stepped"},
     {"solver.integrator", "auto", "use leapfrog, the default"},
     {"solver.integrator", "verlet_paper",
-     "use leapfrog; viscera bench accuracy compares the papers' integrator with it"},
-    {"bodies.structure", "tetrahedra", "use lattice; a Gmsh .msh file of volumes is a shape for it"},
+     "use leapfrog; `viscera bench accuracy` compares it with the integrator of the papers"},
+    {"bodies.structure", "tetrahedra", "use lattice; it takes its shape from a Gmsh .msh file of volumes"},
     {"bodies.material.cells", "",
-     "use material.law: neo_hookean (the default of lattices) or springs, which has cells that are full or empty"},
-    {"bodies.material.thin_walls", "", "leave it out; cells of material.law: neo_hookean are filled in part"},
-    {"collision.search", "", "leave it out; the search for contacts is complete"},
-    {"collision.partitions", "", "leave it out; the search for contacts is complete"},
-    {"collision.window", "", "leave it out; the search for contacts is complete"},
-    {"solver.spring_forces", "", "leave it out; each node sums the forces of its springs"},
+     "use material.law: neo_hookean (the default of lattices), or springs, which has only full or empty cells"},
+    {"bodies.material.thin_walls", "", "remove it; material.law: neo_hookean has partly filled cells"},
+    {"collision.search", "", "remove it; the search for contacts is complete"},
+    {"collision.partitions", "", "remove it; the search for contacts is complete"},
+    {"collision.window", "", "remove it; the search for contacts is complete"},
+    {"solver.spring_forces", "", "remove it; each node sums the forces of its springs"},
 };
 
 std::string withoutIndices(const std::string& key) {

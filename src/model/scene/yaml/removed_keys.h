@@ -6,9 +6,9 @@
 
 namespace viscera {
 
-/// Returns what a scene file should have in place of a key or a value that viscera had once; empty: it never had it.
+/// Returns what replaces a key or value that an earlier version of viscera had; empty: it never existed.
 /// @param key    with its path, as solver.integrator or bodies[0].structure
-/// @param value  of the key; empty for a key that is gone altogether
+/// @param value  of the key; empty for a key that was removed altogether
 std::string removedNote(const std::string& key, const std::string& value = {});
 
 }  // namespace viscera

@@ -9,10 +9,10 @@
 namespace viscera {
 namespace {
 
-/// What a line of a file begins with.
+/// Beginning of a line of a file.
 struct Begin {
-  size_t indent;  ///< characters
-  bool is_item;   ///< "- "
+  size_t indent;  ///< number of characters
+  bool is_item;   ///< it begins with "- "
   bool is_used;   ///< neither empty nor a comment
 };
 
@@ -22,13 +22,13 @@ Begin beginOf(const std::string& line) {
   return {indent, line.compare(indent, 2, "- ") == 0 || line.substr(indent) == "-", true};
 }
 
-/// A block that is open: keys at one indent, or items of a list.
+/// Open block: keys at one indent, or items of a list.
 struct Block {
   size_t indent;
   bool of_items;
 };
 
-/// Closes what a line ends, and opens what it begins.
+/// Closes the blocks that a line ends, and opens those that it begins.
 void take(const Begin& begin, const std::string& line, std::vector<Block>& open) {
   while (!open.empty() && open.back().indent > begin.indent) open.pop_back();
   if (open.empty() || open.back().indent < begin.indent || open.back().of_items != begin.is_item)
@@ -44,7 +44,7 @@ bool opensBlock(const std::string& line) {
          (line[last] == ':' || line[last] == '-' || line[last] == '|' || line[last] == '>');
 }
 
-/// Where the line's block could be; empty: its indent is right.
+/// Returns the indents that the line could have; empty: its indent is right.
 std::string indentsFor(const Begin& begin, const std::vector<Block>& open, bool opened) {
   std::string accepted;
   for (const Block& block : open) {
@@ -56,7 +56,7 @@ std::string indentsFor(const Begin& begin, const std::vector<Block>& open, bool 
   return may_open ? "" : accepted;
 }
 
-/// What is wrong with how the line is indented; empty: nothing. @param number  of it, from 0
+/// Returns what is wrong with the indent of the line; empty: nothing. @param number  of the line, from 0
 std::string indentFault(const std::string& text, int number) {
   TextIn lines(text);
   std::vector<Block> open;
@@ -66,10 +66,10 @@ std::string indentFault(const std::string& text, int number) {
     const Begin begin = beginOf(line);
     if (at == number) {
       if (line.substr(0, begin.indent).find('\t') != std::string::npos || (!line.empty() && line[0] == '\t'))
-        return "the line is indented by a tab; YAML accepts blanks alone";
+        return "the line is indented by a tab; YAML accepts only spaces";
       const std::string accepted = begin.is_used ? indentsFor(begin, open, opened) : "";
       if (accepted.empty()) return "";
-      return "wrong indent: the line is indented by " + std::to_string(begin.indent) +
+      return "wrong indentation: the line is indented by " + std::to_string(begin.indent) +
              (begin.is_item ? ", items" : ", keys") + " above by " + accepted;
     }
     if (!begin.is_used) continue;

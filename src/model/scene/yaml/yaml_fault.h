@@ -8,7 +8,7 @@
 
 namespace viscera {
 
-/// Returns what YAML itself has against a file: file, line and what is wrong, with tabs and wrong indents called so.
+/// Returns an error of the YAML parser with file, line and reason; tabs and wrong indents are named as such.
 /// @param text  of the file
 std::string yamlFault(const std::string& file, const YAML::Exception& error, const std::string& text);
 

@@ -16,14 +16,14 @@ struct PathStep {
   int index = -1;  ///< -1: no [index]
 };
 
-/// A preset that is set from outside goes before numbers of the file, but not before those that are set from outside.
+/// Removes numbers of the file where a preset was set as an override, except numbers that are overrides too.
 void clearNumbers(YAML::Node map, const std::string& path, const YamlSource& source) {
   for (const char* key : {"young_modulus_pa", "poisson_ratio", "density_kg_per_m3"}) {
     if (!source.sets(path + "." + key)) map.remove(key);
   }
 }
 
-/// "bodies[0].material.density_kg_per_m3" -> steps.
+/// Splits "bodies[0].material.density_kg_per_m3" into steps.
 std::vector<PathStep> splitPath(const std::string& path, const std::string& override_text) {
   std::vector<PathStep> steps;
   TextIn parts(path);
@@ -40,7 +40,7 @@ std::vector<PathStep> splitPath(const std::string& path, const std::string& over
       }
       step.index = std::stoi(digits);
     }
-    if (step.key.empty()) throw UnknownKeyError("override '" + override_text + "': empty name in the key");
+    if (step.key.empty()) throw UnknownKeyError("override '" + override_text + "': the key contains an empty name");
     steps.push_back(step);
   }
   return steps;
@@ -73,7 +73,7 @@ void applyOverride(YAML::Node root, const std::string& text, YamlSource& source)
       next.reset(next[steps[i].index]);
     }
     if (next.IsDefined() && !next.IsNull() && !last && !next.IsMap()) {
-      throw UnknownKeyError("override '" + text + "': '" + steps[i].key + "' holds no keys");
+      throw UnknownKeyError("override '" + text + "': '" + steps[i].key + "' has no keys below it");
     }
     if (last) next = value;
     if (last && steps[i].key == "tissue") clearNumbers(at, path.substr(0, path.rfind('.')), source);

@@ -10,7 +10,7 @@
 
 namespace viscera {
 
-/// Sets one key of a document from outside of its file, as `bodies[0].spacing_m=0.003` says; `source` remembers which.
+/// Sets one key of a document by an override such as `bodies[0].spacing_m=0.003`; `source` records it.
 /// @throws SceneError  no such list item, not key=value, or no YAML
 void applyOverride(YAML::Node root, const std::string& text, YamlSource& source);
 

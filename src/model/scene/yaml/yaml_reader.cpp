@@ -12,6 +12,7 @@
 #include "math/nearest_names.h"
 #include "math/out_file.h"
 #include "model/scene/yaml/removed_keys.h"
+#include "model/scene/yaml/renamed_keys.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -20,11 +21,11 @@ namespace {
 
 std::string shown(const YAML::Node& node) {
   if (node.IsScalar()) return "'" + node.Scalar() + "'";
-  if (node.IsSequence()) return "a list of " + std::to_string(node.size());
+  if (node.IsSequence()) return "a list of " + std::to_string(node.size()) + (node.size() == 1 ? " item" : " items");
   return node.IsMap() ? "a map" : "nothing";
 }
 
-/// As YAML::convert<double>, whose stream has the program's locale.
+/// Reads as YAML::convert<double>, but without the program's locale.
 bool decode(const std::string& text, double& value) {
   TextIn in(text);
   return in >> value && (in >> std::ws).eof();
@@ -46,13 +47,12 @@ std::string textOf(const std::string& path, const std::string& what) {
   return memoryFor<SceneError>(path, [&] {
     std::string text;
     std::vector<char> piece(kBytesPerMb);
-    do {  // piece by piece: a device has no end
+    do {  // in pieces, as a device has no end
       file.read(piece.data(), static_cast<std::streamsize>(piece.size()));
       text.append(piece.data(), static_cast<size_t>(file.gcount()));
     } while (file && text.size() <= kMostMb * kBytesPerMb);
     if (!file) return text;
-    throw SceneError(path + ": is larger than " + std::to_string(kMostMb) + " MB, the most that a " + what +
-                     " file may have");
+    throw SceneError(path + ": is larger than " + std::to_string(kMostMb) + " MB, the limit for a " + what + " file");
   });
 }
 
@@ -64,8 +64,7 @@ bool YamlSource::sets(const std::string& path) const {
 
 std::string whereIs(const YamlSource& source, const std::string& path, const YAML::Node& node) {
   if (source.sets(path)) return "override: ";
-  if (node.Mark().is_null() && !source.overridden.empty())
-    return "override: ";  // made to hold a value set from outside
+  if (node.Mark().is_null() && !source.overridden.empty()) return "override: ";  // a map created for an override
   return source.name + ":" + std::to_string(node.Mark().line + 1) + ": ";
 }
 
@@ -98,7 +97,7 @@ YAML::Node YamlReader::keyNode(const std::string& key) const {
 }
 
 void YamlReader::fail(const std::string& key, const YAML::Node& node, const std::string& accepted) const {
-  const YAML::Node place = node.IsNull() ? keyNode(key) : node;  // an empty value has the line of what comes after it
+  const YAML::Node place = node.IsNull() ? keyNode(key) : node;  // an empty value has the line of the next token
   throw SceneError(whereIs(source_, child(key), place) + "'" + child(key) + "' " + accepted + "; found " + shown(node));
 }
 
@@ -113,7 +112,7 @@ double YamlReader::scalar(const char* key, const YAML::Node& node, Range range, 
   double value = 0;
   const bool is_number = node.IsScalar() && decode(node.Scalar(), value);
   if (!is_number || !std::isfinite(value) || value < range.min || value > range.max) {
-    fail(key, node, "is a number, " + rangeText(range, unit) + more);
+    fail(key, node, "must be a number, " + rangeText(range, unit) + more);
   }
   return value;
 }
@@ -135,19 +134,19 @@ void YamlReader::integer(const char* key, int& value, Range range, const char*) 
   const YAML::Node node = take(key);
   if (!node) return;
   const double number = scalar(key, node, range, "");
-  if (number != std::floor(number)) fail(key, node, "is a whole number, " + rangeText(range, ""));
+  if (number != std::floor(number)) fail(key, node, "must be a whole number, " + rangeText(range, ""));
   value = static_cast<int>(number);
 }
 
 void YamlReader::boolean(const char* key, bool& value, const char*) {
   const YAML::Node node = take(key);
-  if (node && (!node.IsScalar() || !YAML::convert<bool>::decode(node, value))) fail(key, node, "is true or false");
+  if (node && (!node.IsScalar() || !YAML::convert<bool>::decode(node, value))) fail(key, node, "must be true or false");
 }
 
 void YamlReader::text(const char* key, std::string& value, const char*) {
   const YAML::Node node = take(key);
   if (!node) return;
-  if (!node.IsScalar() || node.Scalar().empty()) fail(key, node, "is a text that is not empty");
+  if (!node.IsScalar() || node.Scalar().empty()) fail(key, node, "must be a non-empty string");
   value = node.Scalar();
 }
 
@@ -170,16 +169,16 @@ void YamlReader::numbers(const char* key, std::vector<double>& values, double ma
 void YamlReader::block(const char* key, std::string& value, int& first_line, const char*) {
   const YAML::Node node = take(key);
   if (!node) return;
-  if (!node.IsScalar()) fail(key, node, "is a text of lines, after a '|'");
+  if (!node.IsScalar()) fail(key, node, "must be a block of lines that begins with '|'");
   value = node.Scalar();
   first_line = keyNode(key).Mark().line + 2;
 }
 
 void YamlReader::quaternion(const char* key, Quaterniond& value, const char*) {
-  constexpr double kLengthTolerance = 0.01;  // four decimals as a person writes them
+  constexpr double kLengthTolerance = 0.01;  // four decimals, as a person writes them
   const YAML::Node node = take(key);
   if (!node) return;
-  const std::string accepted = "is a list of x, y, z, w, a quaternion of length 1";
+  const std::string accepted = "must be a list of x, y, z, w, a quaternion of length 1";
   if (!node.IsSequence() || node.size() != 4) fail(key, node, accepted);
   Eigen::Vector4d xyzw;
   for (size_t i = 0; i < 4; ++i) xyzw[static_cast<Eigen::Index>(i)] = scalar(key, node[i], {-1, 1}, "");
@@ -190,7 +189,7 @@ void YamlReader::quaternion(const char* key, Quaterniond& value, const char*) {
 void YamlReader::names(const char* key, Overlays& value, const char*) {
   const YAML::Node node = take(key);
   if (!node) return;
-  const std::string accepted = "is a list of some of " + overlayNames();
+  const std::string accepted = "must be a list of names out of " + overlayNames();
   if (!node.IsSequence()) fail(key, node, accepted);
   std::vector<std::string> names;
   for (const YAML::Node& name : node) {
@@ -210,7 +209,7 @@ void YamlReader::texts(const char* key, std::vector<std::string>& values, double
   requireList(key, node, max_count);
   values.clear();
   for (const YAML::Node& text : node) {
-    if (!text.IsScalar()) fail(key, text, "is a list of texts");
+    if (!text.IsScalar()) fail(key, text, "must be a list of strings");
     values.push_back(text.Scalar());
   }
 }
@@ -218,12 +217,12 @@ void YamlReader::texts(const char* key, std::vector<std::string>& values, double
 void YamlReader::requireNumbers(const char* key, const YAML::Node& node, size_t count, Range range,
                                 const char* unit) const {
   if (!node.IsSequence() || node.size() != count)
-    fail(key, node, "is a list of " + std::to_string(count) + " numbers, " + rangeText(range, unit));
+    fail(key, node, "must be a list of " + std::to_string(count) + " numbers, " + rangeText(range, unit));
 }
 
 void YamlReader::requireList(const char* key, const YAML::Node& node, double max_count) const {
   if (!node.IsSequence() || static_cast<double>(node.size()) > max_count) {
-    fail(key, node, "is a list of at most " + numberText(max_count));
+    fail(key, node, "must be a list of at most " + numberText(max_count) + " items");
   }
 }
 
@@ -233,6 +232,10 @@ void YamlReader::finish() const {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
     const std::string note = removedNote(child(key));
     if (!note.empty()) throw SceneError(whereIs(source_, child(key), entry.first) + "'" + child(key) + "' " + note);
+    const std::string renamed = withNewNames(child(key));
+    if (renamed != child(key))
+      throw SceneError(whereIs(source_, child(key), entry.first) + "'" + child(key) + "' is named '" + renamed +
+                       "' in this version; `viscera upgrade FILE` renames the keys of a file");
     throw UnknownKeyError(whereIs(source_, child(key), entry.first) + "unknown key '" + child(key) +
                           "'; accepted here: " + nearestFirstText(key, known_));
   }

@@ -17,20 +17,21 @@
 
 namespace viscera {
 
-/// Where a YAML document came from, so that every complaint can say so.
+/// Source of a YAML document, for error messages.
 struct YamlSource {
-  std::string name;                  ///< of the file
-  std::set<std::string> overridden;  ///< key paths that were set from outside the file
+  std::string name;                  ///< name of the file
+  std::set<std::string> overridden;  ///< key paths that were set by overrides
 
-  bool sets(const std::string& path) const;  ///< was the key, or what holds it, set from outside the file?
+  bool sets(const std::string& path) const;  ///< whether the key, or a map that contains it, was set by an override
 };
 
-/// A key that no scene has, or that this one has no place for, whatever its value.
+/// Error: a key that no scene has, or that this scene has no place for, whatever its value.
 struct UnknownKeyError : SceneError {
   using SceneError::SceneError;
 };
 
-/// Reads one map strictly: it is a field visitor that takes what is there and finish() refuses what it never asked for.
+/// Strict reader of one map: a field visitor that takes the keys that are present; finish() refuses keys that no field
+/// has.
 /// @throws SceneError  file, line, key and what is accepted
 class YamlReader {
  public:
@@ -42,7 +43,7 @@ class YamlReader {
   void boolean(const char* key, bool& value, const char* text);
   void text(const char* key, std::string& value, const char* text);
   void vector(const char* key, Vector3d& value, Range range, const char* unit, const char* text);
-  /// A list of as many numbers as there are values.
+  /// Reads a list of exactly N numbers.
   template <size_t N>
   void numbers(const char* key, std::array<double, N>& values, Range range, const char* unit) {
     const YAML::Node node = take(key);
@@ -50,16 +51,16 @@ class YamlReader {
     requireNumbers(key, node, N, range, unit);
     for (size_t i = 0; i < N; ++i) values[i] = scalar(key, node[i], range, unit);
   }
-  /// A list of as many numbers as there are.
+  /// Reads a list of any number of numbers.
   void numbers(const char* key, std::vector<double>& values, double max_count, Range range, const char* unit);
-  /// A text of lines, which may be empty. @param first_line  of it in the file, where it is given
+  /// Reads a text of several lines, which may be empty. @param first_line  set to its first line in the file, if given
   void block(const char* key, std::string& value, int& first_line, const char* text);
-  /// A list of as many texts as there are.
+  /// Reads a list of any number of texts.
   void texts(const char* key, std::vector<std::string>& values, double max_count, const char* text);
   void names(const char* key, Overlays& value, const char* text);
-  /// A list of x, y, z, w, of length 1 within a hundredth; normalised.
+  /// Reads a list of x, y, z, w, of length 1 within a hundredth; normalised.
   void quaternion(const char* key, Quaterniond& value, const char* text);
-  void given(bool& value) const { value = true; }  ///< a map that is read is there
+  void given(bool& value) const { value = true; }  ///< a map that is being read is present
 
   template <class E, class List>
   void choice(const char* key, E& value, const List& names, const char*) {
@@ -74,7 +75,7 @@ class YamlReader {
       accepted.emplace_back(n.name);
     }
     if (node.IsScalar()) failIfRemoved(key, node);
-    fail(key, node, "is one of " + nearestFirstText(node.IsScalar() ? node.Scalar() : "", accepted));
+    fail(key, node, "must be one of " + nearestFirstText(node.IsScalar() ? node.Scalar() : "", accepted));
   }
   template <class E>
   void choice(const char* key, E& value, Choices<E> names, const char* text) {
@@ -103,10 +104,11 @@ class YamlReader {
       readMap(node[i], child(key) + "[" + std::to_string(i) + "]", source_, values.back());
     }
   }
-  /// @throws SceneError if the map holds a key that was never asked for
+  /// Checks that all keys were used.
+  /// @throws SceneError if the map holds a key that no field has
   void finish() const;
   bool has(const char* key) const { return map_[key].IsDefined(); }
-  /// Line of the file where the map begins, from 1.
+  /// Returns the line of the file where the map begins, from 1.
   int line() const { return map_.Mark().line + 1; }
 
   template <class Struct>
@@ -118,14 +120,14 @@ class YamlReader {
 
  private:
   YAML::Node take(const char* key);
-  /// @param more  what is accepted besides the number, for the error
+  /// @param more  other accepted values besides the number, for the error
   double scalar(const char* key, const YAML::Node& node, Range range, const std::string& unit,
                 const std::string& more = "") const;
   void requireNumbers(const char* key, const YAML::Node& node, size_t count, Range range, const char* unit) const;
   void requireList(const char* key, const YAML::Node& node, double max_count) const;
   std::string child(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
   YAML::Node keyNode(const std::string& key) const;
-  /// @throws SceneError  the value was accepted once: says what to write instead
+  /// @throws SceneError  the value was accepted by an earlier version: names its replacement
   void failIfRemoved(const std::string& key, const YAML::Node& node) const;
   [[noreturn]] void fail(const std::string& key, const YAML::Node& node, const std::string& accepted) const;
 
@@ -135,11 +137,11 @@ class YamlReader {
   std::vector<std::string> known_;
 };
 
-/// "file:line: " of a node; "override: " for one that was set from outside.
+/// Returns "file:line: " of a node; "override: " for one that was set by an override.
 std::string whereIs(const YamlSource& source, const std::string& path, const YAML::Node& node);
 
-/// All of a text file. @param what  it should be, for errors
-/// @throws SceneError  it is a folder, cannot be read, or has no end in sight
+/// Returns the content of a text file. @param what  expected content, for errors
+/// @throws SceneError  it is a folder, cannot be read, or does not end within the accepted size
 std::string textOf(const std::string& path, const std::string& what);
 
 }  // namespace viscera

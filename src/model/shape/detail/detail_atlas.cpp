@@ -15,7 +15,7 @@ namespace viscera {
 namespace {
 
 constexpr int kMortonBits = 10;
-constexpr int kLeg = 4;     // texels of a tile's side that a triangle's legs are shorter
+constexpr int kLeg = 4;     // texels by which a triangle's legs are shorter than a tile's side
 constexpr int kBorder = 1;  // texels between a tile's side and a triangle's leg
 
 uint32_t spread(uint32_t value) {
@@ -24,7 +24,7 @@ uint32_t spread(uint32_t value) {
   return out;
 }
 
-/// Triangles along a curve that fills space.
+/// Returns the triangles in the order of a space-filling curve.
 std::vector<uint32_t> alongCurve(const TriangleMesh& skin) {
   Eigen::AlignedBox3f box;
   for (const Vector3f& p : skin.positions_m) box.extend(p);
@@ -41,7 +41,7 @@ std::vector<uint32_t> alongCurve(const TriangleMesh& skin) {
   return order;
 }
 
-/// Column and row of a place along a curve that fills a square.
+/// Returns column and row of an index along a curve that fills a square.
 std::array<int, 2> inSquare(uint32_t place) {
   std::array<int, 2> out{};
   for (int bit = 0; bit < 16; ++bit) {
@@ -59,7 +59,7 @@ DetailAtlas::DetailAtlas(const TriangleMesh& skin, int tile_px) : tile_(tile_px)
     order_.push_back({order[i], i + 1 < order.size() ? order[i + 1] : UINT32_MAX});
   const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(order_.size()))));
   side_ = columns * tile_px;
-  for (uint32_t place = 0; places_.size() < order_.size(); ++place) {  // what of the curve lies within the columns
+  for (uint32_t place = 0; places_.size() < order_.size(); ++place) {  // the part of the curve within the columns
     const std::array<int, 2> at = inSquare(place);
     if (at[0] < columns && at[1] < columns) places_.push_back({at[0] * tile_px, at[1] * tile_px});
   }
@@ -83,7 +83,7 @@ std::array<Eigen::Vector2d, 3> DetailAtlas::cornersOf(size_t tile, int half) con
 
 namespace {
 
-/// Tiles along a side of the square.
+/// Returns the number of tiles along a side of the square.
 int tilesAcross(size_t triangles) {
   return std::max(1, static_cast<int>(std::ceil(std::sqrt(std::ceil(static_cast<double>(triangles) / 2)))));
 }
@@ -98,8 +98,8 @@ int DetailAtlas::largestTile(size_t triangles, int largest_px) {
   const int fits = largest_px / tilesAcross(triangles);
   if (fits >= kSmallestTile_px) return fits;
   TextOut out;
-  out << "a skin of " << triangles << " faces has no room for detail in " << largest_px << " x " << largest_px
-      << " texels; bodies[].skin_faces makes it coarser, bodies[].detail_px makes room";
+  out << "a skin of " << triangles << " faces does not fit into a detail texture of " << largest_px << " x "
+      << largest_px << " texels; reduce the faces with bodies[].skin_faces or raise bodies[].detail_px";
   throw MeshError(out.str());
 }
 

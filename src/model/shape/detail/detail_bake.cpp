@@ -20,13 +20,13 @@ namespace viscera {
 
 namespace {
 
-constexpr float kReach = 0.03F;       // of the skin's box: how far away what is detailed may lie
-constexpr double kTexelsPerFace = 4;  // of the detailed mesh: enough to show each
+constexpr float kReach = 0.03F;       // share of the surface's box: largest distance of the detailed mesh
+constexpr double kTexelsPerFace = 4;  // per face of the detailed mesh: enough to show each
 constexpr int kLargestTile_px = 64;
-constexpr size_t kMostSamples = 20000;  // places at which the angles are measured
+constexpr size_t kMostSamples = 20000;  // points at which the angles are measured
 constexpr double kDegrees = 57.29577951308232;
 
-/// A skin and what is to be seen on it.
+/// Surface, and the detailed mesh that is baked onto it.
 class Baker {
  public:
   Baker(const BakeInput& input, const DetailAtlas& atlas)
@@ -42,7 +42,7 @@ class Baker {
     reach_m_ = kReach * box.diagonal().norm();
   }
 
-  /// A place on a triangle of the skin.
+  /// Point on a triangle of the surface.
   struct Spot {
     Vector3f position_m, normal;
   };
@@ -54,7 +54,7 @@ class Baker {
     out.normal = (w[0] * normals_[c[0]] + w[1] * normals_[c[1]] + w[2] * normals_[c[2]]).stableNormalized();
     return out;
   }
-  /// What of the detailed mesh is seen there.
+  /// Returns the point of the detailed mesh that is visible there.
   MeshPlace seenFrom(const Spot& spot) const {
     const MeshPlace ahead = tree_.along(spot.position_m, spot.normal, reach_m_);
     return ahead.found() ? ahead : tree_.nearest(spot.position_m, reach_m_);
@@ -66,7 +66,7 @@ class Baker {
         .stableNormalized();
   }
 
-  /// T, B, N of shaders/draw/detail.glsl at rest.
+  /// Returns T, B, N of shaders/draw/detail.glsl at rest.
   static Eigen::Matrix3f frame(const Vector3f& along_u, const Vector3f& n) {
     const Vector3f t = (along_u - n * n.dot(along_u)).stableNormalized();
     Eigen::Matrix3f out;
@@ -75,7 +75,7 @@ class Baker {
     out.col(2) = n;
     return out;
   }
-  /// The way along which u grows and v does not: to the second corner, or in the tile's other half from it.
+  /// Returns the direction in which u grows and v does not: to the second corner, or in the tile's other half from it.
   Vector3f alongU(uint32_t triangle, int half) const {
     const auto& c = skin_.triangles[triangle];
     const Vector3f way = skin_.positions_m[c[1]] - skin_.positions_m[c[0]];
@@ -105,7 +105,7 @@ class Baker {
     }
   }
 
-  /// Where a chart has texture, its texel; else the part's colour, in sRGB.
+  /// Writes the texel of a chart with a texture; else the part's colour, in sRGB.
   void putColor(const MeshPlace& at, uint8_t* out) const;
 
   const DetailAtlas& atlas() const { return atlas_; }
@@ -173,14 +173,14 @@ void bakeTiles(const Baker& baker, Baked& out, const Progress& progress) {
     texels += own;
     uncovered += bare;
   };
-  std::vector<std::future<void>> helpers;  // which are waited for where the progress throws, too
+  std::vector<std::future<void>> helpers;  // their destructors wait, also where the progress callback throws
   for (int i = usableProcessors(); i > 1; --i) helpers.push_back(std::async(std::launch::async, work, false));
   work(true);
   for (std::future<void>& helper : helpers) helper.get();
   out.report.uncovered_share = texels > 0 ? static_cast<double>(uncovered) / static_cast<double>(texels) : 0;
 }
 
-/// The texel at u, v as a filter gives it.
+/// Returns the filtered texel at u, v.
 Vector3f sampled(const TextureImage& image, const Eigen::Vector2d& uv) {
   const double x = uv.x() * image.width_px - 0.5, y = uv.y() * image.height_px - 0.5;
   const double left = std::floor(x), low = std::floor(y);
@@ -204,7 +204,7 @@ double percentile(std::vector<double>& values, double share) {
   return *at;
 }
 
-/// Angles at places drawn by chance: what is shown there against what the detailed mesh has there.
+/// Measures the angles between shown and detailed normals at random points.
 void measure(const Baker& baker, Baked& baked) {
   const DetailAtlas& atlas = baker.atlas();
   std::mt19937 random(1);
@@ -237,7 +237,7 @@ void measure(const Baker& baker, Baked& baked) {
   baked.report.bare_median_deg = percentile(bare, 0.5);
 }
 
-/// Fine enough for the faces of the detailed mesh, and no finer than the largest square allows.
+/// Returns a tile size fine enough for the faces of the detailed mesh, and within the largest square.
 int tileOf(const BakeInput& input) {
   const double pairs = std::ceil(static_cast<double>(input.skin.triangles.size()) / 2);
   const int fits = DetailAtlas::largestTile(input.skin.triangles.size(), input.largest_px);
@@ -265,9 +265,9 @@ std::string BakeReport::text() const {
   out.precision(3);
   out << "detail: " << side_px << " x " << side_px << " texels" << (from_cache ? " (from the cache)" : "")
       << "; shading normals differ from the detailed mesh's by " << median_deg
-      << " degrees (median; 95 in 100: " << percentile95_deg << "), without them by " << bare_median_deg;
+      << " degrees (median; 95th percentile: " << percentile95_deg << "), without the detail by " << bare_median_deg;
   if (uncovered_share > 0.001) {
-    out << "; the detailed mesh is not near " << 100 * uncovered_share << " % of the skin, which is smooth there";
+    out << "; " << 100 * uncovered_share << " % of the skin is not near the detailed mesh and stays smooth";
   }
   return out.str();
 }

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr uint64_t kVersion = 1;  // of what is baked, and of the file
+constexpr uint64_t kVersion = 1;  // version of the bake and of the file
 constexpr uint64_t kCacheMagic = 0x656b616276ULL;
 
 /// 64-bit FNV-1a, over words of eight bytes.

@@ -8,17 +8,17 @@
 
 namespace viscera {
 
-/// Pictures of a bake.
+/// Images of a bake.
 struct Baked {
-  TextureImage relief, color;  ///< color is empty where none was asked for
+  TextureImage relief, color;  ///< color is empty where not requested
   BakeReport report;
 };
 
-/// Bakes of earlier runs, one file each, named after a hash of all that goes into one. A file that is missing, cut
-/// short or of another version is no bake; a folder that cannot be written to keeps none.
+/// Cache of earlier bakes, one file each, named after a hash of all its input. A file that is missing, cut short or of
+/// another version is ignored; nothing is kept in a folder that is not writable.
 class DetailCache {
  public:
-  /// @param folder  empty: none   @param tile_px  of the atlas
+  /// @param folder  empty: no cache   @param tile_px  of the atlas
   DetailCache(const std::string& folder, const BakeInput& input, int tile_px);
   bool find(Baked& out) const;
   void keep(const Baked& baked) const;

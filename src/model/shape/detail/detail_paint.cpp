@@ -18,16 +18,16 @@ namespace viscera {
 namespace {
 
 constexpr int kLargestPaintTile_px = 32;
-constexpr float kStep_m = 1e-4F;  // for slopes: less than a texel
-constexpr float kFlat = 1e-6F;    // slopes that bend no texel's normal
+constexpr float kStep_m = 1e-4F;  // step for slopes: less than a texel
+constexpr float kFlat = 1e-6F;    // slopes too small to change a texel's normal
 
-/// sRGB of a linear channel, the same as srgbByte().
+/// Table of the sRGB value of a linear channel, with the same results as srgbByte().
 class SrgbTable {
  public:
   SrgbTable() {
     for (size_t i = 0; i < kBins; ++i) {
       bytes_[i] = srgbByte(static_cast<double>(i) / kBins);
-      // No bin has two borders: the curve climbs by less than 0.81 bytes from one to the next.
+      // No bin has two borders: the curve rises by less than 0.81 bytes from one bin to the next.
       borders_[i] = static_cast<float>(linearFromSrgb((bytes_[i] + 0.5) / 255));
     }
   }
@@ -47,7 +47,7 @@ struct Canvas {
   const TriangleMesh& skin;
   const PlacedPaint& on;
   const DetailAtlas& atlas;
-  std::vector<Vector3f> places, normals;  ///< of the skin's vertices, in the frame of the paint
+  std::vector<Vector3f> places, normals;  ///< of the surface's vertices, in the frame of the paint
   TextureImage color, relief;
   SrgbTable srgb;
 };
@@ -79,7 +79,7 @@ class Half {
   }
 
  private:
-  /// Of the ball around all places of its texels, which reach beyond the triangle.
+  /// Finds strokes near the ball around all of its texels, which extend beyond the triangle.
   void findNear() {
     const int last = canvas_.atlas.tile() - 1, low = half_ == 0 ? 0 : last;
     std::array<Vector3f, 3> ends;
@@ -134,7 +134,8 @@ class Half {
     return {(low + high) / 2, (high - low).norm() / 2};
   }
 
-  /// Heights a step along the tangent, or across it. The frame of shaders/draw/detail.glsl: T is where u grows.
+  /// Returns heights one step along the tangent, or across it. The frame is that of shaders/draw/detail.glsl: T is
+  /// where u grows.
   PaintRow stepped(int across) const {
     PaintRow out = row_;
     const Vector3f along_u = (half_ == 0 ? 1.F : -1.F) * (at_[1] - at_[0]);
@@ -185,7 +186,7 @@ void paintTiles(Canvas& canvas, const Progress& progress) {
       if (tells && progress) progress("paint detail", static_cast<double>(first) / static_cast<double>(tiles));
     }
   };
-  std::vector<std::future<void>> helpers;  // which are waited for where the progress throws, too
+  std::vector<std::future<void>> helpers;  // their destructors wait, also where the progress callback throws
   for (int i = usableProcessors(); i > 1; --i) helpers.push_back(std::async(std::launch::async, work, false));
   work(true);
   for (std::future<void>& helper : helpers) helper.get();
@@ -202,7 +203,7 @@ TriangleMesh paintDetail(const TriangleMesh& skin, const PlacedPaint& on, int la
   for (Vector3f& n : canvas.normals) n = (on.turn * n.cast<double>()).cast<float>();
   canvas.color.rgba.resize(size_t{4} * atlas.side() * atlas.side());
   canvas.relief = canvas.color;
-  const Vector3f ground = on.paint->ground();  // mipmaps mix colours of what does not cover, too
+  const Vector3f ground = on.paint->ground();  // mipmaps also mix in uncovered colours
   const std::array<uint8_t, 4> bare = {srgbByte(ground.x()), srgbByte(ground.y()), srgbByte(ground.z()), 0};
   for (size_t i = 0; i < canvas.color.rgba.size(); ++i) {
     canvas.color.rgba[i] = bare[i % 4];

@@ -12,9 +12,9 @@
 namespace viscera {
 namespace {
 
-constexpr double kEnclosedStep = 0.25;  ///< of a cell: the grid on which the inside is found
+constexpr double kEnclosedStep = 0.25;  ///< in cells: step of the grid on which the inside is found
 
-/// Gives cells of the rest to a part.
+/// Assignment of the remaining region's cells to parts.
 class Regions {
  public:
   Regions(Solid& solid, uint16_t rest) : solid_(solid), rest_(rest) {}
@@ -80,7 +80,7 @@ Solid voxeliseEnclosed(const TriangleMesh& mesh, double spacing_m, double gap_m,
   nameRegions(mesh, part + 1, solid);
   report.dropped_names.clear();
   countDropped(mesh, solid, report);
-  report.dropped_surface = 0;  // it is enclosed all the same
+  report.dropped_surface = 0;  // it is enclosed anyway
   note = enclosed.text() + "; " + report.text();
   return solid;
 }

@@ -8,10 +8,10 @@
 
 namespace viscera {
 
-/// Fills what a bag of triangles encloses, from all parts together (docs/fill_rule.md, `fill: enclosed`). Parts are
-/// regions of it: a closed one has the cells whose centre it holds, the smallest first; any other those that its
-/// triangles pass through. What is left is the part "enclosed".
-/// @param moments  as voxeliseByMoments(), else as voxelise()
+/// Fills the region that a set of triangles encloses, from all parts together (docs/volumes.md, `fill: enclosed`).
+/// Parts are regions of it. A closed part has the cells with centres in it, the smallest first. Any other part has the
+/// cells that its triangles pass through. The rest is the part "enclosed".
+/// @param moments  true: as voxeliseByMoments(), else as voxelise()
 /// @param note     a line on what was closed
 /// @throws LatticeError, MeshError  as these
 Solid voxeliseEnclosed(const TriangleMesh& mesh, double spacing_m, double gap_m, bool moments, const NodePlanes& planes,

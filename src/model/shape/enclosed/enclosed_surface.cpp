@@ -13,13 +13,16 @@
 namespace viscera {
 namespace {
 
-constexpr double kLeastRadius = 0.87;  ///< steps: half the diagonal of a cell; a flood with less passes through walls
-constexpr double kBeyond = 0.6;        ///< steps that the flood goes on beyond the closing radius, up to the triangles
+/// Half the diagonal of a cell, in steps: a flood with less passes through walls.
+constexpr double kLeastRadius = 0.87;
+constexpr double kBeyond = 0.6;  ///< in steps: distance of the flood beyond the closing radius, up to the triangles
 constexpr double kOnward =
-    0.25;  ///< steps that each step leads away from the flood: what slips through a gap does not spread
-constexpr double kSettled = 0.005;  ///< volumes that differ by less are alike: hollows that close, not holes
+    0.25;  ///< in steps: each step must lead this much away from the flood, so that leaks through a gap do not spread
+/// Relative difference of volumes that count as equal: hollows that close, not holes.
+constexpr double kSettled = 0.005;
 
-/// Makes the step larger until the grid has few enough points, and says what would have kept it.
+/// Enlarges the step until the grid has few enough points, and reports the gap that would have allowed the requested
+/// step.
 void chooseStep(const TriangleMesh& mesh, double gap_m, EnclosedSurface& found) {
   Eigen::AlignedBox3d box;
   for (const auto& t : mesh.triangles) {
@@ -31,7 +34,7 @@ void chooseStep(const TriangleMesh& mesh, double gap_m, EnclosedSurface& found) 
   found.step_m = found.asked_step_m;
   while (!fits(found.step_m, gap_m)) found.step_m *= 1.05;
   double most = gap_m;
-  constexpr double kSmaller = 0.95, kLeastShare = 0.01;  // of gap_m: a line for a person needs no more
+  constexpr double kSmaller = 0.95, kLeastShare = 0.01;  // share of gap_m: precise enough for a message
   while (most > kLeastShare * gap_m && !fits(found.asked_step_m, most)) most *= kSmaller;
   found.fine_gap_m = fits(found.asked_step_m, most) ? most : -1;
 }
@@ -40,13 +43,13 @@ class Flood {
  public:
   explicit Flood(const PatchGrid& grid) : grid_(grid) {}
 
-  /// [points] whether outside, gaps of up to twice the radius being closed
+  /// Returns which points are outside [points], with gaps of up to twice the radius closed.
   std::vector<uint8_t> outside(double radius_m) const {
     std::vector<uint8_t> out(grid_.points(), 0);
     std::vector<size_t> front = {0};
     out[0] = 1;
     spread(out, front, [&](size_t, size_t, size_t to, int) { return grid_.distances_m[to] > radius_m; });
-    // Up to the triangles, but no farther than the radius into a gap.
+    // Continue to the triangles, but no farther than the radius into a gap.
     const std::vector<float> way = distancesTo(out, grid_);
     const double most = radius_m / grid_.step_m + kBeyond;
     for (size_t i = 0; i < out.size(); ++i) {
@@ -59,7 +62,7 @@ class Flood {
   }
 
  private:
-  /// @param passes  (point to go from, lower one of the edge, point to go to, axis)
+  /// @param passes  (start point, lower point of the edge, end point, axis)
   template <class Passes>
   void spread(std::vector<uint8_t>& out, std::vector<size_t>& front, Passes passes) const {
     while (!front.empty()) {
@@ -85,7 +88,7 @@ class Flood {
   const PatchGrid& grid_;
 };
 
-/// Along lines of the grid, between the outermost triangles; where there are none the border lies half way.
+/// Returns the volume along grid lines, between the outermost triangles; without triangles the border is half way.
 double volumeOf(const std::vector<uint8_t>& out, const PatchGrid& grid) {
   double steps = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -122,17 +125,17 @@ TriangleMesh surfaceOf(const std::vector<uint8_t>& out, const PatchGrid& grid) {
 
 std::string EnclosedSurface::text() const {
   TextOut text;
-  text << "encloses " << volume_m3 * 1e6 << " cm3, gaps up to " << closed_gap_m * 1e3 << " mm closed";
+  text << "encloses " << volume_m3 * 1e6 << " cm3; gaps up to " << closed_gap_m * 1e3 << " mm are closed";
   if (hole_m > 0) text << "; it has a hole of about " << hole_m * 1e3 << " mm";
-  if (!settled) text << "; wider gaps may be open still: see gap_m";
+  if (!settled) text << "; wider gaps may still be open: see gap_m";
   if (step_m > asked_step_m) {
     text << "; found on a grid of " << step_m * 1e3 << " mm, coarser than the " << asked_step_m * 1e3
          << " mm for this spacing, which would have more than " << most_points / 1e6
-         << " million points: what is finer is lost; ";
+         << " million points, so finer shapes are lost; ";
     if (fine_gap_m >= 0)
-      text << "gap_m of at most " << fine_gap_m << " m keeps the finer one";
+      text << "gap_m of at most " << fine_gap_m << " m keeps the finer grid";
     else
-      text << "a spacing_m " << step_m / asked_step_m << " times as large has a grid that suits it";
+      text << "a spacing_m " << step_m / asked_step_m << " times as large matches this grid";
   }
   return text.str();
 }
@@ -153,7 +156,7 @@ EnclosedSurface enclosedSurface(const TriangleMesh& mesh, double step_m, double 
     std::vector<uint8_t> out = flood.outside(radius_m);
     const double volume_m3 = volumeOf(out, grid);
     const bool jumped = volume_m3 - before_m3 > kSettled * volume_m3;
-    if (before_m3 < 0 || jumped) {  // the smallest radius beyond which nothing more is found
+    if (before_m3 < 0 || jumped) {  // the smallest radius above which nothing more is found
       kept = std::move(out);
       found.volume_m3 = volume_m3;
       if (before_m3 >= 0)
@@ -170,8 +173,8 @@ EnclosedSurface enclosedSurface(const TriangleMesh& mesh, double step_m, double 
   found.mesh = surfaceOf(kept, grid);
   if (found.mesh.triangles.empty()) {
     TextOut why;
-    why << "the mesh encloses no volume, gaps up to " << 2e3 * most_m
-        << " mm being closed: raise gap_m, or the spacing";
+    why << "the mesh encloses no volume, even with gaps up to " << 2e3 * most_m
+        << " mm closed; raise gap_m or the spacing";
     throw MeshError(why.str());
   }
   return found;

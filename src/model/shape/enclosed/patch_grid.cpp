@@ -10,9 +10,9 @@ namespace viscera {
 namespace {
 
 constexpr float kFar = std::numeric_limits<float>::max();
-constexpr double kBand = 1.5;     ///< steps within which distances to triangles are exact
-constexpr double kNear = 0.87;    ///< steps: half the diagonal of a cell of the grid
-constexpr double kOfNear = 0.45;  ///< steps, that points this near are from the triangle on average
+constexpr double kBand = 1.5;     ///< in steps: within it distances to triangles are exact
+constexpr double kNear = 0.87;    ///< in steps: half the diagonal of a cell of the grid
+constexpr double kOfNear = 0.45;  ///< in steps: average distance from the triangle of points within kNear
 
 double distanceToSegment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
   const Vector3d along = b - a;
@@ -31,7 +31,7 @@ double distanceTo(const Vector3d& p, const std::array<Vector3d, 3>& t) {
       {distanceToSegment(p, t[0], t[1]), distanceToSegment(p, t[1], t[2]), distanceToSegment(p, t[2], t[0])});
 }
 
-/// Replaces squared distances along a line by the least of value + way^2 from all of its points.
+/// Lower envelope along a line: replaces squared distances by the minimum of value + distance^2 over all of its points.
 class LineEnvelope {
  public:
   explicit LineEnvelope(int most) : values_(most), borders_(most + 1), tops_(most) {}
@@ -104,9 +104,10 @@ void PatchGrid::addDistances(const std::array<Vector3d, 3>& corners) {
 }
 
 void PatchGrid::addCrossings(const std::array<Vector3d, 3>& p, int axis) {
-  // Steps by which all points are moved against the triangles: on faces along the grid all edges agree who is inside.
+  // Steps by which all points are shifted against the triangles: on faces along the grid all edges then agree on the
+  // inside.
   constexpr double kAside[3] = {1e-7, 2e-7, 3e-7};
-  constexpr double kOnEdge = -1e-9;  // shares of a triangle: no line slips through between two of them
+  constexpr double kOnEdge = -1e-9;  // shares of a triangle: no line slips between two of them
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const auto cross = [](double au, double av, double bu, double bv) { return au * bv - av * bu; };
   const double area = cross(p[1][u] - p[0][u], p[1][v] - p[0][v], p[2][u] - p[0][u], p[2][v] - p[0][v]);
@@ -139,7 +140,7 @@ void PatchGrid::addCrossings(const std::array<Vector3d, 3>& p, int axis) {
   }
 }
 
-/// Distances beyond the band: to points beside triangles.
+/// Extends distances beyond the band, from the points next to triangles.
 void PatchGrid::goOn() {
   std::vector<uint8_t> beside(points());
   for (size_t i = 0; i < points(); ++i) beside[i] = distances_m[i] < kNear;

@@ -17,10 +17,10 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char* kNumbers = "viscera-floats.bin";  ///< the name of what is beside the file, and nowhere
+constexpr const char* kNumbers = "viscera-floats.bin";  ///< name of the file of numbers, in memory only
 constexpr int kFloat = 5126;
 
-/// How the numbers of an accessor lie in a buffer.
+/// Layout of an accessor's numbers in a buffer.
 struct Numbers {
   GltfFile::Items items;
   size_t components = 0;
@@ -66,7 +66,7 @@ class FloatGltf {
   }
 
  private:
-  /// Accessors of whole numbers where assimp expects real ones.
+  /// Returns the integer accessors where assimp expects real numbers.
   std::set<size_t> attributes() const {
     std::set<size_t> out;
     for (const Json& mesh : json_.at("meshes"))
@@ -106,7 +106,7 @@ class FloatGltf {
     if (bytesOf(out.type) == 0 || components == kComponents.end() || accessor.contains("sparse") ||
         !accessor.contains("bufferView"))
       throw MeshError(name +
-                      " is of a kind that is not read; accepted: 2 to 4 whole numbers of 8 or 16 bits, not sparse");
+                      " has a type that is not supported; accepted: 2 to 4 whole numbers of 8 or 16 bits, not sparse");
     out.components = components->second;
     out.normalized = accessor.value("normalized", false);
     out.items = file_.items(index, out.components * bytesOf(out.type));

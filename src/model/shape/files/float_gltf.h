@@ -9,10 +9,10 @@
 
 namespace viscera {
 
-/// Returns a glTF or GLB file whose attributes are whole numbers (KHR_mesh_quantization, or coordinates of textures) as
-/// files of real numbers, by path: the file itself, and one of numbers beside it, neither of which is written anywhere.
-/// assimp (5.2) takes the bytes of such numbers for reals.
-/// @throws MeshError  an accessor reaches beyond its buffer, or is of a kind that is not read
+/// Returns a glTF or GLB file with integer attributes (KHR_mesh_quantization, or texture coordinates) as files of real
+/// numbers, by path: the file itself, and a file of numbers next to it. Neither is written to disk. assimp (5.2) reads
+/// the bytes of such integers as reals.
+/// @throws MeshError  an accessor reaches beyond its buffer, or is of a type that is not read
 std::map<std::string, std::string> withFloatAttributes(const std::string& path, const ImportLimits& limits);
 
 }  // namespace viscera

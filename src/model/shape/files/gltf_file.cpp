@@ -10,7 +10,7 @@
 #include "model/scene/file_bounds.h"
 #include "model/shape/files/gltf_limits.h"
 #include "model/shape/files/import_limits.h"
-#include "model/shape/files/mesh_look.h"
+#include "model/shape/files/mesh_appearance.h"
 #include "viscera/math/error.h"
 
 namespace viscera {

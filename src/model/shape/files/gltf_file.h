@@ -11,7 +11,8 @@
 
 namespace viscera {
 
-/// A glTF or GLB file as JSON and buffers, beside what a library makes of it. gltf_limits.h has looked at it before.
+/// glTF or GLB file as JSON and buffers, read without a library. requireGltfWithin() (gltf_limits.h) must have accepted
+/// it.
 class GltfFile {
  public:
   /// @throws MeshError, nlohmann::json::exception  it cannot be read
@@ -20,17 +21,17 @@ class GltfFile {
   nlohmann::json& json() { return json_; }
   const std::string& path() const { return path_; }
 
-  /// Bytes that an accessor's items have in a buffer.
+  /// Bytes of an accessor's items in a buffer.
   struct Items {
     const std::string* buffer = nullptr;
     size_t first = 0, stride = 0, count = 0;
     const char* at(size_t item) const { return buffer->data() + first + item * stride; }
   };
-  /// Returns where the items of an accessor are; it has a bufferView.
-  /// @param item_bytes  of one item
+  /// Returns the bytes of an accessor's items; the accessor has a bufferView.
+  /// @param item_bytes  size of one item
   /// @throws MeshError  they reach beyond their buffer
   Items items(size_t accessor, size_t item_bytes);
-  /// Returns a file of the same format with json() as it is now, and the same chunks of a GLB.
+  /// Returns a file of the same format with json() as it is now, and the same other chunks for a GLB.
   std::string bytes() const;
 
  private:

@@ -17,7 +17,7 @@ size_t bytesOfIndex(int component_type) {
   return component_type == 5121 ? 1 : component_type == 5123 ? 2 : component_type == 5125 ? 4 : 0;
 }
 
-/// "mesh 2 ('liver'), primitive 0".
+/// Returns "mesh 2 ('liver'), primitive 0".
 std::string primitiveName(const Json& mesh, size_t m, size_t p) {
   const auto name = mesh.find("name");
   const bool is_named = name != mesh.end() && name->is_string();
@@ -34,7 +34,7 @@ void requireIndices(GltfFile& file, const Json& primitive, const std::string& na
   const auto vertices = accessors.at(primitive.at("attributes").at("POSITION").get<size_t>()).at("count").get<size_t>();
   const GltfFile::Items items = file.items(accessor, bytes);
   for (size_t i = 0; i < items.count; ++i) {
-    uint32_t index = 0;  // glTF's bytes are in the order of this machine's
+    uint32_t index = 0;  // glTF has the byte order of this machine
     std::memcpy(&index, items.at(i), bytes);
     if (index < vertices) continue;
     throw MeshError("is corrupt: " + name + ": index " + std::to_string(i) + " is " + std::to_string(index) +

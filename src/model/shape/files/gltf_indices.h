@@ -8,9 +8,9 @@
 
 namespace viscera {
 
-/// Looks for triangles of a glTF or GLB file that refer to vertices which do not exist. assimp (5.2) leaves these
-/// triangles out without a word. Reads the file's numbers once more: only worth it where triangles are missing.
-/// Indices that are packed (Draco) or sparse are not looked at.
+/// Checks that no triangle of a glTF or GLB file refers to a missing vertex. assimp (5.2) drops such triangles
+/// silently. It reads the file's numbers again, so call it only where triangles are missing. Packed (Draco) and sparse
+/// indices are not checked.
 /// @throws MeshError  there is one: names mesh, primitive and index
 void requireGltfIndices(const std::string& path, const ImportLimits& limits);
 

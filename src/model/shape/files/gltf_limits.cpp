@@ -21,23 +21,23 @@ constexpr double kGltfBytesPerMb = 1e6;
 
 uint32_t wordAt(const std::string& bytes, size_t at) {
   uint32_t word = 0;
-  if (at + sizeof word > bytes.size()) throw MeshError("is cut short: it ends within the header of a chunk");
+  if (at + sizeof word > bytes.size()) throw MeshError("is truncated: it ends within the header of a chunk");
   std::memcpy(&word, bytes.data() + at, sizeof word);
   return word;
 }
 
-/// Splits a GLB file, all of whose chunks must be there.
+/// Splits a GLB file; all of its chunks must be complete.
 GltfText splitGlb(const std::string& bytes) {
   constexpr size_t kHeader = 12, kChunkHeader = 8;
   constexpr uint32_t kJson = 0x4e4f534a;  // "JSON"
   const uint32_t version = wordAt(bytes, 4);
-  if (version != 2) throw MeshError("is GLB of version " + std::to_string(version) + "; version 2 is read");
-  if (wordAt(bytes, kHeader + 4) != kJson) throw MeshError("is corrupt: a GLB file begins with its JSON");
+  if (version != 2) throw MeshError("is GLB of version " + std::to_string(version) + "; only version 2 is supported");
+  if (wordAt(bytes, kHeader + 4) != kJson) throw MeshError("is corrupt: its first chunk is not JSON");
   const size_t json_bytes = wordAt(bytes, kHeader);
   for (size_t at = kHeader; at < bytes.size();) {
     const size_t end = at + kChunkHeader + wordAt(bytes, at);
     if (end > bytes.size()) {
-      throw MeshError("is cut short: a chunk ends at byte " + std::to_string(end) + ", the file at byte " +
+      throw MeshError("is truncated: a chunk ends at byte " + std::to_string(end) + ", the file at byte " +
                       std::to_string(bytes.size()));
     }
     at = end;
@@ -51,7 +51,7 @@ std::string jsonOf(const std::string& path) {
   TextOut all;
   all << file.rdbuf();
   std::string text = splitGltf(all.str()).json;
-  // Names in other encodings than UTF-8 are nothing to stumble on here.
+  // Names in encodings other than UTF-8 are no error here.
   std::replace_if(
       text.begin(), text.end(), [](unsigned char c) { return c >= 0x80; }, '?');
   return text;
@@ -62,12 +62,12 @@ GltfTree treeOf(const std::string& path) {
   GltfTreeReader reader(tree);
   if (!nlohmann::json::sax_parse(jsonOf(path), &reader)) throw MeshError("is corrupt: " + reader.fault);
   if (tree.version.empty() || tree.version[0] != '2') {
-    throw MeshError("is glTF of version '" + tree.version + "'; version 2 is read");
+    throw MeshError("is glTF of version '" + tree.version + "'; only version 2 is supported");
   }
   return tree;
 }
 
-/// Parents before children: the order of Kahn, in which a circle never gets its turn.
+/// Returns the nodes with parents before children by Kahn's algorithm, which leaves out cycles.
 std::vector<size_t> parentsFirst(const GltfTree& tree) {
   std::vector<size_t> parents(tree.nodes.size(), 0), order;
   for (size_t n = 0; n < tree.nodes.size(); ++n) {
@@ -89,8 +89,8 @@ std::vector<size_t> parentsFirst(const GltfTree& tree) {
   }
   if (order.size() == parents.size()) return order;
   const auto stuck = std::find_if(parents.begin(), parents.end(), [](size_t left) { return left > 0; });
-  throw MeshError("is corrupt: nodes are nested in a circle, node " + std::to_string(stuck - parents.begin()) +
-                  " is in it or under it");
+  throw MeshError("is corrupt: its nodes form a cycle, node " + std::to_string(stuck - parents.begin()) +
+                  " is in it or below it");
 }
 
 void requireDepth(const GltfTree& tree, const std::vector<size_t>& order, const ImportLimits& limits) {
@@ -100,11 +100,11 @@ void requireDepth(const GltfTree& tree, const std::vector<size_t>& order, const 
     deepest = std::max(deepest, depth[n]);
     for (const uint64_t child : tree.nodes[n].children) depth[child] = std::max(depth[child], depth[n] + 1);
   }
-  requireAtMost(deepest, limits.max_depth, "depth of nodes within nodes", "max_depth");
+  requireAtMost(deepest, limits.max_depth, "depth of nested nodes", "max_depth");
 }
 
-/// How often each node is there when what is shared has been copied. Scenes count together: a few copies too many of
-/// what several show do no harm.
+/// Returns the number of instances of each node after shared nodes have been copied. Scenes are added up: a few copies
+/// too many of shared nodes do no harm.
 std::vector<double> instancesOf(const GltfTree& tree, const std::vector<size_t>& order) {
   std::vector<double> instances(tree.nodes.size(), 0);
   for (const auto& roots : tree.scenes) {
@@ -122,7 +122,7 @@ double countOf(const GltfTree& tree, uint64_t accessor) {
   return accessor < tree.accessor_counts.size() ? tree.accessor_counts[accessor] : 0;
 }
 
-/// Triangles that a mesh takes the memory of: a point or a line takes as much.
+/// Returns the number of triangles that would take the memory of a mesh: a point or a line takes as much.
 double trianglesOf(const GltfTree& tree, const std::vector<GltfTree::Primitive>& mesh) {
   double triangles = 0;
   for (const GltfTree::Primitive& primitive : mesh) {
@@ -138,7 +138,7 @@ void requireTriangles(const GltfTree& tree, const std::vector<double>& instances
   std::vector<double> of_mesh(tree.meshes.size());
   std::transform(tree.meshes.begin(), tree.meshes.end(), of_mesh.begin(),
                  [&](const auto& mesh) { return trianglesOf(tree, mesh); });
-  const double once = std::accumulate(of_mesh.begin(), of_mesh.end(), 0.0);  // all are read, whatever shows them
+  const double once = std::accumulate(of_mesh.begin(), of_mesh.end(), 0.0);  // all are read, visible or not
   double shown = 0;
   for (size_t n = 0; n < tree.nodes.size(); ++n) {
     for (const uint64_t mesh : tree.nodes[n].meshes) shown += mesh < of_mesh.size() ? instances[n] * of_mesh[mesh] : 0;
@@ -146,7 +146,7 @@ void requireTriangles(const GltfTree& tree, const std::vector<double>& instances
   requireAtMost(std::ceil(std::max(once, shown)), limits.max_triangles, "triangles", "max_triangles");
 }
 
-/// Extensions that say how a surface looks, or that are read. Without any other a shape is as the file has it.
+/// Returns whether an extension concerns appearance or is read. Any other could change the shape.
 bool isReadOrLook(const std::string& extension) {
   constexpr const char* kBegin[] = {
       "KHR_materials_",       "KHR_texture_", "EXT_texture_", "MSFT_texture_",
@@ -160,8 +160,8 @@ void requireKnownExtensions(const GltfTree& tree) {
   for (const std::string& extension : tree.required) {
     if (isReadOrLook(extension)) continue;
     const bool packed = extension == "EXT_meshopt_compression";
-    throw MeshError("requires the extension " + extension + ", which is not read; write it without" +
-                    (packed ? ", as by gltfpack without -c" : ""));
+    throw MeshError("requires the extension " + extension + ", which is not supported; write it without" +
+                    (packed ? ", for instance with gltfpack without -c" : ""));
   }
 }
 
@@ -177,7 +177,7 @@ bool isQuantised(const GltfTree& tree) {
   return false;
 }
 
-/// Triangles that are listed, strips and fans among them.
+/// Returns the number of listed triangles, with those of strips and fans.
 double listedTriangles(const GltfTree& tree) {
   double all = 0;
   for (const auto& mesh : tree.meshes) {
@@ -217,15 +217,14 @@ bool looksLikeGltf(const std::string& path) {
 GltfFacts requireGltfWithin(const std::string& path, const ImportLimits& limits) {
   const GltfTree tree = treeOf(path);
   requireKnownExtensions(tree);
-  if (tree.scenes.empty())
-    throw MeshError("has no scene: nothing says which of its nodes are shown; export it with a scene");
+  if (tree.scenes.empty()) throw MeshError("has no scene, so no nodes are shown; export it with a scene");
   const double bytes = std::accumulate(tree.buffer_bytes.begin(), tree.buffer_bytes.end(), 0.0);
   requireAtMost(bytes / kGltfBytesPerMb, limits.max_file_mb, "size of its buffers in MB", "max_file_mb");
   const std::vector<size_t> order = parentsFirst(tree);
   requireDepth(tree, order, limits);
   const std::vector<double> instances = instancesOf(tree, order);
   requireAtMost(std::accumulate(instances.begin(), instances.end(), 0.0), limits.max_instances,
-                "instances of nodes, with what they share copied", "max_instances");
+                "instances of nodes, with shared nodes counted each time", "max_instances");
   requireTriangles(tree, instances, limits);
   GltfFacts facts;
   facts.is_quantised = isQuantised(tree);

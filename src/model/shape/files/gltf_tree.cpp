@@ -5,11 +5,11 @@
 namespace viscera {
 namespace {
 
-/// Arrays and objects within each other. glTF itself has 7; libraries recurse once for each.
+/// Largest nesting of arrays and objects. glTF itself has 7; libraries recurse once per level.
 constexpr size_t kDeepestJson = 1000;
 constexpr size_t kDeepestKept = 7;  ///< meshes[].primitives[].targets[].POSITION
 
-/// The item of a list that grows as needed.
+/// Returns an item of a list that grows as needed.
 template <class Item>
 Item& itemAt(std::vector<Item>& list, size_t index) {
   if (list.size() <= index) list.resize(index + 1);
@@ -18,14 +18,14 @@ Item& itemAt(std::vector<Item>& list, size_t index) {
 
 }  // namespace
 
-/// Where the value to come stands, as in "nodes.*.children.*".
+/// Returns the path of the next value, as in "nodes.*.children.*".
 std::string GltfTreeReader::path() const {
   std::string out;
   for (const Level& level : levels_) out += (out.empty() ? "" : ".") + (level.is_array ? "*" : level.key);
   return out;
 }
 
-/// A value begins.
+/// Handles the beginning of a value.
 bool GltfTreeReader::value() {
   if (!levels_.empty() && levels_.back().is_array) ++levels_.back().index;
   return true;
@@ -34,10 +34,10 @@ bool GltfTreeReader::value() {
 bool GltfTreeReader::open(bool is_array) {
   value();
   if (levels_.size() == kDeepestJson) {
-    fault = "its JSON is nested deeper than " + std::to_string(kDeepestJson);
+    fault = "its JSON is nested more than " + std::to_string(kDeepestJson) + " levels deep";
     return false;
   }
-  // A node that says nothing is a node all the same.
+  // An empty node is a node too.
   if (levels_.size() == 2 && levels_[0].key == "nodes" && levels_[1].is_array) itemAt(tree_.nodes, at(1));
   levels_.push_back({is_array, 0, ""});
   return true;
@@ -49,7 +49,7 @@ bool GltfTreeReader::close() {
 }
 
 bool GltfTreeReader::key(string_t& name) {
-  constexpr size_t kLongestKept = 64;  // longer ones are none of glTF's own
+  constexpr size_t kLongestKept = 64;  // longer keys are not glTF's own
   levels_.back().key = name.substr(0, kLongestKept);
   return true;
 }
@@ -72,7 +72,7 @@ bool GltfTreeReader::number_unsigned(number_unsigned_t number) {
 }
 
 bool GltfTreeReader::parse_error(std::size_t byte, const std::string&, const nlohmann::json::exception&) {
-  fault = "its JSON is broken at byte " + std::to_string(byte);
+  fault = "its JSON is invalid at byte " + std::to_string(byte);
   return false;
 }
 

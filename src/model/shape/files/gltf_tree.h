@@ -10,35 +10,35 @@
 
 namespace viscera {
 
-/// What glTF says of its nodes, as numbers.
+/// Node tree of a glTF file, as numbers.
 struct GltfTree {
   struct Node {
     std::vector<uint64_t> children;
     std::vector<uint64_t> meshes;
   };
-  /// Accessors by number. Those of attributes and indices are as long as each other, those of targets come on top.
+  /// Indices of accessors. Accessors of attributes have one length, those of targets come on top.
   struct Primitive {
     std::vector<uint64_t> accessors, of_targets;
-    std::vector<uint64_t> reals;    ///< accessors of what readers expect as real numbers
-    std::vector<uint64_t> indices;  ///< one at most
+    std::vector<uint64_t> reals;    ///< accessors that readers expect to have real numbers
+    std::vector<uint64_t> indices;  ///< at most one
     uint64_t mode = kTriangles;
   };
   static constexpr uint64_t kTriangles = 4;
 
   std::string version;
-  std::vector<std::string> required;  ///< extensions without which the file cannot be read
+  std::vector<std::string> required;  ///< extensions that the file needs
   std::vector<Node> nodes;
   std::vector<std::vector<uint64_t>> scenes;  ///< their root nodes
   std::vector<std::vector<Primitive>> meshes;
   std::vector<double> accessor_counts, buffer_bytes;
-  std::vector<uint64_t> component_types;  ///< [accessors] as OpenGL numbers them; 0: not said
+  std::vector<uint64_t> component_types;  ///< [accessors] OpenGL's numbers; 0: not given
 };
 
-/// Fills a GltfTree from the events of a JSON parser. Its memory does not grow with what it does not keep.
+/// Handler of a JSON parser's events that fills a GltfTree. Memory does not grow with what it does not keep.
 ///
-/// A parsed document cannot take its place for hostile files. TinyGLTF and assimp build the whole tree before any limit
-/// is known; nlohmann's own tree (3.11) takes 36 bytes per byte of nested brackets, takes time that grows with the
-/// square of a list's length if a callback filters it, and keeps the last of equal keys where assimp reads the first.
+/// A parsed document would be unsafe for hostile files. TinyGLTF and assimp build the whole tree before any limit is
+/// checked. nlohmann's own tree (3.11) takes 36 bytes per byte of nested brackets. With a callback as filter its time
+/// grows with the square of a list's length. It also keeps the last of equal keys where assimp reads the first.
 class GltfTreeReader : public nlohmann::json_sax<nlohmann::json> {
  public:
   explicit GltfTreeReader(GltfTree& tree) : tree_(tree) {}
@@ -57,12 +57,12 @@ class GltfTreeReader : public nlohmann::json_sax<nlohmann::json> {
   bool key(string_t& name) override;
   bool parse_error(std::size_t byte, const std::string&, const nlohmann::json::exception&) override;
 
-  std::string fault;  ///< why reading ended; empty: the end was reached
+  std::string fault;  ///< reason why reading ended; empty: the end was reached
 
  private:
   struct Level {
     bool is_array;
-    size_t index;  ///< of the value to come, from 1; 0: none was yet
+    size_t index;  ///< index of the next value, from 1; 0: none yet
     std::string key;
   };
   bool value();

@@ -23,8 +23,8 @@ bool beginsWith(const uint8_t* bytes, size_t count, const char* magic, size_t le
 
 void requireSize(int64_t width, int64_t height) {
   if (width >= 1 && height >= 1 && width <= kMostTexturePixels && height <= kMostTexturePixels) return;
-  throw MeshError("is " + std::to_string(width) + " x " + std::to_string(height) + " pixels; 1 to " +
-                  std::to_string(kMostTexturePixels) + " along each side are accepted");
+  throw MeshError("is " + std::to_string(width) + " x " + std::to_string(height) + " pixels; accepted: 1 to " +
+                  std::to_string(kMostTexturePixels) + " along each side");
 }
 
 TextureImage emptyImage(int64_t width, int64_t height) {
@@ -40,11 +40,11 @@ TextureImage decodePng(const uint8_t* bytes, size_t count) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   const std::unique_ptr<png_image, decltype(&png_image_free)> cleanup(&png, png_image_free);
-  const auto fail = [&] { throw MeshError("is no PNG that can be read: " + oneLine(png.message)); };
+  const auto fail = [&] { throw MeshError("is not a readable PNG: " + oneLine(png.message)); };
   if (!png_image_begin_read_from_memory(&png, bytes, count)) fail();
   TextureImage image = emptyImage(png.width, png.height);
   png.format = PNG_FORMAT_RGBA;
-  // A negative stride: rows of ours begin at the bottom.
+  // Negative stride: our rows begin at the bottom.
   const auto stride = -static_cast<png_int_32>(4 * png.width);
   if (!png_image_finish_read(&png, nullptr, image.rgba.data(), stride, nullptr)) fail();
   return image;
@@ -52,7 +52,7 @@ TextureImage decodePng(const uint8_t* bytes, size_t count) {
 
 TextureImage decodeJpeg(const uint8_t* bytes, size_t count) {
   const std::unique_ptr<void, decltype(&tjDestroy)> jpeg(tjInitDecompress(), tjDestroy);
-  const auto fail = [&] { throw MeshError("is no JPEG that can be read: " + oneLine(tjGetErrorStr2(jpeg.get()))); };
+  const auto fail = [&] { throw MeshError("is not a readable JPEG: " + oneLine(tjGetErrorStr2(jpeg.get()))); };
   int width = 0, height = 0, sampling = 0, colors = 0;
   if (!jpeg || tjDecompressHeader3(jpeg.get(), bytes, count, &width, &height, &sampling, &colors) != 0) fail();
   TextureImage image = emptyImage(width, height);

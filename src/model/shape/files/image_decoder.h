@@ -9,10 +9,10 @@
 
 namespace viscera {
 
-/// Longest side of a picture that is taken [px]: what OpenGL 4.5 promises of textures.
+/// Longest side of an accepted image [px]: what OpenGL 4.5 guarantees for textures.
 constexpr int kMostTexturePixels = 16384;
 
-/// A PNG or JPEG file in memory, which its first bytes tell apart.
+/// Decodes a PNG or JPEG file in memory, recognised by its first bytes.
 /// @throws MeshError  another format, corrupt or cut short, larger than kMostTexturePixels; without the file's name
 TextureImage decodeImage(const uint8_t* bytes, size_t count);
 

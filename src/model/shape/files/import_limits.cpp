@@ -32,8 +32,7 @@ void requireAtMost(double found, double most, const std::string& what, const cha
   if (found <= most) return;
   TextOut out;
   out.precision(10);
-  out << what << ": " << found << "; accepted: at most " << most << ", which bodies[].import_limits." << key
-      << " can raise";
+  out << what << ": " << found << "; accepted: at most " << most << ". Raise it with bodies[].import_limits." << key;
   throw MeshError(out.str());
 }
 
@@ -48,9 +47,10 @@ void requireKnownFormat(const std::string& path, const ImportLimits& limits) {
   if (limits.other_formats || isPly(path)) return;
   const std::string extension = extensionOf(path);
   if (std::find(std::begin(kKnown), std::end(kKnown), extension) != std::end(kKnown)) return;
-  const std::string found = extension == ".ply" ? "it does not begin as PLY does" : "found '" + extension + "'";
-  throw MeshError("is not OBJ, STL, PLY, glTF, GLB or Gmsh (.msh) by its name: " + found +
-                  "; bodies[].import_limits.other_formats tries other formats");
+  const std::string found = extension == ".ply" ? "it does not begin with 'ply'" : "found '" + extension + "'";
+  throw MeshError("has an unknown extension: " + found +
+                  "; accepted: OBJ, STL, PLY, glTF, GLB or Gmsh (.msh). Set bodies[].import_limits.other_formats to "
+                  "try other formats");
 }
 
 void requireScene(const aiScene& scene, const ImportLimits& limits) {

@@ -10,20 +10,20 @@ struct aiScene;
 
 namespace viscera {
 
-// What a file holds against what a scene accepts of it, ImportLimits. Errors give the number found, the range, and the
-// key that raises it; their caller names the file.
+// Checks of a file against a scene's ImportLimits. Errors give the number found, the range, and the key that raises it;
+// the caller names the file.
 
-/// @throws MeshError  more than `most`
+/// Checks a number. @throws MeshError  more than `most`
 void requireAtMost(double found, double most, const std::string& what, const char* key);
 
-/// @throws MeshError  the file is larger than accepted
+/// Checks the size of a file. @throws MeshError  the file is larger than accepted
 void requireFileSize(const std::string& path, const ImportLimits& limits);
 
-/// A format that libraries were seen to read within limits, or a scene that accepts others?
+/// Checks that the format is known to be read within limits, or that the scene accepts others.
 /// @throws MeshError  neither
 void requireKnownFormat(const std::string& path, const ImportLimits& limits);
 
-/// @throws MeshError  what was read has more nodes or triangles than accepted
+/// Checks the scene that was read. @throws MeshError  it has more nodes or triangles than accepted
 void requireScene(const aiScene& scene, const ImportLimits& limits);
 
 }  // namespace viscera

@@ -26,7 +26,7 @@ class Lines : public Assimp::LogStream {
 }  // namespace
 
 std::vector<std::string> assimpErrorsOf(const std::function<void()>& read) {
-  static std::mutex one_at_a_time;  // assimp has one logger for a whole program
+  static std::mutex one_at_a_time;  // assimp has one logger per program
   const std::lock_guard<std::mutex> lock(one_at_a_time);
   std::vector<std::string> errors;
   if (!Assimp::DefaultLogger::isNullLogger()) {

@@ -8,11 +8,12 @@
 
 namespace viscera {
 
-/// Returns the errors that assimp writes to its log while `read` runs: some readers mend a faulty file in silence. One
-/// thread at a time; where the program has a logger of assimp's already, nothing is seen.
+/// Returns the errors that assimp logs while `read` runs: some readers silently repair a faulty file. One thread at a
+/// time. Returns nothing if the program already has an assimp logger.
 std::vector<std::string> assimpErrorsOf(const std::function<void()>& read);
 
-/// @throws MeshError  one of these errors is about a face that refers to a vertex that does not exist
+/// Checks the errors of a log.
+/// @throws MeshError  one of these errors is about a face that refers to a missing vertex
 void requireVerticesOfFaces(const std::vector<std::string>& errors);
 
 }  // namespace viscera

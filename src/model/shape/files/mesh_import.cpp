@@ -26,7 +26,7 @@
 #include "model/shape/files/gltf_limits.h"
 #include "model/shape/files/import_limits.h"
 #include "model/shape/files/import_log.h"
-#include "model/shape/files/mesh_look.h"
+#include "model/shape/files/mesh_appearance.h"
 #include "model/shape/files/msh_reader.h"
 #include "model/shape/files/ply_reader.h"
 #include "model/shape/files/stl_reader.h"
@@ -47,7 +47,8 @@ void requireReadableFile(const std::string& path) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
   if (!fs::exists(status)) fail(path, "no such file");
-  if (fs::is_directory(status)) fail(path, "is a directory; give a mesh file (OBJ, STL, PLY, glTF, GLB or Gmsh .msh)");
+  if (fs::is_directory(status))
+    fail(path, "is a directory; accepted: a mesh file (OBJ, STL, PLY, glTF, GLB or Gmsh .msh)");
   if (!fs::is_regular_file(status)) fail(path, "is not a regular file");
   if (fs::file_size(path, code) == 0) fail(path, "is empty (0 bytes)");
 }
@@ -60,26 +61,26 @@ Eigen::Matrix4d toEigen(const aiMatrix4x4& m) {
   return out;
 }
 
-/// Orders positions by their exact value, so that equal ones become one vertex.
+/// Order of positions by their exact value, so that equal ones become one vertex.
 struct LessPosition {
   bool operator()(const Vector3f& a, const Vector3f& b) const {
     return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
   }
 };
 
-/// Walks the node tree of a file and gathers its triangles, part by part.
+/// Collector of a file's triangles, part by part, which traverses its node tree.
 class Gatherer {
  public:
   Gatherer(double unit_scale_m, std::string path, const ImportLimits& limits, bool with_look)
       : unit_scale_m_(unit_scale_m), path_(std::move(path)), limits_(limits), with_look_(with_look) {}
 
-  /// Parents before children, children in their order; without recursion, however deep they are.
+  /// Visits parents before children and children in order, without recursion at any depth.
   void visit(const aiScene& scene) {
     struct Waiting {
       const aiNode* node;
       Eigen::Matrix4d parent;
     };
-    MeshLook look(path_, with_look_ ? &scene : nullptr, limits_);
+    MeshAppearance look(path_, with_look_ ? &scene : nullptr, limits_);
     look_ = &look;
     std::vector<Waiting> waiting = {{scene.mRootNode, Eigen::Matrix4d::Identity()}};
     while (!waiting.empty()) {
@@ -116,7 +117,7 @@ class Gatherer {
     ++report.parts;
   }
 
-  /// A node that holds one mesh names it; where it holds several, the meshes' own names tell them apart.
+  /// Returns the name of a part: the node's if it has one mesh; for several, the meshes' own names distinguish them.
   static std::string partName(const aiMesh& source, const aiNode& node) {
     const std::string of_node = node.mName.C_Str(), of_mesh = source.mName.C_Str();
     const bool node_first = node.mNumMeshes == 1 && node.mParent != nullptr && !of_node.empty();
@@ -126,7 +127,7 @@ class Gatherer {
 
   std::string uniqueName(const std::string& name) {
     std::string unique = name;
-    int& copies = copies_[name];  // so that a thousand of a name are not each counted from 2
+    int& copies = copies_[name];  // avoids counting from 2 for each of a thousand equal names
     for (copies = std::max(copies, 1); !names_.insert(unique).second;) unique = name + "_" + std::to_string(++copies);
     return unique;
   }
@@ -177,14 +178,14 @@ class Gatherer {
     return ab.cross(ac).norm() > kFlat * std::max(ab.squaredNorm(), ac.squaredNorm());
   }
 
-  /// Height over length below which three single-precision points lie on one line.
+  /// Height over length below which three single-precision points are on one line.
   static constexpr double kFlat = 1e-12;
 
   double unit_scale_m_;
   std::string path_;
   ImportLimits limits_;
   bool with_look_;
-  MeshLook* look_ = nullptr;  ///< while visit() runs
+  MeshAppearance* look_ = nullptr;  ///< while visit() runs
   std::set<std::string> names_;
   std::map<std::string, int> copies_;
 };
@@ -206,20 +207,21 @@ void dropUnusedVertices(TriangleMesh& mesh) {
   mesh.positions_m.swap(kept);
 }
 
-/// A truncated file can leave faces without vertices, at which assimp's own triangulation would abort the process.
+/// Checks faces: a truncated file can have faces without vertices, which make assimp's triangulation abort the process.
 void requireVerticesInFaces(const aiScene& scene) {
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     const aiMesh& mesh = *scene.mMeshes[m];
     const bool corrupt = std::any_of(mesh.mFaces, mesh.mFaces + mesh.mNumFaces,
                                      [](const aiFace& face) { return face.mNumIndices == 0; });
-    if (corrupt) throw MeshError("is corrupt or cut short: a face has no vertices");
+    if (corrupt) throw MeshError("is corrupt or truncated: a face has no vertices");
   }
 }
 
-/// Opens nothing but ordinary files within the limit, whatever a file refers to: a pipe could be waited for for ever.
+/// File access that opens only regular files within the limit, whatever a file refers to: reading a pipe could block
+/// without end.
 class BoundedFiles : public Assimp::DefaultIOSystem {
  public:
-  /// @param made  files that are in memory alone, by path
+  /// @param made  files that exist in memory only, by path
   BoundedFiles(const ImportLimits& limits, std::map<std::string, std::string> made)
       : limits_(limits), made_(std::move(made)) {}
 
@@ -235,7 +237,7 @@ class BoundedFiles : public Assimp::DefaultIOSystem {
   }
 
  private:
-  /// The ordinary file of that name, or of that URI as glTF has it; empty: there is none.
+  /// Returns the regular file of that name, or of that URI as in glTF; empty: there is none.
   static std::string nameOf(const std::string& file) {
     for (const std::string& name : {file, unescaped(file)}) {
       requireWithinBounds(name);
@@ -259,14 +261,14 @@ double trianglesIn(const aiScene& scene) {
   return all;
 }
 
-/// The scene that assimp makes of a file, polygons as triangles; it belongs to the importer.
+/// Returns the scene that assimp reads from a file, with polygons as triangles; it belongs to the importer.
 const aiScene& readScene(Assimp::Importer& importer, const std::string& path, const ImportLimits& limits) {
   requireKnownFormat(path, limits);
   GltfFacts gltf;
   if (looksLikeGltf(path)) gltf = requireGltfWithin(path, limits);
   std::map<std::string, std::string> made;
   if (gltf.is_quantised) made = withFloatAttributes(path, limits);
-  importer.SetIOHandler(new BoundedFiles(limits, std::move(made)));  // the importer's from now on
+  importer.SetIOHandler(new BoundedFiles(limits, std::move(made)));  // the importer owns it
   const aiScene* scene = nullptr;
   requireVerticesOfFaces(assimpErrorsOf([&] { scene = importer.ReadFile(path, 0); }));
   const bool lost = scene != nullptr ? trianglesIn(*scene) < gltf.triangles
@@ -278,11 +280,11 @@ const aiScene& readScene(Assimp::Importer& importer, const std::string& path, co
   }
   if (scene == nullptr)
     throw MeshError((gltf.is_draco
-                         ? "requires the extension KHR_draco_mesh_compression, and cannot be unpacked; write it "
+                         ? "requires the extension KHR_draco_mesh_compression and cannot be decompressed; write it "
                            "without: "
                          : "cannot be read: ") +
                     std::string(importer.GetErrorString()));
-  if (scene->mRootNode == nullptr) throw MeshError("holds no scene");
+  if (scene->mRootNode == nullptr) throw MeshError("contains no scene");
   requireScene(*scene, limits);
   return *scene;
 }
@@ -305,7 +307,7 @@ void gather(const std::string& path, double unit_scale_m, const ImportLimits& li
   try {
     scene = is_ply ? readPly(path) : readStl(path, notes);
   } catch (const MeshError& error) {
-    throw MeshError(std::string("is corrupt or cut short: ") + error.what());
+    throw MeshError(std::string("is corrupt or truncated: ") + error.what());
   }
   requireScene(*scene, limits);
   gatherer.visit(*scene);
@@ -335,7 +337,7 @@ TriangleMesh importMesh(const std::string& path, double unit_scale_m, ImportRepo
   } catch (const std::exception& error) {  // assimp's own too
     fail(path, error.what());
   }
-  if (gatherer.mesh.triangles.empty()) fail(path, "holds no triangle (" + gatherer.report.text() + ")");
+  if (gatherer.mesh.triangles.empty()) fail(path, "contains no triangles (" + gatherer.report.text() + ")");
   dropUnusedVertices(gatherer.mesh);
   if (report != nullptr) *report = gatherer.report;
   return std::move(gatherer.mesh);

@@ -42,7 +42,7 @@ std::map<int64_t, MshType> allTypes() {
           {14, {"pyramids", 14, 5, 3, pyramid, of_pyramid}}};
 }
 
-/// A triangle, or a quadrangle divided from its lowest node.
+/// Appends a triangle, or a quadrangle divided from its lowest node.
 void appendPolygon(const std::vector<uint32_t>& ring, std::vector<std::array<uint32_t, 3>>& triangles) {
   const auto first = static_cast<size_t>(std::min_element(ring.begin(), ring.end()) - ring.begin());
   const auto at = [&](size_t i) { return ring[(first + i) % ring.size()]; };

@@ -11,20 +11,21 @@
 
 namespace viscera {
 
-/// Type of elements that Gmsh files hold.
+/// Type of elements in Gmsh files.
 struct MshType {
   const char* name;
   size_t nodes, corners;
   int dimension;
-  std::vector<std::vector<size_t>> faces;    ///< of three dimensions: corners, counter-clockwise seen from outside
-  std::vector<std::array<size_t, 2>> edges;  ///< of second order: the ends of each, whose nodes follow the corners
+  std::vector<std::vector<size_t>> faces;  ///< of three dimensions: corners, counter-clockwise seen from outside
+  /// For second order: the two ends of each edge; the nodes of edges follow the corners.
+  std::vector<std::array<size_t, 2>> edges;
 };
 
-/// Returns what Gmsh has under a number; null: a type that is not read, of third order or unknown.
+/// Returns the element type of a Gmsh number; null: a type that is not read, of third order or unknown.
 const MshType* mshType(int64_t number);
 
-/// Appends triangles of a face, in an order in which an element on its other side has them too.
-/// @param nodes  of the element   @param face  of its type
+/// Appends triangles of a face, the same as those of the element on its other side.
+/// @param nodes  of the element   @param face  index within its type
 void appendFace(const MshType& type, size_t face, const std::vector<uint32_t>& nodes,
                 std::vector<std::array<uint32_t, 3>>& triangles);
 

@@ -7,20 +7,20 @@
 
 namespace viscera {
 
-/// The words and numbers of a Gmsh file, one after the other: text, or bytes within sections that are binary.
+/// Words and numbers of a Gmsh file in sequence: text, or bytes within binary sections.
 class MshNumbers {
  public:
   /// @throws MeshError  the file cannot be read
   explicit MshNumbers(const std::string& path);
 
-  /// Numbers are bytes from here on, where the text's line ends; else words again.
+  /// Switches to bytes, after the end of the text line, or back to words.
   void setBinary(bool binary);
   bool isAtEnd();
-  std::string word();                  ///< of text
-  std::string line();                  ///< of text: what is left of it
-  void pass(const std::string& word);  ///< all up to behind it
+  std::string word();                  ///< next word of text
+  std::string line();                  ///< rest of a line of text
+  void pass(const std::string& word);  ///< skips everything up to the end of this word
 
-  int64_t whole(size_t bytes);   ///< of 4 or 8 bytes, where binary
+  int64_t whole(size_t bytes);   ///< integer of 4 or 8 bytes if binary
   uint64_t count(size_t bytes);  ///< whole() that is not negative
   double number();
 

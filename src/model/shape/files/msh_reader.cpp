@@ -21,7 +21,7 @@ namespace {
 
 struct Element {
   const MshType* type;
-  int64_t group;  ///< physical; 0: of none
+  int64_t group;  ///< physical group; 0: none
   std::vector<uint32_t> nodes;
   bool inside_out;
 };
@@ -34,17 +34,18 @@ class MshReader {
     while (!in_.isAtEnd()) {
       const std::string section = in_.word();
       if (section[0] != '$' || section.rfind("$End", 0) == 0)
-        in_.fail("'" + section + "' where a section should start");
+        in_.fail("found '" + section + "' where a section should start");
       readSection(section.substr(1));
     }
     if (positions_m.empty()) in_.fail("the file has no $Nodes");
-    if (elements.empty()) in_.fail("the file has no tetrahedron, hexahedron, prism or pyramid; it has" + passedOver());
+    if (elements.empty())
+      in_.fail("the file has no tetrahedron, hexahedron, prism or pyramid; it has only" + passedOver());
   }
 
   std::string passedOver() const {
     std::string out;
     for (const auto& [name, count] : passed_over_) out += " " + std::to_string(count) + " " + name;
-    return out.empty() ? " no element" : out;
+    return out.empty() ? " no elements" : out;
   }
   std::string note() const {
     std::map<std::string, size_t> read;
@@ -52,9 +53,9 @@ class MshReader {
     TextOut out;
     out << "MSH " << version_ << ":";
     for (const auto& [name, count] : read) out << " " << count << " " << name;
-    out << "; passed over" << passedOver();
+    out << "; ignored:" << passedOver();
     if (volumes_in_two_ > 0)
-      out << "; " << volumes_in_two_ << " volumes are of several physical groups: the first is taken";
+      out << "; " << volumes_in_two_ << " volumes belong to several physical groups; the first group is used";
     return out.str();
   }
   std::string nameOf(int64_t group) const {
@@ -75,11 +76,11 @@ class MshReader {
       version_ = 1;
       readNodes();
     } else if (!has_format) {
-      in_.fail("a Gmsh file starts with $MeshFormat or $NOD");
+      in_.fail("a Gmsh file must start with $MeshFormat or $NOD");
     } else if (section == "PhysicalNames") {
       readNames();
     } else if (section == "PartitionedEntities") {
-      in_.fail("partitioned meshes are not read; save it without partitions");
+      in_.fail("partitioned meshes are not supported; save it without partitions");
     } else if (section == "Entities") {
       readEntities();
     } else if (section == "Nodes") {
@@ -93,7 +94,7 @@ class MshReader {
     if (!read_.insert(section).second) in_.fail("a second $" + section);
     const std::string end = (version_ == 1 ? "$END" : "$End") + section, found = in_.word();
     if (found != end)
-      in_.fail("'" + found + "' where " + end + " should stand: the counts of $" + section + " do not match");
+      in_.fail("found '" + found + "' instead of " + end + ": the counts in $" + section + " do not match");
   }
 
   void readFormat() {
@@ -101,13 +102,13 @@ class MshReader {
     const bool is_known = (version_ >= 2 && version_ < 3) || version_ == 4 || version_ == 4.1;
     if (!is_known) {
       in_.fail("version " + numberText(version_) +
-               " is not read; accepted: 1, 2 to 2.2, 4 and 4.1 (gmsh FILE -save -format msh41)");
+               " is not supported; accepted: 1, 2 to 2.2, 4 and 4.1 (gmsh FILE -save -format msh41)");
     }
     is_binary_ = in_.whole(4) == 1;
     if (in_.whole(4) != 8) in_.fail("the data size of $MeshFormat is not 8 bytes");
     in_.setBinary(is_binary_);
     if (is_binary_ && in_.whole(4) != 1)
-      in_.fail("big-endian files are not read; save it as ASCII (gmsh without -bin)");
+      in_.fail("big-endian files are not supported; save it as ASCII (gmsh without -bin)");
   }
 
   void readNames() {
@@ -115,7 +116,7 @@ class MshReader {
       const int64_t dimension = in_.whole(4), group = in_.whole(4);
       const std::string rest = in_.line();
       const size_t first = rest.find('"'), last = rest.rfind('"');
-      if (first == last) in_.fail("a name in quotes should stand after its number");
+      if (first == last) in_.fail("a name in quotes must follow its number");
       if (dimension == 3) names_[group] = rest.substr(first + 1, last - first - 1);
     }
   }
@@ -129,7 +130,7 @@ class MshReader {
   }
   void readEntity(size_t dimension) {
     const int64_t entity = in_.whole(4);
-    const int numbers = dimension == 0 && version_ > 4 ? 3 : 6;  // its place, or its box
+    const int numbers = dimension == 0 && version_ > 4 ? 3 : 6;  // position, or bounding box
     for (int i = 0; i < numbers; ++i) in_.number();
     const uint64_t groups = in_.count(8);
     for (uint64_t g = 0; g < groups; ++g) {
@@ -165,23 +166,23 @@ class MshReader {
     requireCount("nodes", nodes, positions_m.size());
   }
   void addNode(uint64_t tag, int64_t parameters) {
-    const Vector3d file{in_.number(), in_.number(), in_.number()};  // braces: in this order
+    const Vector3d file{in_.number(), in_.number(), in_.number()};  // braces evaluate in order
     for (; parameters > 0; --parameters) in_.number();
     const Vector3d at_m = unit_scale_m_ * file;
     if (!at_m.cast<float>().allFinite()) in_.fail("node " + std::to_string(tag) + " is not finite in metres");
     if (!node_of_tag_.try_emplace(tag, static_cast<uint32_t>(tags.size())).second)
-      in_.fail("node " + std::to_string(tag) + " stands twice");
+      in_.fail("node " + std::to_string(tag) + " is defined twice");
     tags.push_back(tag);
     positions_m.push_back(at_m);
   }
 
-  /// Of blocks, and of what is in them.
+  /// Returns the number of blocks, and the number of entries in them.
   std::pair<uint64_t, uint64_t> readCounts() {
     const uint64_t blocks = in_.count(8), count = in_.count(8);
-    for (int i = 0; version_ > 4 && i < 2; ++i) in_.count(8);  // least and greatest number
+    for (int i = 0; version_ > 4 && i < 2; ++i) in_.count(8);  // smallest and largest number
     return {blocks, count};
   }
-  /// Dimension and number of the entity that a block belongs to.
+  /// Returns dimension and number of the entity of a block.
   std::pair<int64_t, int64_t> readEntityOf() {
     const int64_t first = in_.whole(4), second = in_.whole(4);
     return version_ > 4 ? std::pair(first, second) : std::pair(second, first);
@@ -193,7 +194,7 @@ class MshReader {
       const MshType& type = readType();
       const int64_t group = std::abs(in_.whole(4));
       in_.whole(4);
-      if (in_.count(4) != type.nodes) in_.fail("the number of nodes is not that of the element's type");
+      if (in_.count(4) != type.nodes) in_.fail("the number of nodes does not match the element's type");
       addElement(type, group, 4);
     }
   }
@@ -239,7 +240,7 @@ class MshReader {
     const MshType* const type = mshType(number);
     if (type == nullptr)
       in_.fail("elements of type " + std::to_string(number) +
-               " are not read; accepted: those of first and second order");
+               " are not supported; accepted: types of first and second order");
     return *type;
   }
   void addElement(const MshType& type, int64_t group, size_t bytes) {
@@ -247,7 +248,7 @@ class MshReader {
     for (size_t n = 0; n < type.nodes; ++n) {
       const uint64_t tag = in_.count(bytes);
       const auto node = node_of_tag_.find(tag);
-      if (node == node_of_tag_.end()) in_.fail("node " + std::to_string(tag) + " is not known");
+      if (node == node_of_tag_.end()) in_.fail("node " + std::to_string(tag) + " does not exist");
       element.nodes.push_back(node->second);
     }
     if (type.dimension < 3) {
@@ -275,7 +276,7 @@ class MshReader {
 
   void requireCount(const std::string& what, uint64_t announced, uint64_t read) const {
     if (announced != read)
-      in_.fail(std::to_string(announced) + " " + what + " announced, " + std::to_string(read) + " there");
+      in_.fail(std::to_string(announced) + " " + what + " announced, " + std::to_string(read) + " found");
   }
 
   MshNumbers in_;
@@ -287,13 +288,13 @@ class MshReader {
   std::map<int64_t, int64_t> group_of_volume_;
   std::map<std::string, size_t> passed_over_;
   size_t volumes_in_two_ = 0;
-  std::set<std::string> read_;  ///< sections
+  std::set<std::string> read_;  ///< sections that were read
 };
 
-/// A face of an element, as others find it.
+/// Face of an element, in a form that its neighbour finds.
 struct Face {
   std::array<uint32_t, 4> key;  ///< its corners, ascending
-  uint32_t next;                ///< after the lowest corner, seen from outside
+  uint32_t next;                ///< corner after the lowest one, seen from outside
   uint32_t element, face;
 };
 
@@ -308,7 +309,7 @@ Face faceOf(const std::vector<Element>& elements, size_t e, size_t f) {
   return out;
 }
 
-/// Faces of all elements, equal ones side by side.
+/// Returns the faces of all elements, equal ones next to each other.
 std::vector<Face> sortedFaces(const std::vector<Element>& elements) {
   std::vector<Face> faces;
   for (size_t e = 0; e < elements.size(); ++e)
@@ -318,7 +319,7 @@ std::vector<Face> sortedFaces(const std::vector<Element>& elements) {
   return faces;
 }
 
-/// The mesh of the groups, without triangles yet. @param parts  gets the number of each group's part
+/// Returns the mesh of the groups, still without triangles. @param parts  gets the number of each group's part
 TriangleMesh partsOf(const MshReader& reader, std::map<int64_t, uint16_t>& parts) {
   TriangleMesh mesh;
   for (const Vector3d& at_m : reader.positions_m) mesh.positions_m.push_back(at_m.cast<float>());
@@ -364,7 +365,7 @@ TriangleMesh readMsh(const std::string& path, double unit_scale_m, const ImportL
       TextOut out;
       for (size_t c = 0; c < 3; ++c) out << (c > 0 ? ", " : "") << reader.tags[faces[i].key[c]];
       throw MeshError("elements overlap at the face of nodes " + out.str() +
-                      "; an element may be of one physical group only");
+                      "; each element may belong to only one physical group");
     }
     if (end - i == 2 && elements[faces[i].element].group == elements[faces[i + 1].element].group) continue;
     for (size_t f = i; f < end; ++f) add(faces[f]);

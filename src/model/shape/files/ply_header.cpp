@@ -14,7 +14,7 @@ namespace {
 PlyElement readElement(std::istringstream& words) {
   PlyElement element;
   if (!(words >> element.name >> element.count) || element.count < 0)
-    throw MeshError("its PLY header has a bad element");
+    throw MeshError("its PLY header has an invalid element");
   return element;
 }
 
@@ -24,7 +24,8 @@ PlyProperty readProperty(std::istringstream& words) {
   if (property.type == "list") words >> property.list_type >> property.type;
   words >> property.name;
   const bool list_known = property.list_type.empty() || plyTypeBytes(property.list_type) > 0;
-  if (!words || plyTypeBytes(property.type) == 0 || !list_known) throw MeshError("its PLY header has a bad property");
+  if (!words || plyTypeBytes(property.type) == 0 || !list_known)
+    throw MeshError("its PLY header has an invalid property");
   return property;
 }
 

@@ -20,7 +20,7 @@ struct PlyElement {
   std::vector<PlyProperty> properties;
 };
 
-/// What a PLY file says about its body.
+/// Header of a PLY file.
 struct PlyHeader {
   std::string format;  ///< ascii, binary_little_endian or binary_big_endian
   std::vector<PlyElement> elements;
@@ -30,7 +30,7 @@ struct PlyHeader {
 /// @throws MeshError  malformed, or without an end
 PlyHeader readPlyHeader(std::istream& file);
 
-/// Bytes of a value of a PLY type; 0 for an unknown type.
+/// Returns the bytes of a value of a PLY type; 0 for an unknown type.
 size_t plyTypeBytes(const std::string& type);
 
 }  // namespace viscera

@@ -24,7 +24,7 @@ double valueOf(const char* bytes) {
   return static_cast<double>(value);
 }
 
-/// The numbers of a body, one after the other.
+/// Numbers of a body in sequence.
 class PlyNumbers {
  public:
   PlyNumbers(std::istream& file, const std::string& format)
@@ -32,10 +32,10 @@ class PlyNumbers {
 
   double next(const std::string& type) { return is_ascii_ ? nextWord() : nextBytes(type); }
 
-  /// Length of a list.
+  /// Returns the length of a list.
   size_t nextLength(const std::string& type) {
     const double length = next(type);
-    if (!(length >= 0 && length <= kLongestList)) throw MeshError("it holds a list of impossible length");
+    if (!(length >= 0 && length <= kLongestList)) throw MeshError("the length of a list is invalid");
     return static_cast<size_t>(length);
   }
 
@@ -51,7 +51,7 @@ class PlyNumbers {
     const size_t count = plyTypeBytes(type);
     char bytes[8];
     if (!file_.read(bytes, static_cast<std::streamsize>(count))) throw MeshError("");
-    // The machines that viscera runs on are little-endian.
+    // Machines that viscera runs on are little-endian.
     if (is_big_endian_) std::reverse(bytes, bytes + count);
     const bool is_unsigned = type[0] == 'u';
     if (type[0] == 'f' || type[0] == 'd') return count == 4 ? valueOf<float>(bytes) : valueOf<double>(bytes);
@@ -85,7 +85,7 @@ void readVertex(const PlyElement& element, PlyNumbers& numbers, ReadPart& mesh) 
   mesh.vertices.push_back(position);
 }
 
-/// Faces, and any other element: corners are taken from a list of vertex indices, the rest is passed over.
+/// Reads faces, and skips other elements: corners are taken from a list of vertex indices.
 void readFace(const PlyElement& element, PlyNumbers& numbers, ReadPart& mesh) {
   for (const PlyProperty& property : element.properties) {
     const size_t values = property.list_type.empty() ? 1 : numbers.nextLength(property.list_type);
@@ -102,7 +102,7 @@ void readFace(const PlyElement& element, PlyNumbers& numbers, ReadPart& mesh) {
   }
 }
 
-/// Strips of triangles, whose corners turn the other way from one to the next; -1 ends a strip.
+/// Reads triangle strips, with alternating orientation; -1 ends a strip.
 void readStrips(const PlyElement& element, PlyNumbers& numbers, ReadPart& mesh) {
   for (const PlyProperty& property : element.properties) {
     const size_t values = property.list_type.empty() ? 1 : numbers.nextLength(property.list_type);

@@ -11,9 +11,9 @@ namespace viscera {
 
 bool isPly(const std::string& path);
 
-/// Reads a PLY file (ascii or binary) as one mesh of triangles; faces with more corners become fans.
-/// assimp (5.2) has a reader, but it crashes or never returns where the file is cut short, and misreads binary files
-/// whose first coordinate starts with the byte of a blank or a line end.
+/// Reads a PLY file (ascii or binary) as one mesh of triangles; faces with more corners become fans. assimp's reader
+/// (5.2) crashes or never returns where the file is cut short. It also misreads binary files if the first coordinate
+/// starts with the byte of a blank or a line end.
 /// @throws MeshError  the file is corrupt or cut short; says where, without the file's name
 std::unique_ptr<aiScene> readPly(const std::string& path);
 

@@ -11,14 +11,14 @@
 
 namespace viscera {
 
-/// Triangles of a file that a reader of ours has read.
+/// Triangles of a file that one of our own readers has read.
 struct ReadPart {
-  std::string name;  ///< empty: it has none
+  std::string name;  ///< empty: no name
   std::vector<aiVector3D> vertices;
   std::vector<std::array<unsigned, 3>> triangles;
 };
 
-/// Hands parts over as meshes of the single node of a scene.
+/// Returns a scene with a single node that has the parts as meshes.
 std::unique_ptr<aiScene> sceneOf(const std::vector<ReadPart>& parts);
 
 }  // namespace viscera

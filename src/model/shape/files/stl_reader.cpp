@@ -29,12 +29,12 @@ std::string contentsOf(const std::string& path) {
   return all.str();
 }
 
-/// The words of a text, and in which line they are.
+/// Words of a text, with their lines.
 class Words {
  public:
   explicit Words(const std::string& text) : text_(text) {}
 
-  /// False: the text ends.
+  /// Reads the next word. False: the text ends.
   bool next(std::string& word) {
     while (at_ < text_.size() && isBlank(text_[at_])) line_ += text_[at_++] == '\n';
     const size_t first = at_;
@@ -71,7 +71,7 @@ class Words {
   size_t at_ = 0, line_ = 1;
 };
 
-/// Reads solids of text one facet after the other.
+/// Reader of the solids of a text STL file, one facet after the other.
 class StlText {
  public:
   explicit StlText(const std::string& text) : words_(text) {}
@@ -80,7 +80,7 @@ class StlText {
     std::string word;
     while (words_.next(word)) take(lowered(word));
     if (in_facet_) words_.fail("the file ends within a facet");
-    if (in_solid_) notes.push_back("has no 'endsolid' at its end: it may be cut short");
+    if (in_solid_) notes.push_back("has no 'endsolid' at its end: it may be truncated");
     return std::move(parts_);
   }
 
@@ -105,7 +105,7 @@ class StlText {
     } else if (word == "endfacet") {
       in_facet_ = false;
     } else if (word != "outer" && word != "loop") {
-      words_.fail("'" + word + "' is no word of STL");
+      words_.fail("'" + word + "' is not an STL keyword");
     }
   }
 
@@ -121,7 +121,7 @@ class StlText {
   bool in_solid_ = false, in_facet_ = false;
 };
 
-/// How many triangles to read of a binary file, whose header is often wrong where it was written as a stream.
+/// Returns how many triangles to read of a binary file; its header is often wrong if it was written as a stream.
 size_t trianglesOf(const std::string& bytes, std::vector<std::string>& notes) {
   uint32_t said = 0;
   std::memcpy(&said, bytes.data() + kHeaderBytes - sizeof said, sizeof said);
@@ -129,13 +129,13 @@ size_t trianglesOf(const std::string& bytes, std::vector<std::string>& notes) {
   if (said == held && rest == 0) return held;
   const bool unknown = said == 0 || said == UINT32_MAX;
   if (said > held && !unknown)
-    throw MeshError("its header says " + std::to_string(said) + " triangles, and it has " + std::to_string(held));
+    throw MeshError("its header announces " + std::to_string(said) + " triangles, but it has " + std::to_string(held));
   const size_t count = rest == 0 || unknown ? held : said;
   if (count != said)
-    notes.push_back("its header says " + std::to_string(said) + " triangles; all " + std::to_string(count) +
+    notes.push_back("its header announces " + std::to_string(said) + " triangles; all " + std::to_string(count) +
                     " are read");
   const size_t behind = body - count * kTriangleBytes;
-  if (behind > 0) notes.push_back(std::to_string(behind) + " bytes behind its last triangle are passed over");
+  if (behind > 0) notes.push_back(std::to_string(behind) + " bytes after its last triangle are ignored");
   return count;
 }
 
@@ -157,7 +157,8 @@ ReadPart readBinary(const std::string& bytes, std::vector<std::string>& notes) {
   return part;
 }
 
-/// Binary files may begin with "solid" too: a text has facets in its first lines, and no byte 0.
+/// Returns whether a file is text: binary files may begin with "solid" too, but a text has facets in its first lines,
+/// and no byte 0.
 bool isText(const std::string& bytes) {
   constexpr size_t kLooked = 1000;
   const std::string head = lowered(bytes.substr(0, kLooked));

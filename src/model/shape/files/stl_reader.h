@@ -10,12 +10,12 @@
 
 namespace viscera {
 
-/// Whether a file is STL by its name.
+/// Returns whether a file is STL by its name.
 bool isStl(const std::string& path);
 
-/// Reads an STL file, text or binary, whatever it begins with; each solid of a text becomes a mesh of its name.
-/// assimp (5.2) takes a file for neither where a byte too many or too few is at its end.
-/// @param notes  get what is odd and no mistake, one line each
+/// Reads an STL file, text or binary, whatever it begins with; each solid of a text becomes a mesh of its name. assimp
+/// (5.2) accepts neither if there is a byte too many or too few at the end.
+/// @param notes  get oddities that are no errors, one line each
 /// @throws MeshError  the file is corrupt or cut short; says where, without the file's name
 std::unique_ptr<aiScene> readStl(const std::string& path, std::vector<std::string>& notes);
 

@@ -7,7 +7,7 @@
 namespace viscera {
 namespace {
 
-/// Vertices at whole coordinates of the box's grid, each made once.
+/// Vertices at integer coordinates of the box's grid, each made once.
 class BoxVertices {
  public:
   BoxVertices(const Vector3d& min_m, const Vector3d& size_m, const Vector3i& squares)

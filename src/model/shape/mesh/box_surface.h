@@ -6,8 +6,8 @@
 
 namespace viscera {
 
-/// Exact surface of an axis-aligned box, closed and facing outward, in squares of two triangles.
-/// @param squares  along x, y, z, each at least 1
+/// Returns the exact surface of an axis-aligned box, closed and facing outward, in squares of two triangles.
+/// @param squares  numbers along x, y, z, each at least 1
 TriangleMesh boxSurface(const Vector3d& min_m, const Vector3d& size_m, const Vector3i& squares);
 
 }  // namespace viscera

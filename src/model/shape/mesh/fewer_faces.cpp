@@ -11,8 +11,8 @@ namespace viscera {
 
 namespace {
 
-constexpr size_t kLeastFaces = 64;  // of a part: fewer are no shape
-constexpr float kMostError = 0.1F;  // of the mesh's extent: the number of faces decides, not this
+constexpr size_t kLeastFaces = 64;  // per part: fewer do not represent a shape
+constexpr float kMostError = 0.1F;  // share of the mesh's extent: the number of faces decides, not this
 
 }  // namespace
 
@@ -33,7 +33,7 @@ TriangleMesh withFewerFaces(const TriangleMesh& mesh, size_t faces) {
     const size_t has = indices.size() / 3, least = std::min(kLeastFaces, has);  // meshopt_simplify aborts on more
     const size_t wanted = std::max(static_cast<size_t>(share * static_cast<double>(has)), least);
     std::vector<unsigned> fewer(indices.size());
-    // Borders stay where they are: other parts may share them.
+    // Borders are locked: other parts may share them.
     fewer.resize(meshopt_simplify(fewer.data(), indices.data(), indices.size(), mesh.positions_m[0].data(),
                                   mesh.positions_m.size(), sizeof(Vector3f), 3 * wanted, kMostError,
                                   meshopt_SimplifyLockBorder, nullptr));

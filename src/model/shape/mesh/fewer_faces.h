@@ -6,8 +6,8 @@
 
 namespace viscera {
 
-/// A mesh of about `faces` faces with the same parts and the same topology, its vertices among those of the old one: a
-/// mesh that was closed still is. Parts that are small already stay as they are. Texture charts are dropped.
+/// Returns a mesh of about `faces` faces with the same parts and topology, and with vertices of the old one: a closed
+/// mesh stays closed. Small parts stay as they are. Texture charts are dropped.
 TriangleMesh withFewerFaces(const TriangleMesh& mesh, size_t faces);
 
 }  // namespace viscera

@@ -34,7 +34,7 @@ Icosahedron icosahedron() {
   return out;
 }
 
-/// Points of the icosahedron's faces, each made once: a point is known by its whole-numbered weights of the corners.
+/// Points of the icosahedron's faces, each made once: a point is identified by its integer weights of the corners.
 class BallPoints {
  public:
   BallPoints(const Icosahedron& shape, double radius_m, TriangleMesh& mesh)
@@ -80,7 +80,7 @@ TriangleMesh sheetMesh(int rows, int columns, double spacing_m, SheetSides sides
     for (int column = 0; column + 1 < columns; ++column) {
       const auto a = static_cast<uint32_t>(row * columns + column), b = a + 1;
       const uint32_t c = a + static_cast<uint32_t>(columns), d = c + 1;
-      // The diagonal of the two triangles is the short one: it leans with the shift of the upper row.
+      // The two triangles share the short diagonal: it leans with the shift of the upper row.
       if (row % 2 == 0) {
         mesh.triangles.push_back({a, b, c});
         mesh.triangles.push_back({b, d, c});
@@ -100,7 +100,7 @@ SheetGrid sheetGrid(double size_x_m, double size_y_m, double spacing_m) {
 }
 
 TriangleMesh ballMesh(double radius_m, double spacing_m) {
-  // So many edges per edge of the icosahedron that 20 n^2 equilateral triangles cover the sphere.
+  // The number of edges per edge of the icosahedron is such that 20 n^2 equilateral triangles cover the sphere.
   const double pi = std::acos(-1.0), edge = std::sqrt(16 * pi / (20 * std::sqrt(3.0)));
   const int n = std::max(1, static_cast<int>(std::lround(edge * radius_m / spacing_m)));
   TriangleMesh mesh;

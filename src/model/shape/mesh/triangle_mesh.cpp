@@ -15,7 +15,7 @@ uint64_t edgeKey(uint32_t a, uint32_t b) {
   return (static_cast<uint64_t>(std::min(a, b)) << 32) | static_cast<uint64_t>(std::max(a, b));
 }
 
-/// One pass over all triangles: every edge that is too long gets one midpoint, shared by the triangles around it.
+/// One pass over all triangles: every edge that is too long gets one midpoint, which the triangles around it share.
 class SplitPass {
  public:
   SplitPass(TriangleMesh& mesh, double longest_edge_m) : mesh_(mesh), longest_edge_m_(longest_edge_m) {}
@@ -100,7 +100,7 @@ class SplitPass {
 
 double signedVolume(const TriangleMesh& mesh) {
   if (mesh.positions_m.empty()) return 0;
-  // Heights are taken from a vertex of the mesh: far from the origin the six-fold products would cancel.
+  // Relative to a vertex of the mesh: far from the origin the products of six factors would cancel.
   const Vector3d base = mesh.positions_m[0].cast<double>();
   double six_volumes = 0;
   for (const auto& t : mesh.triangles) {

@@ -11,13 +11,14 @@ namespace viscera {
 namespace {
 
 constexpr size_t kMostInLeaf = 4;
-constexpr size_t kDeepest = 64;  // halves of 2^64 triangles
+constexpr size_t kDeepest = 64;  // halvings of 2^64 triangles
 
 float distance2ToBox(const Vector3f& p, const Vector3f& low, const Vector3f& high) {
   return (low - p).cwiseMax(p - high).cwiseMax(0.F).squaredNorm();
 }
 
-/// Weights of b and c of the point of a triangle that is nearest to `ap` from its corner a (Ericson, 5.1.5).
+/// Returns the weights of b and c of the point of a triangle that is nearest to `ap` from its corner a
+/// (Ericson, 5.1.5).
 std::array<float, 2> nearestWeights(const Vector3f& ab, const Vector3f& ac, const Vector3f& ap) {
   const float d1 = ab.dot(ap), d2 = ac.dot(ap);
   if (d1 <= 0 && d2 <= 0) return {0, 0};

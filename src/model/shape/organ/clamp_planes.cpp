@@ -9,10 +9,10 @@
 namespace viscera {
 namespace {
 
-constexpr double kParallel = 1e-9;  ///< sine of an angle that is rounding
-constexpr double kWithin = 1e-6;    ///< of the body's size: what is nearer to its border is outside
+constexpr double kParallel = 1e-9;  ///< sine of an angle that counts as rounding
+constexpr double kWithin = 1e-6;    ///< share of the body's size: faces closer to its border are outside
 
-/// Takes a plane, unless there is one across that axis already or it lies across none.
+/// Adds a plane, unless that axis already has one or the plane is across none.
 void take(const Vector3d& point_m, const Vector3d& normal, NodePlanes& planes) {
   int axis = 0;
   normal.cwiseAbs().maxCoeff(&axis);

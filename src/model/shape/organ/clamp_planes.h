@@ -7,9 +7,10 @@
 
 namespace viscera {
 
-/// Where a body is held: per axis of the lattice the first plane of its fixed regions that is parallel to the lattice
-/// and bounds what is held: a plane, or a face of a box within the body. Nodes that lie on it hold the body where it is
-/// to be held; elsewhere the clamp would be off by up to half a cell, as large an error as any of the cells.
+/// Returns the planes where a body is fixed: per axis of the lattice the first plane of its fixed regions that is
+/// parallel to the lattice and bounds what is fixed. This is a plane, or a face of a box within the body. Nodes on it
+/// fix the body exactly there; otherwise the clamp would be off by up to half a cell, as large an error as any of the
+/// cells.
 /// @param bounds  of the body, tissue frame
 NodePlanes clampPlanes(const BodyConfig& config, const Eigen::AlignedBox3d& bounds);
 

@@ -12,14 +12,14 @@ namespace viscera {
 
 namespace {
 
-// Where rays to the ventricles' outer surface begin: within them, at the apex and at the base.
+// Origins of rays to the ventricles' outer surface: inside them, at the apex and at the base.
 const Vector3d kApex(0.16, 0.05, 0), kBase(0.02, -0.05, 1);
-constexpr double kFarthest = 0.9;    // of the surface from the axis
-constexpr double kTop = 0.955;       // of the groove below the atria
-constexpr double kVeinBeside = 2.4;  // radii of the artery from its middle to the vein's
+constexpr double kFarthest = 0.9;    // largest distance of the surface from the axis
+constexpr double kTop = 0.955;       // height of the groove below the atria
+constexpr double kVeinBeside = 2.4;  // distance between the axes of artery and vein, in radii of the artery
 constexpr int kPointsPerPath = 24;
-constexpr float kFacing = 0.2F;                             // cosine: what faces elsewhere is the wall's other side
-constexpr float kFatHeight = 0.010F, kVesselHeight = 0.8F;  // of the heart's length; of a vessel's radius
+constexpr float kFacing = 0.2F;  // cosine: a surface that faces elsewhere is the wall's other side
+constexpr float kFatHeight = 0.010F, kVesselHeight = 0.8F;  // share of the heart's length; of a vessel's radius
 
 const Vector3f kArtery(0.36F, 0.035F, 0.03F), kVein(0.13F, 0.035F, 0.075F), kFat(0.72F, 0.44F, 0.12F);  // linear
 
@@ -30,9 +30,9 @@ double hashed(uint32_t seed) {
   return static_cast<double>((h ^ h >> 15U) >> 8U) / 16777216.0;
 }
 
-/// Within 4e-6 up to some hundred radians, and without branches: of many places at once.
+/// Returns a sine, accurate to 4e-6 up to about a hundred radians, without branches, so that loops vectorise.
 inline float sine(float x) {
-  constexpr float kPerTurn = 0.15915494F, kWhole = 12582912;  // 1.5 * 2^23: adding it rounds to whole numbers
+  constexpr float kPerTurn = 0.15915494F, kWhole = 12582912;  // 1.5 * 2^23: adding it rounds to integers
   const float turns = x * kPerTurn, part = turns - ((turns + kWhole) - kWhole), size = std::abs(part);
   const float folded = size > 0.25F ? std::copysign(0.5F, part) - part : part, square = folded * folded;
   constexpr std::array<float, 5> kTaylor = {6.2831853F, -41.341702F, 81.605249F, -76.705860F, 42.058694F};
@@ -40,13 +40,13 @@ inline float sine(float x) {
          (kTaylor[0] + square * (kTaylor[1] + square * (kTaylor[2] + square * (kTaylor[3] + square * kTaylor[4]))));
 }
 
-/// -1..1, smooth: what makes the border of fat uneven.
+/// Returns a smooth function in -1..1 that makes the border of fat uneven.
 inline float wavy(float x, float y, float z) {
   return (sine(41 * x + 17 * y) + sine(37 * y + 29 * z + 1) + sine(43 * z - 23 * x + 2)) / 3;
 }
 
-constexpr float kCell = 0.04F;    // of space, for what is near
-constexpr float kUneven = 0.35F;  // of the border of fat
+constexpr float kCell = 0.04F;    // cell of the spatial hash
+constexpr float kUneven = 0.35F;  // unevenness of the border of fat
 constexpr float kRound = 1.0001F;
 
 uint64_t cellOf(const Vector3i& at) {
@@ -58,7 +58,7 @@ Vector3i cellAt(const Vector3f& place) {
   return (place / kCell).array().floor().cast<int>();
 }
 
-// By value, for loops over lanes: std::max's references are branches to GCC.
+// By value, for loops over lanes: GCC makes branches of std::max's references.
 inline float larger(float a, float b) {
   return a > b ? a : b;
 }
@@ -66,7 +66,7 @@ inline float within(float x, float low, float high) {
   const float above = x > low ? x : low;
   return above < high ? above : high;
 }
-constexpr float kLeast = 1e-9F;   // radius that is divided by
+constexpr float kLeast = 1e-9F;   // smallest radius to divide by
 constexpr float kElsewhere = 10;  // farther than anything on a heart
 
 float reachOf(float radius, float fat) {
@@ -85,12 +85,12 @@ inline float lumps(const PaintRow& row, size_t l) {
 
 }  // namespace
 
-/// Of the tissue along a ray from the axis.
+/// Returns the outermost point of the tissue along a ray from the axis.
 Vector3d HeartVessels::outermost(double z, double turn, int halvings) const {
   const Vector3d from = kApex + z * (kBase - kApex), way(std::cos(turn), std::sin(turn), 0);
   double outside = kFarthest, inside = 0;
   constexpr double kStep = 0.01;
-  // The field is nowhere kSteepest times as steep as a distance: there is no tissue on the steps that are left out.
+  // The field is nowhere kSteepest times as steep as a distance: the skipped steps contain no tissue.
   constexpr double kSteepest = 4;
   int steps = 0;
   for (double r = kFarthest; r > 0; r -= kStep, --steps) {
@@ -125,7 +125,7 @@ HeartVessels::Point HeartVessels::onSurface(double z, double turn, double radius
   return {at, normalAt(at), radius, fat};
 }
 
-/// Where the surface passes from one ventricle to the other, at a height between two turns.
+/// Returns where the surface passes from one ventricle to the other, at a height between two angles.
 double HeartVessels::groove(double z, double from, double to) const {
   constexpr int kHalvings = 20;
   const auto right = [&](double turn) {
@@ -166,7 +166,7 @@ void HeartVessels::addWithVein(const std::vector<Point>& points) {
   addPath(vein, Kind::kVein);
 }
 
-/// From one place to another, winding, thinner as it goes, with twigs.
+/// Adds a winding branch from one position to another, which becomes thinner and has twigs.
 void HeartVessels::addBranch(double z, double turn, double to_z, double to_turn, double radius, int order,
                              uint32_t seed) {
   std::vector<Point> path;
@@ -192,7 +192,7 @@ void HeartVessels::addBranch(double z, double turn, double to_z, double to_turn,
 HeartVessels::HeartVessels(const Field& field, const IsRight& is_right) : field_(field), is_right_(is_right) {
   constexpr double kPi = 3.14159265358979323846, kTrunk = 0.012, kTrunkFat = 0.055;
   constexpr int kBranches = 4;
-  // +x is the patient's left, -y anterior: the grooves between the ventricles are before and behind.
+  // +x is the patient's left, -y anterior: the grooves between the ventricles are anterior and posterior.
   for (const bool anterior : {true, false}) {
     const double from = anterior ? -0.85 * kPi : 0.85 * kPi, to = anterior ? -0.1 * kPi : 0.15 * kPi;
     const double last_z = anterior ? 0.1 : 0.2, radius = anterior ? kTrunk : 0.8 * kTrunk;
@@ -208,7 +208,7 @@ HeartVessels::HeartVessels(const Field& field, const IsRight& is_right) : field_
       path.push_back(onSurface(z, turn + 0.02 * std::sin(9 * s), radius * (1 - 0.6 * s), kTrunkFat * (1 - 0.7 * s)));
       if (i % (2 * kPointsPerPath / (kBranches + 1)) != 4) continue;
       const auto seed = static_cast<uint32_t>(i + (anterior ? 100 : 900));
-      const double away = anterior ? 1 : -1;  // turns to the left ventricle
+      const double away = anterior ? 1 : -1;  // turns towards the left ventricle
       addBranch(z, turn, std::max(0.08, z - 0.42), turn + away * (0.75 + 0.3 * hashed(seed)), 0.65 * radius, 1, seed);
       addBranch(z, turn, std::max(0.12, z - 0.25), turn - away * (0.55 + 0.3 * hashed(seed + 1)), 0.45 * radius, 1,
                 seed + 50);
@@ -283,9 +283,9 @@ void HeartVessels::narrow(const std::vector<uint32_t>& near, const Vector3f& mid
 }
 
 struct HeartVessels::Sums {
-  PaintRow::Lane fat{};     ///< how far within fat, 0 at its border and 1 at its middle
+  PaintRow::Lane fat{};     ///< depth within fat, 0 at its border and 1 at its middle
   PaintRow::Lane best{};    ///< distance from the nearest vessel, in its radii
-  PaintRow::Lane radius{};  ///< of that vessel
+  PaintRow::Lane radius{};  ///< radius of that vessel
   PaintRow::Lane vein{};    ///< 1: it is a vein
 };
 
@@ -325,7 +325,7 @@ HeartVessels::Sums HeartVessels::sumsOf(const std::vector<uint32_t>& near, const
   return out;
 }
 
-/// Of fat and vessels, at a place of a row.
+/// Returns the height of fat and vessels at a point of a row.
 template <class Sums>
 static inline float height(const PaintRow& row, const Sums& sums, size_t l) {
   const float fat = kFatHeight * smoothStep(0, 0.35F, sums.fat[l]) * lumps(row, l) * (0.6F + 0.4F * sums.fat[l]);
@@ -342,7 +342,7 @@ void HeartVessels::paint(const std::vector<uint32_t>& near, PaintRow& row) const
   for (size_t l = 0; l < PaintRow::kMost; ++l) row.height[l] = height(row, sums, l);
   for (size_t l = 0; l < PaintRow::kMost; ++l) {
     const float cover = smoothStep(0, 0.35F, sums.fat[l]), vessel = 1 - smoothStep(0.7F, 1, sums.best[l]);
-    // Fat lies over the larger vessels in part, and shows through a thin film elsewhere.
+    // Fat partly covers the larger vessels, and shows through a thin film elsewhere.
     const float share = cover > 0 ? vessel * (1 - 0.12F * cover) : vessel > 0 ? 1.0F : 0.0F;
     const float fat = (1 - share) * (0.9F + 0.1F * lumps(row, l));
     for (int i = 0; i < 3; ++i) {

@@ -11,13 +11,14 @@
 
 namespace viscera {
 
-/// Coronary arteries and veins on a heart, in grooves with fat, as a surgeon sees them: the anterior descending artery
-/// between the ventricles with its diagonals, the right and the circumflex artery between atria and ventricles, the
-/// posterior descending one, their marginals and twigs, each with a vein beside it. Lengths in the heart's own frame
-/// are fractions of its length, apex at the origin, base at z = 1.
+/// Coronary arteries and veins on a heart, in grooves with fat, as a surgeon sees them. The anterior descending artery
+/// with its diagonals is between the ventricles; the right and the circumflex artery are between atria and ventricles.
+/// There are also the posterior descending artery, marginals and twigs, each with a vein next to it. Lengths in the
+/// heart's own frame are fractions of its length, apex at the origin, base at z = 1.
 class HeartVessels : public SurfacePaint {
  public:
-  /// Distance to the tissue, negative within, in the heart's own frame, and whether a place is of the right ventricle.
+  /// Distance to the tissue, negative inside, in the heart's own frame; and whether a position belongs to the right
+  /// ventricle.
   using Field = std::function<double(const Vector3d&)>;
   using IsRight = std::function<bool(const Vector3d&)>;
   HeartVessels(const Field& field, const IsRight& is_right);
@@ -35,13 +36,13 @@ class HeartVessels : public SurfacePaint {
     Vector3d at, normal;
     double radius = 0, fat = 0;  ///< half the width of the fat around it
   };
-  /// A straight piece of a vessel, from `a` along `way`, as it is painted.
+  /// Straight piece of a vessel as it is painted, from `a` along `way`.
   struct Piece {
     Vector3f a, way, normal;
     float per_way2, radius, radius_change, fat, fat_change;
-    float vein;  ///< 1 of veins, else 0
+    float vein;  ///< 1 for veins, else 0
   };
-  /// What all pieces together say of the places of a row.
+  /// Sums over all pieces at the points of a row.
   struct Sums;
   Sums sumsOf(const std::vector<uint32_t>& near, const PaintRow& row) const;
   bool reaches(uint32_t index, const Vector3f& middle, float radius) const;
@@ -57,7 +58,7 @@ class HeartVessels : public SurfacePaint {
   Field field_;
   IsRight is_right_;
   std::vector<Piece> pieces_;
-  std::unordered_map<uint64_t, std::vector<uint32_t>> cells_;  ///< which pieces reach into a cell of space
+  std::unordered_map<uint64_t, std::vector<uint32_t>> cells_;  ///< pieces that reach into a cell of space
 };
 
 }  // namespace viscera

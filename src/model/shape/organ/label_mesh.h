@@ -10,13 +10,14 @@
 
 namespace viscera {
 
-/// The labels that a body is made of, each a closed part of one mesh, where the scan has them [m]. Labels that touch
-/// have the same triangles, each facing outward of its own.
-/// @param folder  where relative files are looked up   @param notes  gets what reading had to decide
-/// @throws SceneError  naming the body, the file and what is accepted
+/// Returns the labels of a body as closed parts of one mesh, at their positions in the scan [m]. Labels that touch have
+/// the same triangles, each facing outward of its own.
+/// @param folder  folder for relative files   @param notes  gets decisions made while reading
+/// @throws SceneError  names the body, the file and what is accepted
 TriangleMesh labelMesh(const BodyConfig& config, const std::string& folder, std::vector<std::string>& notes);
 
-/// The outer border of parts that touch: without triangles that two parts have, and vertices that are then unused.
+/// Returns the outer border of parts that touch: without triangles that two parts have, and vertices that are then
+/// unused.
 TriangleMesh withoutSharedBorders(const TriangleMesh& mesh);
 
 }  // namespace viscera

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Built as a surgeon would describe it: cavities first. Every cavity is wrapped in a wall, the walls are blended, and
-// the cavities are taken out again. Where two cavities would meet, the one listed later gives way and leaves a wall
+// the cavities are subtracted again. Where two cavities would meet, the one listed later is cut back and leaves a wall
 // between. Lengths are fractions of the distance from the base (the plane of the valves, z = 1) to the apex (z = 0).
 #include "model/shape/organ/phantom.h"
 #include "math/decompositions.h"
@@ -35,20 +35,20 @@ constexpr double kBase = 1;            ///< z of the valves
 constexpr double kBlend = 0.05;        ///< width over which walls merge
 constexpr double kRim = 0.08;          ///< rounding of the ventricles at the base
 constexpr double kSeptumWall = 0.1;    ///< thickness between the ventricles
-constexpr double kLumenOverrun = 0.2;  ///< how far a lumen is cut past the end of its vessel
+constexpr double kLumenOverrun = 0.2;  ///< distance by which a lumen is cut past the end of its vessel
 
-/// A chamber or the lumen of a vessel, with the wall around it.
+/// Chamber or lumen of a vessel, with the wall around it.
 struct Cavity {
   enum class Kind { kVentricle, kAtrium, kVessel };
 
   Part part;
   Kind kind;
   double wall;     ///< thickness before scaling
-  Ellipsoid dome;  ///< of a chamber
-  Tube tube;       ///< of a vessel, from its root to its open end
-  Tube lumen;      ///< of a vessel, cut past that end
+  Ellipsoid dome;  ///< for a chamber
+  Tube tube;       ///< for a vessel, from its root to its open end
+  Tube lumen;      ///< for a vessel, cut past that end
 
-  /// Distance to the cavity grown by `margin` on all sides.
+  /// Returns the distance to the cavity grown by `margin` on all sides.
   double grown(const Vector3d& p, double margin) const {
     if (kind == Kind::kVessel) return lumen.distance(p, margin);
     const double shell = Ellipsoid{dome.center, dome.radii + Vector3d::Constant(margin)}.distance(p);
@@ -57,13 +57,13 @@ struct Cavity {
     return smoothMax(shell, floor, kRim);
   }
 
-  /// Distance to the cavity with a wall around it; a vessel is open at its end.
+  /// Returns the distance to the cavity with a wall around it; a vessel is open at its end.
   double wrapped(const Vector3d& p, double thickness) const {
     if (kind == Kind::kVessel) return tube.distance(p, thickness);
     return grown(p, thickness);
   }
 
-  /// How far the cavity with its wall reaches along a unit vector.
+  /// Returns how far the cavity with its wall extends along a unit vector.
   double reach(const Vector3d& direction, double thickness) const {
     if (kind == Kind::kVessel) {
       const double along = direction.dot(tube.axis());
@@ -87,7 +87,7 @@ Cavity vessel(Part part, const Vector3d& root, const Vector3d& end, double radiu
   return {part, Cavity::Kind::kVessel, wall, {}, tube, {root, end + kLumenOverrun * tube.axis(), radius}};
 }
 
-/// In order of precedence: where two cavities meet, the later one gives way. +x is the patient's left, -y anterior.
+/// In order of precedence: where two cavities meet, the later one is cut back. +x is the patient's left, -y anterior.
 const std::array<Cavity, 8>& cavities() {
   static const std::array<Cavity, 8> all = {
       chamber(kLeftVentricle, {0.16, 0.05, 1.0}, {0.22, 0.22, 0.88}, 0.12),
@@ -102,20 +102,20 @@ const std::array<Cavity, 8>& cavities() {
   return all;
 }
 
-/// The ventricular septal defect: just below the aortic valve, through the septum into the right ventricle.
+/// Returns the ventricular septal defect: just below the aortic valve, through the septum into the right ventricle.
 const Tube& septalDefect() {
   static const Tube defect = {{0.12, 0.02, 0.82}, {-0.22, -0.16, 0.82}, 0.055};
   return defect;
 }
 
-/// The heart with its apex at (0, 0, 0) of its own frame, in fractions of its length.
+/// Heart with its apex at (0, 0, 0) of its own frame, in fractions of its length.
 class Heart {
  public:
   explicit Heart(double wall_scale) : wall_scale_(wall_scale) {}
 
   LabelledDistance at(const Vector3d& p) const {
     double outside = std::numeric_limits<double>::infinity(), hollow = outside;
-    // The cavity in whose wall a point lies least deep gives it its part.
+    // A point belongs to the part of the cavity in the wall of which it is least deep.
     double least_depth = outside;
     uint16_t part = kLeftVentricle;
     const std::array<Cavity, 8>& all = cavities();
@@ -140,7 +140,7 @@ class Heart {
     return wall_scale_ * (is_septum ? kSeptumWall : std::min(a.wall, b.wall));
   }
 
-  /// Distance to a cavity after it has given way to those before it. @param distance  to the whole of it
+  /// Returns the distance to a cavity after it was cut back for earlier ones. @param distance  to the whole of it
   double hollowOf(size_t index, double distance, const Vector3d& p) const {
     const std::array<Cavity, 8>& all = cavities();
     for (size_t i = 0; i < index && distance < kFar; ++i) {
@@ -150,21 +150,21 @@ class Heart {
     return distance;
   }
 
-  /// The wall of the left ventricle where the right one lies against it.
+  /// Returns whether a point is in the wall of the left ventricle where the right one touches it.
   bool isSeptum(const double (&ventricles)[2]) const {
     return ventricles[kLeftVentricle] < wall_scale_ * kSeptumWall && ventricles[kRightVentricle] < 0;
   }
 
-  static constexpr double kFar = 0.15;  ///< farther from a cavity than any wall is thick, what shapes it has no effect
+  static constexpr double kFar = 0.15;  ///< farther from a cavity than any wall is thick, its shape has no effect
   double wall_scale_;
 };
 
-/// Turns the axis of the heart: the apex points down, to the patient's left and forward.
+/// Returns the rotation of the heart's axis: the apex points down, to the patient's left and forward.
 Quaterniond tilt() {
   return rotationBetween(-Vector3d::UnitZ(), Vector3d(0.4, -0.2, -0.9));
 }
 
-/// Farthest point of the tilted heart along one of the six axis directions.
+/// Returns the farthest extent of the tilted heart along one of the six axis directions.
 double reach(const Vector3d& direction, double wall_scale) {
   double farthest = -std::numeric_limits<double>::infinity();
   for (const Cavity& cavity : cavities()) {
@@ -173,7 +173,7 @@ double reach(const Vector3d& direction, double wall_scale) {
   return farthest + wall_scale * kBlend / 2;  // blending swells the seams
 }
 
-/// The thinnest of each part, thinnest first; the septum is a wall between two of them and thicker.
+/// Returns the thinnest wall of each part, thinnest first; the septum is a thicker wall between two of them.
 std::vector<Wall> wallsOf(const std::vector<std::string>& part_names, double scale) {
   std::vector<Wall> walls;
   for (const Cavity& cavity : cavities()) {
@@ -195,7 +195,7 @@ void requireRange(const char* key, double value, double low, double high) {
   throw SceneError(out.str());
 }
 
-/// Box around the tilted heart, in fractions of its length.
+/// Returns the box around the tilted heart, in fractions of its length.
 std::pair<Vector3d, Vector3d> extent(double wall_scale) {
   Vector3d low, high;
   for (int i = 0; i < 3; ++i) {

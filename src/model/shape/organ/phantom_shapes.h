@@ -9,9 +9,9 @@
 
 namespace viscera {
 
-// Building blocks of phantoms: (nearly) signed distances, negative inside. Lengths are in any one unit.
+// Building blocks of phantoms: (nearly) signed distances, negative inside. All lengths are in one arbitrary unit.
 
-/// Smaller of two distances, blended over a width k where they are close.
+/// Returns the smaller of two distances, blended over a width k where they are close.
 inline double smoothMin(double a, double b, double k) {
   if (k <= 0) return std::min(a, b);
   const double overlap = std::max(k - std::abs(a - b), 0.0) / k;
@@ -45,7 +45,7 @@ class Tube {
   const Vector3d& axis() const { return axis_; }
   double radius() const { return radius_; }
 
-  /// To the tube with a radius that is larger by `margin`.
+  /// Returns the distance to the tube with a radius larger by `margin`.
   double distance(const Vector3d& p, double margin = 0) const {
     const double along = (p - from_).dot(axis_), aside = (p - from_ - along * axis_).norm();
     return std::max(aside - (radius_ + margin), std::max(-along, along - length_));

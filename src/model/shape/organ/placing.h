@@ -9,7 +9,7 @@
 
 namespace viscera {
 
-// Steps from a file's or a shape's own coordinates to the tissue frame.
+// Transforms from a file's or a shape's own coordinates to the tissue frame.
 
 template <class Vector>
 void move(std::vector<Vector>& points_m, const Pose& pose) {
@@ -19,8 +19,8 @@ void move(std::vector<Vector>& points_m, const Pose& pose) {
   }
 }
 
-/// Turns the file's upward axis to z and moves the middle of its bounding box to the origin, where asked to.
-/// @returns the body's frame in the file's, so that others can be placed alike
+/// Turns the file's upward axis to z and moves the centre of its bounding box to the origin, if configured.
+/// @returns pose of the body's frame in the file's, so that other files can be placed in the same way
 template <class Vector>
 Pose toBodyFrame(std::vector<Vector>& points_m, const BodyConfig& config) {
   Pose placed;
@@ -37,7 +37,7 @@ Pose toBodyFrame(std::vector<Vector>& points_m, const BodyConfig& config) {
   return placed;
 }
 
-/// What lies on a mesh goes where its points went.
+/// Moves the charts of a mesh along with its points.
 void moveDetail(TriangleMesh& mesh, const Pose& pose);
 
 template <class Vector>
@@ -47,7 +47,7 @@ Eigen::AlignedBox3d boundsOf(const std::vector<Vector>& points_m) {
   return box;
 }
 
-/// Box around a box that is turned and moved.
+/// Returns the box around a rotated and moved box.
 Eigen::AlignedBox3d movedBox(const Vector3d& min_m, const Vector3d& max_m, const Pose& pose);
 DistanceField movedField(const DistanceField& field, const Pose& pose);
 

@@ -59,13 +59,13 @@ class BoxTissue : public Tissue {
   bool isTurned() const { return pose_.orientation.vec().norm() > kTurn; }
 
   Eigen::Array<bool, 3, 1> isWhole(double spacing_m) const {
-    constexpr double kRounding = 1e-4;  // of a cell, as in grids
+    constexpr double kRounding = 1e-4;  // in cells, as in grids
     const Eigen::Array3d cells = size_m_.array() / spacing_m;
     return (cells - cells.round()).abs() < kRounding && cells > 0.5;
   }
 
-  /// Cells that are tissue in part where faces pass through them. The lower faces lie between cells, unless the box is
-  /// turned, or held by a plane across an axis along which it is no whole number of cells long.
+  /// Fills cells in part where faces pass through them. The lower faces are between cells. Exceptions are a box that is
+  /// rotated, or one that is fixed by a plane across an axis along which its length is no integer number of cells.
   Solid fillByShares(double spacing_m, const Progress& progress) const {
     requireSpacingWithin(bounds().sizes(), spacing_m);
     NodePlanes planes = planes_;
@@ -76,7 +76,8 @@ class BoxTissue : public Tissue {
     Solid solid = emptySolid(bounds().min(), bounds().max(), spacing_m, {"box"}, planes);
     const std::vector<Volume> box = {{boxShell(-0.5 * size_m_, 0.5 * size_m_, pose_), 0}};
     fillByMoments(box, solid, progress);
-    if (solid.filledCells() == 0) throw LatticeError("the box is thinner than any cell's least share of tissue");
+    if (solid.filledCells() == 0)
+      throw LatticeError("the box is too thin: no cell would be filled enough; use a smaller spacing_m");
     measureDepths(box, solid);
     return solid;
   }
@@ -93,7 +94,7 @@ class BoxTissue : public Tissue {
     constexpr double kWorthTelling = 0.01;
     if (((rounded_m - size_m_).cwiseAbs().array() < kWorthTelling * size_m_.array()).all()) return "";
     TextOut out;
-    out << "box of " << size_m_.transpose() << " m rounded to whole cells: " << rounded_m.transpose() << " m";
+    out << "box of " << size_m_.transpose() << " m is rounded to whole cells: " << rounded_m.transpose() << " m";
     return out.str();
   }
 

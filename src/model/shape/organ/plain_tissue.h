@@ -9,7 +9,7 @@
 
 namespace viscera {
 
-// Bodies that a few numbers describe.
+// Bodies defined by a few numbers.
 
 std::unique_ptr<Tissue> boxTissue(const BodyConfig& config);
 std::unique_ptr<Tissue> sheetTissue(const BodyConfig& config);

@@ -30,7 +30,7 @@ TriangleMesh refined(const TriangleMesh& mesh, double longest_edge_m) {
   return refine(mesh, longest_edge_m);
 }
 
-/// Of a mesh file, or of labels of a scan. Labels and groups of volumes may touch: they have triangles in common.
+/// Tissue from a mesh file, or from labels of a scan. Labels and groups of volumes may touch: they share triangles.
 class MeshTissue : public Tissue {
  public:
   MeshTissue(const BodyConfig& config, const std::string& folder)
@@ -65,7 +65,7 @@ class MeshTissue : public Tissue {
     }
   }
 
-  /// Closed where the solid is, but for gaps between patches: no look into it through a hole.
+  /// Returns a surface closed where the solid is, except for gaps between patches: no view inside through a hole.
   TriangleMesh surface(const Solid&) const override {
     if (touch_) return skin_;
     return enclosed_ ? mesh_ : withCaps(mesh_);
@@ -88,11 +88,11 @@ class MeshTissue : public Tissue {
 
   std::string path_;
   TriangleMesh mesh_;
-  TriangleMesh skin_;  ///< of parts that may touch: their outer border
+  TriangleMesh skin_;  ///< outer border of parts that may touch
   bool labels_, touch_;
   bool moments_ = false, enclosed_ = false;
   double gap_m_ = 0;
-  Eigen::AlignedBox3d bounds_;  ///< of what is filled
+  Eigen::AlignedBox3d bounds_;  ///< box of the filled region
   NodePlanes planes_;
 };
 
@@ -119,7 +119,7 @@ class PhantomTissue : public Tissue {
     return {voxelise(p.field, p.part_names, p.min_m, p.max_m, spacing_m, progress), ""};
   }
 
-  /// Of cells that are tissue in part walls may be thinner than a cell: the skin has them all the same.
+  /// Returns the surface mesh. With partly filled cells walls may be thinner than a cell: the mesh still contains them.
   TriangleMesh surface(const Solid& solid) const override {
     double spacing_m = solid.spacing_m;
     if (skin_spacing_m_ > 0) spacing_m = std::min(spacing_m, skin_spacing_m_);
@@ -141,11 +141,11 @@ class PhantomTissue : public Tissue {
   }
 
   Eigen::AlignedBox3d bounds() const override { return {phantom_.min_m, phantom_.max_m}; }
-  /// Walls that are thinner than a cell have no holes where cells are tissue in part.
+  /// Returns no walls where cells are partly filled: walls thinner than a cell have no holes then.
   std::vector<Wall> walls() const override { return moments_ ? std::vector<Wall>{} : phantom_.walls; }
 
  private:
-  static constexpr double kSkinInWall = 0.75;  ///< of a wall's thickness: no cell of the skin misses a wall, and some
+  static constexpr double kSkinInWall = 0.75;  ///< share of a wall's thickness: no cell of the surface misses a wall
   Phantom phantom_;
   bool moments_;
   double skin_spacing_m_, length_m_ = 1, wall_scale_ = 1;

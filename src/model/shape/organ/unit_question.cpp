@@ -16,7 +16,7 @@ struct Unit {
 };
 constexpr std::array<Unit, 4> kUnits = {
     {{1e-3, "millimetres"}, {1e-2, "centimetres"}, {0.0254, "inches"}, {1e-6, "micrometres"}}};
-constexpr double kNear = 4;  ///< factor from the expected width within which a second unit is named too
+constexpr double kNear = 4;  ///< factor around the expected width within which a second unit is named too
 
 }  // namespace
 
@@ -27,8 +27,8 @@ std::string unitQuestion(const BodyConfig& config, const Vector3d& size_m, doubl
   std::stable_sort(likely.begin(), likely.end(), [&](const Unit& a, const Unit& b) { return factor(a) < factor(b); });
   std::ostringstream out;
   out.precision(4);
-  out << "mesh file '" << config.mesh_file << "' is " << width_m << " m wide: unit_scale_m=" << likely[0].scale_m
-      << " (" << likely[0].name << ")";
+  out << "mesh file '" << config.mesh_file << "' is " << width_m
+      << " m wide; should it be unit_scale_m=" << likely[0].scale_m << " (" << likely[0].name << ")";
   if (factor(likely[1]) < std::log(kNear)) out << " or " << likely[1].scale_m << " (" << likely[1].name << ")";
   out << "?";
   return out.str();

@@ -9,12 +9,12 @@
 
 namespace viscera {
 
-/// Width of a body [m] above which its file is likely in another unit than metres.
+/// Width of a body [m] above which its file is probably not in metres.
 constexpr double kWidestOrgan_m = 2;
 
-/// Returns the width of a mesh file and the unit that it is likely in, as a question:
+/// Returns the width of a mesh file and its probable unit, as a question:
 /// "mesh file 'heart.obj' is 100 m wide: unit_scale_m=0.001 (millimetres)?".
-/// @param size_m  of its box, with the body's unit   @param usual_m  width that is expected
+/// @param size_m  of its box, in the body's unit   @param usual_m  expected width
 std::string unitQuestion(const BodyConfig& config, const Vector3d& size_m, double usual_m = 0.1);
 
 }  // namespace viscera

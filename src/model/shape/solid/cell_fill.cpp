@@ -37,20 +37,20 @@ CellFill tetFill(const std::array<Vector3d, 4>& corners) {
 
 namespace {
 
-/// The same tissue seen from the middle of a cell that lies at -d.
+/// Returns the moments of the same tissue relative to the centre of a cell at -d.
 CellFill movedBy(const CellFill& fill, const Vector3d& d) {
   const Eigen::Matrix3d cross = fill.first * d.transpose();
   return {fill.share, fill.first + fill.share * d,
           fill.second + cross + cross.transpose() + fill.share * d * d.transpose()};
 }
 
-/// A labelled neighbour of a cell across a face, and the way to it.
+/// Labelled neighbour of a cell across a face, and the step to it.
 struct Neighbor {
   size_t cell;
   Vector3i way;
 };
 
-/// The one across the face that a place within the cell is nearest to.
+/// Returns the neighbour across the face that a position within the cell is nearest to.
 std::optional<Neighbor> nearestNeighbor(const Solid& solid, size_t cell, const Vector3d& place) {
   const auto nx = static_cast<size_t>(solid.cells.x()), ny = static_cast<size_t>(solid.cells.y());
   const Vector3i at(static_cast<int>(cell % nx), static_cast<int>(cell / nx % ny), static_cast<int>(cell / nx / ny));
@@ -91,7 +91,7 @@ void giveSlivers(const std::vector<PartialCell>& slivers, Solid& solid) {
     add(p.fill, found->second);
     given.erase(found);
   }
-  for (const auto& [cell, more] : given) {  // to cells that were full
+  for (const auto& [cell, more] : given) {  // for cells that were full
     if (more.share < kLeastGap) continue;
     solid.partial.push_back({cell, CellFill{}});
     add(solid.partial.back().fill, more);

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Moments of the part of each cell where a field is negative. The field is sampled at the corners of 4^3 small cubes
-// per cell and taken as linear in six tetrahedra of each, so that a flat face comes out exactly. A curved one would be
-// drawn by its chords: half of what a cube's mean is off from that of its corners, some d^2/12 of the field's
-// Laplacian, is taken off all of them, unless the field has a crease there.
+// per cell and taken as linear in six tetrahedra of each, so that a flat face is exact. A curved face would be replaced
+// by its chords. Half of the difference between a cube's mean and that of its corners, about d^2/12 of the field's
+// Laplacian, is subtracted from all corners, unless the field has a crease there.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -24,17 +24,17 @@ namespace {
 
 constexpr int kCuts = 4;  ///< small cubes along an edge of a cell
 constexpr int kOctant = kCuts / 2;
-constexpr int kBlockCells = 8;  ///< along an edge of a block whose samples are kept
+constexpr int kBlockCells = 8;  ///< cells along an edge of a block with samples in memory
 constexpr int kBlockSamples = kBlockCells * kCuts + 1;
-/// Depth of samples, in cells, from which on a cell has no surface. No place of a cell is more than 0.56 from its
-/// corners and middle, so a field may be up to 1.8 times as steep as a distance.
+/// Depth of samples, in cells, from which a cell has no surface. No point of a cell is more than 0.56 from its corners
+/// and centre, so a field may be up to 1.8 times as steep as a distance.
 constexpr double kClear = 1;
-/// The same of an octant, none of whose places is more than 0.43 from its corners: for 1.4 times as steep.
+/// The same for an octant, with all points within 0.43 of its corners: for 1.4 times as steep.
 constexpr double kClearOctant = 0.6;
-/// Second difference of samples, over the distance between them, that is a crease; a ball of two cells has 0.125.
+/// Second difference of samples, over their distance, that counts as a crease; a ball of two cells has 0.125.
 constexpr double kCrease = 0.5;
 
-/// Samples of a field at the corners of small cubes, taken when first asked for.
+/// Samples of a field at the corners of small cubes, taken on first use.
 class BlockSamples {
  public:
   explicit BlockSamples(const DistanceField& field) : field_(field) {}
@@ -92,7 +92,7 @@ void addTetrahedron(const std::array<Vector3d, 4>& corners, const std::array<dou
   add(sum, tetFill({corners[a], between(a, in[0]), between(a, in[1]), between(a, in[2])}), -1);
 }
 
-/// Adds the part of a small cube where its field, known at its corners, is negative.
+/// Adds the part of a small cube where its field, given at its corners, is negative.
 void addCube(const Vector3d& low, const std::array<double, 8>& values, CellFill& sum) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   if (*least >= 0) return;
@@ -112,13 +112,13 @@ void addCube(const Vector3d& low, const std::array<double, 8>& values, CellFill&
 /// One cell of a block.
 class FieldCell {
  public:
-  /// @param first  sample at its lowest corner
+  /// @param first  index of the sample at its lowest corner
   FieldCell(BlockSamples& samples, const Vector3i& first, double spacing_m)
       : samples_(samples), first_(first), spacing_m_(spacing_m) {}
 
   const LabelledDistance& middle() const { return at(Vector3i::Constant(kCuts / 2)); }
 
-  /// No surface passes through it, as far as its corners and its middle tell.
+  /// Returns whether no surface passes through the cell, judged by its corners and its centre.
   bool isUniform() const {
     const bool inside = middle().distance_m < 0;
     if (std::abs(middle().distance_m) < kClear * spacing_m_) return false;
@@ -135,9 +135,9 @@ class FieldCell {
     return sum;
   }
 
-  /// Label of the part that most samples with tissue are in.
+  /// Returns the label of the part that contains most samples with tissue.
   uint16_t commonLabel() const {
-    for (const int step : {kOctant, 1}) {  // the coarse ones are there already
+    for (const int step : {kOctant, 1}) {  // the coarse samples exist already
       std::map<uint16_t, int> counts;
       const int per_axis = kCuts / step + 1;
       for (int i = 0; i < per_axis * per_axis * per_axis; ++i) {
@@ -154,7 +154,7 @@ class FieldCell {
  private:
   const LabelledDistance& at(const Vector3i& i) const { return samples_.at(first_ + i); }
 
-  /// @param first  small cube at the octant's lowest corner
+  /// @param first  index of the small cube at the octant's lowest corner
   void addOctant(const Vector3i& first, CellFill& sum) const {
     const Vector3d low = first.cast<double>() / kCuts - Vector3d::Constant(0.5);
     const bool inside = at(first).distance_m < 0;
@@ -175,10 +175,10 @@ class FieldCell {
     }
   }
 
-  /// What makes the mean over chords that of the field, in an octant.
+  /// Returns the correction that turns the mean over chords into that of the field, in an octant.
   double chordShift(const Vector3i& first) const {
     const double step_m = spacing_m_ / kCuts;
-    double sum = 0;  // of second differences, over nine lines along each axis
+    double sum = 0;  // sum of second differences, over nine lines along each axis
     for (int axis = 0; axis < 3; ++axis) {
       const Vector3i along = Vector3i::Unit(axis), u = Vector3i::Unit((axis + 1) % 3),
                      v = Vector3i::Unit((axis + 2) % 3);
@@ -197,7 +197,7 @@ class FieldCell {
   double spacing_m_;
 };
 
-/// What filling a block finds beside labels.
+/// Results of filling a block, in addition to labels.
 struct Found {
   std::vector<PartialCell> partial, slivers;
 };
@@ -227,7 +227,7 @@ void fillBlock(const Vector3i& first, BlockSamples& samples, Solid& solid, Found
   }
 }
 
-/// A layer of blocks, shared among threads: fields are the slowest part of a phantom.
+/// Fills a layer of blocks on several threads: fields are the slowest part of a phantom.
 void fillLayer(const DistanceField& field, int z, Solid& solid, Found& found) {
   const Vector3i blocks = (solid.cells.array() + kBlockCells - 1) / kBlockCells;
   const int count = blocks.x() * blocks.y();
@@ -260,7 +260,7 @@ void fillAll(const DistanceField& field, Solid& solid, const Progress& progress)
     fillLayer(field, z, solid, found);
     if (progress) progress("voxelise", std::min(1.0, static_cast<double>(z + kBlockCells) / solid.cells.z()));
   }
-  // In one order whichever thread found them, so that sums round alike.
+  // Sorted, so that sums round alike whichever thread found an entry.
   std::sort(found.partial.begin(), found.partial.end(), isBefore);
   std::sort(found.slivers.begin(), found.slivers.end(), isBefore);
   solid.partial = std::move(found.partial);
@@ -280,7 +280,7 @@ Solid voxeliseByMoments(const DistanceField& field, const std::vector<std::strin
   Solid solid = fill(spacing_m, progress);
   if (solid.filledCells() > 0) return solid;
   requireFinerSpacing(spacing_m, [&](double h) { return fill(h, {}).filledCells() > 0; });
-  throw LatticeError("the distance field is nowhere negative inside its bounds");
+  throw LatticeError("the body is empty: its distance field is not negative anywhere within its bounds");
 }
 
 }  // namespace viscera

@@ -9,7 +9,7 @@
 namespace viscera {
 namespace {
 
-/// Which connected piece each vertex of a shell is of, by its first one.
+/// Returns the connected piece of each vertex of a shell, named by its first vertex.
 std::vector<uint32_t> piecesOf(const Shell& shell) {
   UnionFind pieces(shell.positions_m.size());
   for (const auto& t : shell.triangles) {
@@ -20,7 +20,7 @@ std::vector<uint32_t> piecesOf(const Shell& shell) {
 }
 
 struct Piece {
-  double volume_m3 = 0;  ///< signed
+  double volume_m3 = 0;  ///< signed [m3]
   Eigen::AlignedBox3d box_m;
 };
 

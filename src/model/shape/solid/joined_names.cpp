@@ -11,7 +11,7 @@
 namespace viscera {
 namespace {
 
-/// Which part has the cells of one volume.
+/// Assignment of one volume's cells to its parts.
 class NearestPart {
  public:
   NearestPart(const Volume& volume, Solid& solid) : volume_(volume), solid_(solid) {}
@@ -36,7 +36,7 @@ class NearestPart {
  private:
   struct Mark {
     uint16_t part;
-    double distance;  ///< cells, of the nearest point of a triangle from the cell's middle
+    double distance;  ///< distance in cells from the cell's centre to the nearest point of a triangle
   };
 
   void markAlong(size_t triangle) {

@@ -13,7 +13,7 @@ namespace {
 
 using Point = std::array<float, 3>;
 
-/// An edge that an odd number of a part's triangles has.
+/// Edge that an odd number of a part's triangles share.
 struct OpenEdge {
   Point low, high;  ///< low < high
   uint32_t low_vertex, high_vertex;
@@ -44,7 +44,7 @@ void addOpenEdges(const TriangleMesh& mesh, const std::vector<uint32_t>& of_part
   });
 }
 
-/// Which parts have borders in common, and which vertices these borders have.
+/// Parts with common borders, and the vertices of these borders.
 class Joins {
  public:
   explicit Joins(const TriangleMesh& mesh)
@@ -63,8 +63,8 @@ class Joins {
   }
 
   std::vector<std::vector<uint32_t>> of_parts;
-  UnionFind groups;    ///< of parts that are joined
-  UnionFind vertices;  ///< of vertices that meet
+  UnionFind groups;    ///< sets of joined parts
+  UnionFind vertices;  ///< sets of vertices that meet
 
  private:
   void join(const OpenEdge& a, const OpenEdge& b) {

@@ -8,20 +8,20 @@
 
 namespace viscera {
 
-/// One surface of a mesh: a part, or several whose open borders meet, such as a surface that was split by material.
+/// One surface of a mesh: a part, or several with open borders that meet, such as a surface that was split by material.
 struct ClosedSurface {
   Shell shell;
-  std::vector<uint32_t> triangles;  ///< of the mesh, in its order: the shell's own
-  uint16_t part = 0;                ///< the one with the largest area
-  bool is_joined = false;           ///< of several parts
+  std::vector<uint32_t> triangles;  ///< triangles of the mesh in its order: the shell's own
+  uint16_t part = 0;                ///< part with the largest area
+  bool is_joined = false;           ///< made of several parts
 };
 
 /// Closes the surfaces of a mesh. Parts with open borders that meet in every coordinate are closed together, unless
-/// they are more hole than wall together: then each is closed alone. Those without triangles are left out.
+/// together they are more hole than wall: then each is closed alone. Surfaces without triangles are left out.
 std::vector<ClosedSurface> closeSurfaces(const TriangleMesh& mesh);
 
-/// Returns the box of what is filled: without open sheets, and without pieces so small that they are crumbs.
-/// Of a mesh that encloses nothing: its own box.
+/// Returns the bounding box of the filled region, without open sheets and without pieces that are crumbs. For a mesh
+/// that encloses nothing: the box of the mesh.
 Eigen::AlignedBox3d filledBounds(const TriangleMesh& mesh);
 
 /// Returns the area of each part [m2].

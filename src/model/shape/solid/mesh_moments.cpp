@@ -9,7 +9,7 @@
 namespace viscera {
 namespace {
 
-/// The filled grid; all labels are 0 where the spacing is too large for the body.
+/// Returns the filled grid; all labels are 0 where the spacing is too large for the body.
 Solid fill(const std::vector<Volume>& volumes, const TriangleMesh& mesh, double spacing_m, const NodePlanes& planes,
            const Progress& progress) {
   requireParted(namedShells(volumes, mesh), spacing_m);

@@ -10,7 +10,7 @@
 namespace viscera {
 namespace {
 
-/// Nodes of labelled cells that no tissue all around keeps from the surface, ascending, none measured yet.
+/// Returns the nodes of labelled cells that are not surrounded by full cells, ascending, not yet measured.
 std::vector<NodeDepth> nodesAtSurface(const Solid& solid) {
   std::vector<bool> is_full(solid.labels.size());
   for (size_t i = 0; i < is_full.size(); ++i) is_full[i] = solid.labels[i] != 0;
@@ -34,7 +34,7 @@ std::vector<NodeDepth> nodesAtSurface(const Solid& solid) {
   return nodes;
 }
 
-/// From p to the nearest point of a triangle.
+/// Returns the vector from p to the nearest point of a triangle.
 Vector3d wayTo(const std::array<Vector3d, 3>& t, const Vector3d& p) {
   const Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
   bool above = normal.squaredNorm() > 0;
@@ -54,7 +54,7 @@ Vector3d wayTo(const std::array<Vector3d, 3>& t, const Vector3d& p) {
   return least;
 }
 
-/// Distances of nodes to triangles, in cells.
+/// Distances from nodes to triangles, in cells.
 class NodeDistances {
  public:
   NodeDistances(const Solid& solid, const std::vector<NodeDepth>& nodes)
@@ -88,7 +88,7 @@ class NodeDistances {
   }
 
  private:
-  static constexpr double kReach = 2;  ///< a cell's diagonal, and some
+  static constexpr double kReach = 2;  ///< in cells: a cell's diagonal and a margin
 
   size_t flat(const Vector3i& node) const {
     return static_cast<size_t>(node.x()) +
@@ -108,7 +108,8 @@ class NodeDistances {
           if (known == 0) continue;
           Vector3d& best = ways[known - 1];
           const Vector3d p(x, y, z);
-          if (std::pow((p - t[0]).dot(normal), 2) >= best.squaredNorm() * length2) continue;  // its plane is too far
+          // Its plane is too far away.
+          if (std::pow((p - t[0]).dot(normal), 2) >= best.squaredNorm() * length2) continue;
           const Vector3d way = wayTo(t, p);
           if (way.squaredNorm() < best.squaredNorm()) best = way;
         }
@@ -121,11 +122,11 @@ class NodeDistances {
   std::vector<uint32_t> index_;  ///< [nodes of the grid] 0, or 1 + index into nodes
 
  public:
-  std::vector<Vector3d> ways;  ///< to the nearest triangle
+  std::vector<Vector3d> ways;  ///< vectors to the nearest triangle
   std::vector<bool> is_inside;
 };
 
-/// Unit vector along which the distance grows most; 0 where it grows along none.
+/// Returns the unit vector of steepest ascent of the distance; 0 where its gradient is zero.
 Vector3d outwards(const DistanceField& field, const Vector3d& place_m, double spacing_m) {
   const double step_m = 1e-3 * spacing_m;
   Vector3d out;
@@ -158,7 +159,7 @@ void measureDepths(const std::vector<Volume>& volumes, Solid& solid) {
 
 void measureDepths(const DistanceField& field, Solid& solid) {
   solid.depths = nodesAtSurface(solid);
-  constexpr size_t kAtOnce = 256;  // nodes: a field takes about a microsecond
+  constexpr size_t kAtOnce = 256;  // nodes per task: a field takes about a microsecond
   inParallel((solid.depths.size() + kAtOnce - 1) / kAtOnce, [&](size_t run) {
     const size_t end = std::min(solid.depths.size(), kAtOnce * (run + 1));
     for (size_t i = kAtOnce * run; i < end; ++i) measureDepth(field, solid, solid.depths[i]);

@@ -8,12 +8,12 @@
 
 namespace viscera {
 
-// How deep the nodes around cells that are tissue in part lie below the true surface: what touches the body has to
-// know, as nodes outside of it reach up to a cell's diagonal beyond.
+// Depths below the true surface of the nodes around partly filled cells. Contacts need them, as outer nodes are up to a
+// cell's diagonal outside the surface.
 
-/// To the nearest triangle of any part: exact, but too little where a part ends inside another one.
+/// Measures depths to the nearest triangle of any part: exact, but too small where a part ends inside another one.
 void measureDepths(const std::vector<Volume>& volumes, Solid& solid);
-/// By the field itself, as exact as that is a distance.
+/// Measures depths by the field itself, as exactly as it represents a distance.
 void measureDepths(const DistanceField& field, Solid& solid);
 
 }  // namespace viscera

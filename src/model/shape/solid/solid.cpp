@@ -49,7 +49,7 @@ Solid voxelise(const DistanceField& field, const std::vector<std::string>& part_
   Solid solid = fill(spacing_m, progress);
   if (solid.filledCells() > 0) return solid;
   requireFinerSpacing(spacing_m, [&](double h) { return fill(h, {}).filledCells() > 0; });
-  throw LatticeError("the distance field is nowhere negative inside its bounds");
+  throw LatticeError("the body is empty: its distance field is not negative anywhere within its bounds");
 }
 
 Solid boxSolid(const Vector3d& min_m, const Vector3d& size_m, double spacing_m) {

@@ -8,7 +8,7 @@
 namespace viscera {
 namespace {
 
-/// Cells of the piece around a seed, through faces, edges and corners; marks them as seen.
+/// Returns the cells of the piece around a seed, through faces, edges and corners; marks them as seen.
 std::vector<Vector3i> pieceAround(const Vector3i& seed, const Solid& solid, std::vector<bool>& seen) {
   std::vector<Vector3i> piece = {seed};
   seen[solid.index(seed.x(), seed.y(), seed.z())] = true;
@@ -25,7 +25,7 @@ std::vector<Vector3i> pieceAround(const Vector3i& seed, const Solid& solid, std:
   return piece;
 }
 
-/// Share of a labelled cell that is tissue.
+/// Returns the share of a labelled cell that is tissue.
 double shareOf(const Solid& solid, size_t cell) {
   const auto found = std::lower_bound(solid.partial.begin(), solid.partial.end(), cell,
                                       [](const PartialCell& p, size_t at) { return p.cell < at; });

@@ -6,7 +6,7 @@
 
 namespace viscera {
 
-/// Volume of the largest piece below which a piece apart is a crumb.
+/// Volume over that of the largest piece, below which a separate piece is a crumb.
 constexpr double kCrumb = 1e-3;
 
 /// Empties the pieces of a solid that touch no other, not even at a corner, and have less tissue than a share of the

@@ -11,25 +11,25 @@
 namespace viscera {
 namespace {
 
-/// A grid of so many cells is walked in well below a second, whatever is in it.
+/// A grid with this number of cells is traversed in well below a second, whatever its content.
 constexpr double kQuickCells = 50e6;
-/// Cells of the whole grid over those of its slabs that hold something, up to which space between parts is left out
+/// Cells of the whole grid over those of its occupied slabs, up to which space between parts is not taken for a
 /// mistake. Two lungs have about 1.2.
 constexpr double kMostSpread = 8;
 
-/// What a triangle covers along an axis.
+/// Interval that a triangle covers along an axis.
 struct Extent {
   double from_m, to_m;
   size_t part;
 };
 
-/// How parts lie along one axis.
+/// Distribution of the parts along one axis.
 struct Spread {
-  double length_m = 0;                     ///< of all
-  double covered_m = 0;                    ///< what is not in a gap
-  double gap_m = 0;                        ///< the widest gap
-  size_t part_before = 0, part_after = 0;  ///< it
-  double before_m = 0;                     ///< from the start to the widest gap: which side of it is the smaller one
+  double length_m = 0;                     ///< length of all [m]
+  double covered_m = 0;                    ///< length outside gaps [m]
+  double gap_m = 0;                        ///< width of the widest gap [m]
+  size_t part_before = 0, part_after = 0;  ///< parts next to the widest gap
+  double before_m = 0;  ///< distance from the start to the widest gap [m]: shows which side of it is smaller
 };
 
 Spread spreadOf(const std::vector<NamedShell>& shells, int axis) {
@@ -66,7 +66,7 @@ std::array<Spread, 3> spreadsOf(const std::vector<NamedShell>& shells) {
   return {spreadOf(shells, 0), spreadOf(shells, 1), spreadOf(shells, 2)};
 }
 
-/// Cells of a grid where gaps are `share` of what they are.
+/// Returns the number of cells of a grid with gaps shortened to `share`.
 double cellsAt(const std::array<Spread, 3>& spreads, double share, double spacing_m) {
   double cells = 1;
   for (const Spread& s : spreads) {
@@ -81,14 +81,14 @@ int widestAxis(const std::array<Spread, 3>& spreads) {
   return static_cast<int>(widest - spreads.begin());
 }
 
-/// "part 'ball' lies 100 m from the rest along x". Of the two sides of a gap, the shorter one is what strayed.
+/// Returns "part 'ball' is 100 m from the rest along x". The shorter side of the gap is the stray part.
 std::string farPart(const std::vector<NamedShell>& shells, const std::array<Spread, 3>& spreads) {
   const int axis = widestAxis(spreads);
   const Spread& spread = spreads[static_cast<size_t>(axis)];
   const double after_m = spread.length_m - spread.before_m - spread.gap_m;
   const size_t part = after_m <= spread.before_m ? spread.part_after : spread.part_before;
   TextOut out;
-  out << (spread.part_before == spread.part_after ? "a piece of part '" : "part '") << shells[part].name << "' lies "
+  out << (spread.part_before == spread.part_after ? "a piece of part '" : "part '") << shells[part].name << "' is "
       << spread.gap_m << " m from the rest along "
       << "xyz"[axis];
   return out.str();
@@ -116,15 +116,16 @@ void requireParted(const std::vector<NamedShell>& shells, double spacing_m) {
   }
   TextOut out;
   out << farPart(shells, spreads) << ", and a grid with spacing_m " << spacing_m << " would be "
-      << cellsAt(spreads, 1, spacing_m) << " cells, nearly all of them empty; accepted at this spacing: at most "
+      << cellsAt(spreads, 1, spacing_m)
+      << " cells, nearly all of them empty; accepted at this spacing: a distance of at most "
       << fits * spreads[static_cast<size_t>(widestAxis(spreads))].gap_m
-      << " m; take the part away, move it, or make it a body of its own";
+      << " m. Remove the part, move it, or make it a separate body";
   throw LatticeError(out.str());
 }
 
 std::string farPartNote(const std::vector<NamedShell>& shells) {
-  constexpr double kFar = 1e3;    // box over what parts cover of it
-  constexpr double kFine = 1e-9;  // m: so fine that only the ratio of volumes is left
+  constexpr double kFar = 1e3;    // box over the part of it that parts cover
+  constexpr double kFine = 1e-9;  // m: so fine that only the ratio of volumes counts
   const std::array<Spread, 3> spreads = spreadsOf(shells);
   return cellsAt(spreads, 1, kFine) > kFar * cellsAt(spreads, 0, kFine) ? "; " + farPart(shells, spreads) : "";
 }

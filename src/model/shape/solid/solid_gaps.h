@@ -9,18 +9,18 @@
 
 namespace viscera {
 
-/// A part as far as it matters to how much of the grid stays empty.
+/// Part of a mesh, for the check of empty space in its grid.
 struct NamedShell {
   const Shell* shell;
   std::string name;
 };
 
-/// Grids are dense: what lies between parts that are far apart is walked cell by cell.
-/// @throws LatticeError  by far the most of a large grid would be the empty space between parts: which part is how far
-/// away, and how far it may be at this spacing
+/// Checks the empty space between parts. Grids are dense, so space between distant parts is traversed cell by cell.
+/// @throws LatticeError  a large grid would consist almost entirely of the empty space between parts: names the part
+/// and its distance, and the distance accepted at this spacing
 void requireParted(const std::vector<NamedShell>& shells, double spacing_m);
 
-/// What to add to an error about the spacing where the true reason is a part far away; empty where there is none.
+/// Returns text for an error about the spacing where the true reason is a distant part; empty where there is none.
 std::string farPartNote(const std::vector<NamedShell>& shells);
 
 }  // namespace viscera

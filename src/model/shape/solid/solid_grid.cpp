@@ -11,11 +11,12 @@
 namespace viscera {
 namespace {
 
-/// A dense label, its share of the scratch, and the nodes, skin and solver state of a grid that is one third full.
+/// Memory per cell: a dense label, its share of scratch, and the nodes, surface mesh and solver state of a grid that is
+/// one third full.
 constexpr double kBytesPerCell = 48;
-/// Cells along an axis that lattice coordinates and the exact arithmetic of voxelising can hold.
+/// Largest number of cells along an axis that lattice coordinates and the exact arithmetic of voxelisation can hold.
 constexpr double kMostCellsPerAxis = 1 << 20;
-/// Fraction of a cell by which a box may overhang its grid: rounding of single-precision meshes.
+/// Fraction of a cell by which a box may extend beyond its grid: rounding of single-precision meshes.
 constexpr double kOverhang = 1e-4;
 
 }  // namespace
@@ -42,7 +43,7 @@ void requireFinerSpacing(double spacing_m, const std::function<bool(double)>& fi
     const double finer_m = spacing_m / (1 << i);
     if (!fills(finer_m)) continue;
     TextOut out;
-    out << "spacing_m " << spacing_m << " is too large: no cell lies inside the body; spacing_m must be at most "
+    out << "spacing_m " << spacing_m << " is too large: no cell is inside the body; spacing_m must be at most "
         << finer_m;
     throw LatticeError(out.str());
   }

@@ -10,19 +10,20 @@
 
 namespace viscera {
 
-/// An empty solid whose cells cover a box; the cells are centred on the box, so that a box of whole cells fits exactly,
-/// or lie as `planes` say.
+/// Returns an empty solid with cells that cover a box. The cells are centred on the box, so that a box of whole cells
+/// fits exactly, or placed by `planes`.
 /// @throws LatticeError  spacing not a finite number > 0, larger than the box, or the grid would not fit in memory
 Solid emptySolid(const Vector3d& min_m, const Vector3d& max_m, double spacing_m,
                  const std::vector<std::string>& part_names, const NodePlanes& planes = {});
 
-/// @throws LatticeError  spacing not a finite number > 0
+/// Checks a spacing. @throws LatticeError  spacing not a finite number > 0
 void requireSpacing(double spacing_m);
 
+/// Checks a spacing.
 /// @throws LatticeError  spacing not a finite number > 0, or larger than a body of this size in every direction
 void requireSpacingWithin(const Vector3d& size_m, double spacing_m);
 
-/// For a spacing at which no cell was filled: looks for a finer one with which fills(spacing_m) is true.
+/// Looks for a finer spacing with fills(spacing_m), after a spacing at which no cell was filled.
 /// @throws LatticeError  there is one; names it
 void requireFinerSpacing(double spacing_m, const std::function<bool(double)>& fills);
 

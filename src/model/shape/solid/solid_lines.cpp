@@ -10,13 +10,13 @@
 namespace viscera {
 namespace {
 
-// Whether a line passes a triangle is decided in whole numbers, so that a line never slips between two triangles that
-// share an edge: vertices are rounded to a fine fraction of a cell, and a line that meets an edge exactly is thought of
-// as moved aside by an infinitesimal step, first along u, then, infinitely smaller, along v.
+// Integer arithmetic decides whether a line passes through a triangle, so that no line slips between two triangles that
+// share an edge. Vertices are rounded to a fine fraction of a cell. A line that meets an edge exactly is treated as
+// shifted by an infinitesimal step, first along u, then, infinitely smaller, along v.
 using Fine = int64_t;
-using FinePoint = std::array<Fine, 3>;  ///< (u, v, along the line)
+using FinePoint = std::array<Fine, 3>;  ///< (u, v, coordinate along the line)
 
-/// Coordinates stay below 2^29: the product of two differences then fits 64 bits.
+/// Coordinates stay below 2^29, so that the product of two differences fits 64 bits.
 constexpr double kFineRange = 1 << 28;
 constexpr double kHeadOnCosine = 0.57;
 
@@ -27,7 +27,7 @@ struct Crossing {
   bool head_on;
 };
 
-/// Twice the signed area of (a, b, p), and the sign that stands for it where it is zero.
+/// Twice the signed area of (a, b, p), and its sign, which is also defined where the area is zero.
 struct SideOfEdge {
   Fine area;
   int sign;
@@ -44,7 +44,7 @@ SideOfEdge sideOf(const FinePoint& a, const FinePoint& b, Fine u, Fine v) {
   return {0, dv != 0 ? -signOf(dv) : signOf(du)};
 }
 
-/// Finds where the lines along one axis cross triangles.
+/// Intersection of the lines along one axis with triangles.
 class LineCaster {
  public:
   LineCaster(const Solid& grid, int axis)
@@ -61,7 +61,7 @@ class LineCaster {
 
   void cast(const FinePoint& a, const FinePoint& b, const FinePoint& c, bool head_on) {
     const Fine area = sideOf(a, b, c[0], c[1]).area;
-    if (area == 0) return;  // seen edge-on
+    if (area == 0) return;  // edge-on
     const auto [first_u, last_u] = columns(std::min({a[0], b[0], c[0]}), std::max({a[0], b[0], c[0]}), 0);
     const auto [first_v, last_v] = columns(std::min({a[1], b[1], c[1]}), std::max({a[1], b[1], c[1]}), 1);
     for (int v = first_v; v <= last_v; ++v) {
@@ -72,7 +72,7 @@ class LineCaster {
   std::vector<Crossing> crossings;
 
  private:
-  /// Rows of cells whose centres lie within [low, high].
+  /// Returns the rows of cells with centres within [low, high].
   std::pair<int, int> columns(Fine low, Fine high, int which) const {
     const double per_cell = static_cast<double>(fine_per_cell_);
     const int count = grid_.cells[axes_[which]];
@@ -90,7 +90,7 @@ class LineCaster {
     const double height = (static_cast<double>(bc.area) * a[2] + static_cast<double>(ca.area) * b[2] +
                            static_cast<double>(ab.area) * c[2]) /
                           static_cast<double>(area);
-    // A normal that points back along the line is where the line enters.
+    // Where the normal points back along the line, the line enters.
     crossings.push_back({column_u, column_v, height / static_cast<double>(fine_per_cell_), -side, head_on});
   }
 
@@ -104,7 +104,7 @@ std::vector<InsideStretch> stretchesBetween(std::vector<Crossing>& crossings) {
     return std::tie(a.column_v, a.column_u, a.at) < std::tie(b.column_v, b.column_u, b.at);
   });
   std::vector<InsideStretch> stretches;
-  int winding = 0;  // back to zero at the end of every line, as the shell is closed
+  int winding = 0;  // returns to zero at the end of every line, as the shell is closed
   const Crossing* entry = nullptr;
   bool changes = false;
   for (const Crossing& crossing : crossings) {

@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Which part of a cell is tissue. Cells that no surface passes through are full or empty as their centre is (rules 1 to
-// 5 of docs/fill_rule.md). In the others the integrals of each part's winding number are exact, but neither the union
-// of parts that overlap nor a part that overlaps itself is their sum. So all parts are sampled too, along 4 x 4 lines a
-// cell, where unions are unions of stretches; the exact integrals then correct what the lines missed of each part, as
-// far as it is seen from outside of the others.
+// Part of each cell that is tissue. Cells without a surface in them are full or empty like their centre (rules 1 to 5
+// of docs/volumes.md). In the others the integrals of each part's winding number are exact. The union of overlapping
+// parts, or a part that overlaps itself, is however not their sum. Therefore all parts are also sampled along 4 x 4
+// lines per cell, where a union is a union of intervals. The exact integrals then correct what the lines missed of each
+// part, as far as it is visible from outside the others.
 #include "model/shape/solid/solid_moments.h"
 
 #include <algorithm>
@@ -21,41 +21,41 @@
 namespace viscera {
 namespace {
 
-constexpr int kLines = 4;                 ///< along an edge of a cell
-constexpr double kLinesAtOnce = 1 << 20;  ///< some 100 MB of stretches at most
+constexpr int kLines = 4;                 ///< lines along an edge of a cell
+constexpr double kLinesAtOnce = 1 << 20;  ///< at most about 100 MB of intervals
 
-/// What one part has of a cell that its surface passes through.
+/// Contribution of one part to a cell that its surface passes through.
 struct PartCell {
-  CellFill exact;               ///< sums of the winding number
-  CellFill sampled = noFill();  ///< along lines
-  double own = 0;               ///< share along lines, without what smaller parts have
-  int winding = 0;              ///< along all lines; 0: none met it
-  bool is_plain = true;         ///< the winding number is the same wherever it is not 0
+  CellFill exact;               ///< integrals of the winding number
+  CellFill sampled = noFill();  ///< sum along lines
+  double own = 0;               ///< share along lines, without smaller parts
+  int winding = 0;              ///< winding number along all lines; 0: no line met it
+  bool is_plain = true;         ///< the winding number has one value wherever it is not 0
 };
 
-/// A cell that some surface passes through.
+/// Cell with a surface in it.
 struct UnionCell {
   size_t cell;
   CellFill sampled = noFill();
   CellFill correction = noFill();
-  uint16_t largest_label = 0;  ///< of the part that has most of it
+  uint16_t largest_label = 0;  ///< label of the part with the largest share
   double largest_share = 0;
 };
 
-/// A stretch of a line, in cells.
+/// Interval of a line, in cells.
 struct LineStretch {
-  int u, v;      ///< line: kLines a cell, from the start of the slab
-  size_t order;  ///< of the volume
+  int u, v;      ///< index of the line: kLines per cell, from the start of the slab
+  size_t order;  ///< index of the volume
   double from, to;
   int winding;
 };
 
 using Interval = std::pair<double, double>;
 
-/// Intervals of a line, in order and apart.
+/// Disjoint intervals of a line, in order.
 class Covered {
  public:
-  /// Calls visit(from, to) for what an interval adds, and adds it.
+  /// Adds an interval, and calls visit(from, to) for what was not covered before.
   template <class Visit>
   void add(Interval more, Visit visit) {
     std::vector<Interval> kept;
@@ -102,7 +102,7 @@ class MomentFiller {
 
   int layersAtOnce() const { return std::max(1, static_cast<int>(kLinesAtOnce / kLines / kLines / solid_.cells.y())); }
 
-  /// Layers of cells first .. end - 1.
+  /// Samples the layers of cells first .. end - 1.
   void sample(int first, int end) {
     std::vector<LineStretch> stretches = stretchesOf(first, end);
     std::sort(stretches.begin(), stretches.end(), [](const LineStretch& a, const LineStretch& b) {
@@ -127,7 +127,7 @@ class MomentFiller {
 
  private:
   std::vector<LineStretch> stretchesOf(int first, int end) const {
-    Solid lines;  // the lines of the slab are those through the centres of a grid with finer cells
+    Solid lines;  // the slab's lines are those through the cell centres of a finer grid
     lines.spacing_m = solid_.spacing_m / kLines;
     lines.origin_m = solid_.origin_m + Vector3d(0, 0, first * solid_.spacing_m);
     lines.cells = kLines * Vector3i(solid_.cells.x(), solid_.cells.y(), end - first);
@@ -142,7 +142,7 @@ class MomentFiller {
     return out;
   }
 
-  /// Calls visit(union cell, piece) for the cells on a surface that an interval of a line passes through.
+  /// Calls visit(union cell, piece) for the surface cells that an interval of a line passes through.
   template <class Visit>
   void forEachCell(const LineStretch& s, int first_layer, double from, double to, Visit visit) {
     const int y = s.u / kLines, z = first_layer + s.v / kLines;
@@ -202,7 +202,7 @@ class MomentFiller {
     }
   }
 
-  /// Notes what each part has of the cells that several have; before the cells are sorted.
+  /// Records each part's contribution to cells that several parts share; before the cells are sorted.
   void share() {
     std::vector<PartFill> all;
     for (size_t order = 0; order < volumes_.size(); ++order) {
@@ -239,7 +239,7 @@ class MomentFiller {
   std::vector<UnionCell> cells_;
   std::vector<PartialCell> slivers_;
   std::vector<std::unordered_map<uint32_t, PartCell>> parts_;  ///< by index into cells_, before they are sorted
-  std::vector<std::unordered_map<uint32_t, CellFill>> own_;    ///< without what smaller parts have; empty of one part
+  std::vector<std::unordered_map<uint32_t, CellFill>> own_;    ///< without smaller parts; empty if there is one part
   std::vector<uint32_t> union_of_;                             ///< [cells] 0, or 1 + index into cells_
 };
 

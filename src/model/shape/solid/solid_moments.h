@@ -8,8 +8,8 @@
 
 namespace viscera {
 
-/// Labels the cells that hold tissue of some volumes, and finds the moments of those that are tissue in part.
-/// @param volumes  smallest first: it is whose a cell is that several have
+/// Labels the cells that contain tissue of some volumes, and computes the moments of partly filled cells.
+/// @param volumes  smallest first: the first one gets a cell that several share
 /// @param solid    an empty grid that covers them
 void fillByMoments(const std::vector<Volume>& volumes, Solid& solid, const Progress& progress);
 

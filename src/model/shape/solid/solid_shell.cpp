@@ -16,7 +16,7 @@ using Triangle = std::array<uint32_t, 3>;
 
 struct Link {
   uint32_t triangle;
-  bool opposed;  ///< the two triangles run the same way along their edge: one of them is inside out
+  bool opposed;  ///< the two triangles run in the same direction along their edge: one of them is inside out
 };
 
 std::vector<std::array<Link, 3>> linkTriangles(const std::vector<Triangle>& triangles, std::vector<uint8_t>& links) {
@@ -33,8 +33,8 @@ std::vector<std::array<Link, 3>> linkTriangles(const std::vector<Triangle>& tria
   return neighbors;
 }
 
-/// Turns triangles so that neighbours agree; each connected piece keeps the orientation of its majority.
-/// Returns which were turned.
+/// Turns triangles so that neighbours agree; each connected piece keeps the orientation of its majority. Returns which
+/// were turned.
 std::vector<bool> orientAlike(std::vector<Triangle>& triangles) {
   std::vector<uint8_t> links;
   const auto neighbors = linkTriangles(triangles, links);
@@ -64,9 +64,9 @@ std::vector<bool> orientAlike(std::vector<Triangle>& triangles) {
   return turned;
 }
 
-/// The loops that a surface leaves open, directed so that a fan over each closes it.
+/// Returns the open loops of a surface, directed so that a fan over each closes it.
 std::vector<std::vector<uint32_t>> openLoops(const std::vector<Triangle>& triangles) {
-  // What the triangles leave over at an edge, in one direction or the other, always adds up to closed loops.
+  // The unmatched directions at the edges always add up to closed loops.
   std::map<uint32_t, std::vector<uint32_t>> next;
   const std::vector<Side> sides = sortedSides(triangles);
   forEachEdge(sides, [&](size_t first, size_t last) {
@@ -133,7 +133,7 @@ void cap(Shell& shell, const std::vector<uint32_t>& loop) {
     perimeter += (shell.positions_m[triangle[1]] - shell.positions_m[triangle[0]]).norm();
   }
   shell.cap_area_m2 += area;
-  // A slit that a dropped sliver left behind is no hole.
+  // A slit left by a removed sliver is no hole.
   constexpr double kSlit = 1e-6;
   const bool is_hole = area > kSlit * perimeter * perimeter;
   shell.closes_hole.insert(shell.closes_hole.end(), loop.size(), is_hole);
@@ -206,7 +206,7 @@ TriangleMesh facingOutward(const TriangleMesh& mesh) {
   bool is_joined = false;
   for (const ClosedSurface& surface : closeSurfaces(mesh)) {
     const Shell& shell = surface.shell;
-    for (size_t own = 0; own < surface.triangles.size(); ++own) {  // in the order of the mesh, and turned already
+    for (size_t own = 0; own < surface.triangles.size(); ++own) {  // in the order of the mesh, already turned
       Triangle& triangle = facing.triangles[surface.triangles[own]];
       for (int c = 0; c < 3; ++c) triangle[c] = shell.vertices[shell.triangles[own][c]];
       if (shell.volume_m3 < 0) std::swap(triangle[1], triangle[2]);

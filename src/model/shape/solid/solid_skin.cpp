@@ -17,14 +17,14 @@
 namespace viscera {
 namespace {
 
-/// Least magnitude to which smoothing may bring a cell's value, so that no cell changes sides and thin walls stay.
+/// Smallest magnitude of a cell's value after smoothing, so that no cell changes sides and thin walls remain.
 constexpr float kKeepSide = 0.5f;
-/// Farthest that the surface of a solid is moved outward to make up for its clipped edges, in cells.
+/// Largest distance that a solid's surface moves outward to compensate for its clipped edges, in cells.
 constexpr double kMostSkinInflation = 0.4;
-/// Least distance of a sample from the surface, in spacings: two vertices never fall together at a sample.
+/// Smallest distance of a sample from the surface, in spacings: two vertices never coincide at a sample.
 constexpr double kClearOfSample = 0.05;
 
-/// Positions of the grid's index coordinates [m].
+/// Map from index coordinates of the grid to positions [m].
 struct GridFrame {
   Vector3d origin_m;
   double spacing_m;
@@ -36,7 +36,7 @@ float lengthSquared(const TriangleMesh& mesh, uint32_t a, uint32_t b) {
   return (mesh.positions_m[a] - mesh.positions_m[b]).squaredNorm();
 }
 
-/// The surface where the grid is zero; outward is where it grows. Parts are left at 0.
+/// Returns the zero isosurface of the grid; the grid grows outwards. Parts are left at 0.
 TriangleMesh isosurface(const openvdb::FloatGrid& grid, const GridFrame& frame) {
   std::vector<openvdb::Vec3s> points;
   std::vector<openvdb::Vec3I> triangles;
@@ -68,7 +68,7 @@ void labelTriangles(TriangleMesh& mesh, PartAt part_at) {
   }
 }
 
-/// -1 in the cells of a solid, 1 in all others; active where smoothing may act.
+/// Returns a grid with -1 in the cells of a solid, 1 in all others; active where smoothing may act.
 openvdb::FloatGrid::Ptr signOfCells(const Solid& solid) {
   openvdb::FloatGrid::Ptr grid = openvdb::FloatGrid::create(1.0f);
   openvdb::FloatGrid::Accessor cells = grid->getAccessor();
@@ -84,7 +84,7 @@ openvdb::FloatGrid::Ptr signOfCells(const Solid& solid) {
   return grid;
 }
 
-/// Rounds the stairs of a solid off, without moving the surface past the centre of any cell.
+/// Smooths the stairs of a solid without moving the surface past the centre of any cell.
 void smoothStairs(openvdb::FloatGrid& grid, const Solid& solid) {
   openvdb::tools::Filter<openvdb::FloatGrid>(grid).mean(1, 1);
   for (auto value = grid.beginValueOn(); value; ++value) {
@@ -94,7 +94,7 @@ void smoothStairs(openvdb::FloatGrid& grid, const Solid& solid) {
   }
 }
 
-/// Clipped edges and corners lose volume: moves the surface out evenly until it encloses that of the solid again.
+/// Moves the surface outwards evenly until it encloses the solid's volume again: clipped edges and corners lose volume.
 void restoreVolume(TriangleMesh& mesh, const Solid& solid) {
   double area_m2 = 0;
   for (const auto& t : mesh.triangles) {
@@ -107,7 +107,7 @@ void restoreVolume(TriangleMesh& mesh, const Solid& solid) {
   for (size_t v = 0; v < normals.size(); ++v) mesh.positions_m[v] += static_cast<float>(outward_m) * normals[v];
 }
 
-/// Part of the filled cell whose centre is nearest to a point on the surface.
+/// Returns the part of the filled cell with its centre nearest to a point on the surface.
 uint16_t nearestPart(const Solid& solid, const Vector3d& point_m) {
   const Vector3d index = (point_m - solid.origin_m) / solid.spacing_m - Vector3d::Constant(0.5);
   const Vector3i base = index.array().round().cast<int>();

@@ -13,14 +13,14 @@ namespace viscera {
 
 namespace {
 
-/// What to try where open sheets may enclose a body together; empty of a flat mesh.
+/// Returns what to try where open sheets may enclose a body together; empty for a flat mesh.
 std::string enclosedHint(const TriangleMesh& mesh) {
-  constexpr float kFlat = 1e-3f;  // of the largest extent
+  constexpr float kFlat = 1e-3f;  // share of the largest extent
   Eigen::AlignedBox3f box;
   for (const Vector3f& p : mesh.positions_m) box.extend(p);
   const Vector3f size = box.sizes();
   if (size.minCoeff() <= kFlat * size.maxCoeff()) return "";
-  return "; if its sheets enclose one together, set fill: enclosed";
+  return "; if its sheets together enclose one, set fill: enclosed";
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ void countDropped(const TriangleMesh& mesh, const Solid& solid, VoxelReport& rep
   std::vector<bool> seen(solid.part_names.size() + 1, false);
   for (const uint16_t label : solid.labels) seen[label] = true;
   std::vector<double> areas_m2 = partAreas(mesh);
-  areas_m2.resize(solid.part_names.size(), 0);  // one that the solid has beyond the mesh's
+  areas_m2.resize(solid.part_names.size(), 0);  // the solid may have one part more than the mesh
   double dropped_m2 = 0, all_m2 = 0;
   for (size_t part = 0; part < solid.part_names.size(); ++part) {
     all_m2 += areas_m2[part];
@@ -95,7 +95,7 @@ void refuseEmpty(const std::vector<Volume>& volumes, const TriangleMesh& mesh, d
   } catch (const LatticeError& error) {
     throw LatticeError(error.what() + farPartNote(namedShells(volumes, mesh)));
   }
-  throw MeshError("the mesh encloses no volume: its surfaces lie on each other");
+  throw MeshError("the mesh encloses no volume: its surfaces coincide");
 }
 
 }  // namespace viscera

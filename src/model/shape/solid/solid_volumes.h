@@ -12,12 +12,12 @@
 
 namespace viscera {
 
-/// A surface that has an inside: of a part, or of several that are joined.
+/// Closed surface with an inside: of one part, or of several joined parts.
 struct Volume {
   Shell shell;
-  uint16_t part;  ///< of several, the largest
+  uint16_t part;  ///< of several parts, the largest
   std::vector<uint16_t> triangle_parts =
-      {};  ///< [own triangles of the shell] where they are of several parts; else empty
+      {};  ///< [own triangles of the shell] part of each if there are several parts; else empty
 };
 
 /// Closes every surface (closeSurfaces()); those that enclose nothing are left out. Smallest first.
@@ -27,20 +27,21 @@ std::vector<Volume> closeParts(const TriangleMesh& mesh, VoxelReport& report);
 std::vector<NamedShell> namedShells(const std::vector<Volume>& volumes, const TriangleMesh& mesh);
 Eigen::AlignedBox3d boundsOf(const std::vector<Volume>& volumes);
 
-/// First and one past the last cell of a row whose centres lie within a stretch.
+/// Returns the first and one past the last cell of a row with centres within an interval.
 std::pair<int, int> centresWithin(const InsideStretch& stretch, int cells);
-/// Labels the cells whose centre is inside and that no other volume has.
+/// Labels the cells with a centre inside that belong to no other volume.
 void fillCentres(const Volume& volume, Solid& solid);
 
-/// Gives the cells of volumes of several parts to the part whose surface is nearest, as a flood from it finds it.
+/// Gives the cells of volumes of several parts to the part with the nearest surface, found by a flood from the
+/// surfaces.
 void nameJoinedParts(const std::vector<Volume>& volumes, Solid& solid);
 
-/// Looks for parts of the mesh without a cell.
+/// Counts parts of the mesh without a cell.
 void countDropped(const TriangleMesh& mesh, const Solid& solid, VoxelReport& report);
 
-/// For a spacing at which a mesh filled no cell.
-/// @param fills  (spacing_m) -> whether it fills any at that one
-/// @throws LatticeError  a spacing that would do; MeshError  there is none
+/// Reports a spacing at which a mesh filled no cell.
+/// @param fills  (spacing_m) -> whether any cell is filled at this spacing
+/// @throws LatticeError  a spacing that would work; MeshError  there is none
 void refuseEmpty(const std::vector<Volume>& volumes, const TriangleMesh& mesh, double spacing_m,
                  const std::function<bool(double)>& fills);
 

@@ -1,25 +1,25 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The fill rule: which cells of the grid are tissue. Meshes are dirty, so the rule is stated for any set of triangles.
+// The fill rule: which cells of the grid are tissue. Meshes are dirty, so the rule is defined for any set of triangles.
 //
-//  1. Parts are filled one by one; the solid is their union. Parts whose open borders meet are one (joined_parts.h).
+//  1. Parts are filled one by one; the solid is their union. Parts with open borders that meet are one part
+//     (joined_parts.h).
 //  2. Within a part, triangles that share an edge are first turned to agree (the majority of a connected piece wins).
-//     Then every boundary loop is closed by a fan about its middle. A part whose caps have more than 0.6 of its own
-//     area (a plane, a sheet, a shallow bowl) is an open sheet: it has no inside and is left out.
-//  3. A point is inside a part where the part's winding number is not zero. Hence pieces of a part that overlap merge,
-//     a part that is inside out is filled all the same, and an inner surface that faces the other way than the one
-//     around it bounds a cavity that stays empty. Chambers that open to the outside are outside.
+//     Then every boundary loop is closed by a fan about its middle. A part with caps of more than 0.6 of its own area
+//     (a plane, a sheet, a shallow bowl) is an open sheet: it has no inside and is left out.
+//  3. A point is inside a part where the part's winding number is not zero. Hence overlapping pieces of a part merge,
+//     and a part that is inside out is filled too. An inner surface that faces the opposite direction to the one around
+//     it bounds a cavity that stays empty. Chambers that open to the outside are outside.
 //  4. A cell is filled if its centre is inside a part.
-//  5. Thin walls: where a line through the centres of a row of cells (along x, y or z) runs inside a part between two
-//  of
-//     these centres, and meets both faces of the wall within about 55 degrees of their normals, the cell that holds the
-//     middle of the stretch is filled too. So a wall thinner than a cell becomes one cell thick and not a sieve.
-//  6. A cell claimed by several parts belongs to the part with the smallest volume, so that details such as a papillary
-//     muscle are not swallowed by the wall that they grow from; a thin-wall cell never takes a cell filled by rule 4.
+//  5. Thin walls: a line through the centres of a row of cells (along x, y or z) may run inside a part between two of
+//     these centres. If it meets both faces of the wall within about 55 degrees of their normals, the cell that
+//     contains the middle of the interval is filled too. A wall thinner than a cell thus becomes one cell thick,
+//     without holes.
+//  6. A cell claimed by several parts belongs to the part with the smallest volume. Details such as a papillary muscle
+//     are then not absorbed by the wall that they grow from. A thin-wall cell never takes a cell filled by rule 4.
 //  7. Crumbs: pieces that touch no other piece, not even at a corner, and have less than a thousandth of the cells of
-//  the
-//     largest piece are emptied. They would only fall.
+//     the largest piece are emptied. They would only fall.
 //
 // Rule 3 is decided exactly (solid_lines.cpp). OpenVDB's meshToVolume is not used here: it finds the inside by flooding
 // from outside, so that closed cavities are filled and a hole wider than a cell empties the body.
@@ -36,9 +36,9 @@
 namespace viscera {
 namespace {
 
-constexpr double kThinnest = 1e-3;  ///< of a cell: stretches below are rounding of two coincident faces
+constexpr double kThinnest = 1e-3;  ///< in cells: shorter intervals come from the rounding of two coincident faces
 
-/// Returns the number of cells filled.
+/// Fills thin walls along an axis. Returns the number of cells filled.
 int fillThinWalls(const Volume& volume, int axis, Solid& solid) {
   int filled = 0;
   for (const InsideStretch& stretch : insideStretches(volume.shell, solid, axis)) {
@@ -57,7 +57,7 @@ int fillThinWalls(const Volume& volume, int axis, Solid& solid) {
   return filled;
 }
 
-/// The filled grid; all labels are 0 where the spacing is too large for the body.
+/// Returns the filled grid; all labels are 0 where the spacing is too large for the body.
 Solid fill(const std::vector<Volume>& volumes, const TriangleMesh& mesh, double spacing_m, VoxelReport& report,
            const Progress& progress) {
   requireParted(namedShells(volumes, mesh), spacing_m);
@@ -86,12 +86,13 @@ std::string VoxelReport::text() const {
   TextOut out;
   out << "mesh volume " << mesh_volume_m3 * kCm3 << " cm3, filled " << filled_volume_m3 * kCm3 << " cm3; "
       << holes_closed << " holes closed, " << thin_cells << " thin-wall cells, " << crumbs_removed
-      << " crumbs removed, " << parts_dropped << " parts dropped";
+      << " small pieces removed, " << parts_dropped << " parts dropped";
   for (size_t i = 0; i < dropped_names.size(); ++i) out << (i == 0 ? ": " : ", ") << dropped_names[i];
   constexpr double kMost = 0.5;
   if (dropped_surface > kMost)
-    out << "; parts with " << std::lround(100 * dropped_surface) << " % of the surface were dropped: if all parts "
-        << "enclose the body together, set fill: enclosed";
+    out << "; parts with " << std::lround(100 * dropped_surface)
+        << " % of the surface were dropped; if all parts together "
+        << "enclose the body, set fill: enclosed";
   return out.str();
 }
 

@@ -14,7 +14,7 @@ namespace viscera {
 /// @param corners  in cells
 template <class Visit>
 void forEachSample(const std::array<Vector3d, 3>& corners, Visit visit) {
-  constexpr double kBetween = 0.25;  // of a cell
+  constexpr double kBetween = 0.25;  // in cells
   const auto& [p, q, r] = corners;
   const double longest = std::max({(q - p).norm(), (r - q).norm(), (p - r).norm()});
   const int steps = std::max(1, static_cast<int>(std::ceil(longest / kBetween)));

@@ -19,7 +19,7 @@ struct Side {
   bool sameEdge(const Side& other) const { return low == other.low && high == other.high; }
 };
 
-/// Returns the sides of triangles, those of one edge next to each other.
+/// Returns the sides of triangles, with those of one edge next to each other.
 inline std::vector<Side> sortedSides(const std::vector<std::array<uint32_t, 3>>& triangles) {
   std::vector<Side> sides;
   sides.reserve(3 * triangles.size());

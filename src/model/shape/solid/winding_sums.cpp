@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// By the divergence theorem along x: a piece of the surface adds, with the sign of its projection on the y-z plane, all
-// that lies beyond it: the rest of its own cell, and the column of its shadow in every cell behind that one. Triangles
-// are clipped to cells; what is integrated over a piece is a polynomial of degree 3 at most.
+// Uses the divergence theorem along x. A piece of the surface adds everything beyond it, with the sign of its
+// projection on the y-z plane: the rest of its own cell, and the column of its shadow in every cell behind it.
+// Triangles are clipped to cells; the integrand over a piece is a polynomial of degree 3 at most.
 #include "model/shape/solid/winding_sums.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 using Polygon = std::vector<Vector3d>;  ///< flat and convex, in cells
 
-/// What is on one side of a plane across an axis.
+/// Returns the part of a polygon on one side of a plane across an axis.
 /// @param sign  1: where the coordinate is larger, -1: where it is smaller
 Polygon clipped(const Polygon& polygon, int axis, double plane, double sign) {
   Polygon kept;
@@ -54,7 +54,7 @@ void cut(const Polygon& polygon, const Vector3i& cells, int axis, Vector3i cell,
   }
 }
 
-/// Of the shadow of a piece, over a whole cell: integrals of 1, y, z, y^2, y z, z^2.
+/// Integrals of 1, y, z, y^2, y z, z^2 over the shadow of a piece, for a whole cell.
 using Column = Eigen::Matrix<double, 6, 1>;
 
 CellFill fillOf(const Column& c) {
@@ -65,12 +65,12 @@ CellFill fillOf(const Column& c) {
   return fill;
 }
 
-/// The pieces of the surface in one cell.
+/// Pieces of the surface in one cell.
 struct CellPieces {
-  CellFill beyond = noFill();      ///< in the cell itself
-  Column column = Column::Zero();  ///< in each cell behind it along x
+  CellFill beyond = noFill();      ///< moments beyond the surface in the cell itself
+  Column column = Column::Zero();  ///< integrals in each cell behind it along x
 
-  /// @param p  a point of the surface, from the middle of the cell   @param weight  projected area that it stands for
+  /// @param p  point of the surface, relative to the cell's centre   @param weight  projected area that it represents
   void addPoint(const Vector3d& p, double weight) {
     const double x = p.x(), y = p.y(), z = p.z();
     const double rest = weight * (0.5 - x), rest_x = weight * (0.25 - x * x) / 2;
@@ -89,7 +89,7 @@ struct CellPieces {
   void addTriangle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
     const Vector3d ab = b - a, ac = c - a;
     const double weight = -0.5 * (ab.y() * ac.z() - ab.z() * ac.y());
-    if (weight == 0) return;  // seen edge-on
+    if (weight == 0) return;  // edge-on
     const Vector3d sum = a + b + c;
     addPoint(sum / 3, -27.0 / 48 * weight);  // Strang's rule of degree 3
     for (const Vector3d& corner : {a, b, c}) addPoint(0.2 * sum + 0.4 * corner, 25.0 / 48 * weight);
@@ -111,7 +111,7 @@ std::vector<SurfaceCell> windingSums(const Shell& shell, const Solid& grid) {
   for (const auto& t : shell.triangles) {
     Polygon triangle;
     for (const uint32_t v : t) {
-      // The grid may end a little before the body: rounding of single-precision meshes.
+      // The grid may end slightly before the body: rounding of single-precision meshes.
       const Vector3d cells = (shell.positions_m[v] - grid.origin_m) / grid.spacing_m;
       triangle.push_back(cells.cwiseMax(Vector3d::Zero()).cwiseMin(size));
     }
@@ -120,7 +120,7 @@ std::vector<SurfaceCell> windingSums(const Shell& shell, const Solid& grid) {
   std::vector<SurfaceCell> sums;
   for (const auto& [cell, here] : pieces) sums.push_back({cell, noFill()});
   std::sort(sums.begin(), sums.end(), [](const SurfaceCell& a, const SurfaceCell& b) { return a.cell < b.cell; });
-  Column before = Column::Zero();  // of the row so far
+  Column before = Column::Zero();  // sum over the row so far
   const auto row_length = static_cast<size_t>(grid.cells.x());
   for (size_t i = 0; i < sums.size(); ++i) {
     if (i > 0 && sums[i].cell / row_length != sums[i - 1].cell / row_length) before.setZero();

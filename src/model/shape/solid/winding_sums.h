@@ -9,15 +9,15 @@
 
 namespace viscera {
 
-/// A cell that a shell's surface passes through, with the winding number and its moments integrated over the cell:
+/// Cell with a shell's surface in it, and the integrals of the winding number and its moments over the cell. They are
 /// those of the tissue in it where the winding number is 0 or 1.
 struct SurfaceCell {
   size_t cell;  ///< Solid::index()
   CellFill sum;
 };
 
-/// All cells that the surface of a shell touches, ascending. Exact but for rounding: no samples.
-/// @param grid  covers the shell; its labels are not looked at
+/// Returns all cells that the surface of a shell touches, ascending. Exact up to rounding: no samples.
+/// @param grid  covers the shell; its labels are ignored
 std::vector<SurfaceCell> windingSums(const Shell& shell, const Solid& grid);
 
 }  // namespace viscera

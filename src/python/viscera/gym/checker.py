@@ -1,6 +1,6 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Does an environment keep to Gymnasium's contract?"""
+"""Checks that an environment fulfils Gymnasium's contract."""
 import numpy as np
 
 from .spaces import HAVE_GYMNASIUM
@@ -20,21 +20,21 @@ def _same(a, b):
 
 
 def _played(env, seed, actions):
-    """Observations and rewards of an episode, each of which is held against the contract."""
+    """Plays an episode and checks every step. Returns its observations and rewards."""
     out = env.reset(seed=seed)
-    _require(isinstance(out, tuple) and len(out) == 2 and isinstance(out[1], dict), "reset: wanted (observation, info)")
+    _require(isinstance(out, tuple) and len(out) == 2 and isinstance(out[1], dict), "reset: must be (observation, info)")
     observations, rewards = [out[0]], []
     for action in actions:
         out = env.step(action)
-        _require(isinstance(out, tuple) and len(out) == 5, "step: wanted (observation, reward, terminated, truncated, info)")
+        _require(isinstance(out, tuple) and len(out) == 5, "step: must be (observation, reward, terminated, truncated, info)")
         observation, reward, terminated, truncated, info = out
-        _require(isinstance(reward, float) and np.isfinite(reward), f"step: reward: wanted a finite float; found {reward!r}")
-        _require(isinstance(terminated, bool) and isinstance(truncated, bool), "step: terminated, truncated: wanted bool")
+        _require(isinstance(reward, float) and np.isfinite(reward), f"step: reward: must be a finite float; found {reward!r}")
+        _require(isinstance(terminated, bool) and isinstance(truncated, bool), "step: terminated, truncated: must be bool")
         _require(not (terminated and truncated), "step: terminated and truncated at once")
-        _require(isinstance(info, dict), "step: info: wanted a dict")
+        _require(isinstance(info, dict), "step: info: must be a dict")
         if "reward_terms" in info:
             _require(abs(sum(info["reward_terms"].values()) - reward) <= 1e-9 * (1 + abs(reward)),
-                     "step: info: reward_terms: wanted terms whose sum is the reward")
+                     "step: info: reward_terms: must be terms that sum up to the reward")
         observations.append(observation)
         rewards.append(reward)
         if terminated or truncated:
@@ -45,10 +45,10 @@ def _played(env, seed, actions):
 
 
 def check(env, steps=50, seed=1):
-    """Raises ContractError where env breaks Gymnasium's contract; where Gymnasium is installed, its check_env runs too."""
+    """Raises ContractError if env violates Gymnasium's contract. Also runs Gymnasium's check_env if it is installed."""
     for space in (env.observation_space, env.action_space):
         _require(space.contains(space.sample()), f"{space} does not contain its sample")
-    _require(np.isfinite(env.action_space.low).all() and np.isfinite(env.action_space.high).all(), "actions: wanted bounds")
+    _require(np.isfinite(env.action_space.low).all() and np.isfinite(env.action_space.high).all(), "actions: must have finite bounds")
     env.action_space.seed(seed)
     actions = [env.action_space.sample() for _ in range(steps)]
     one, other = _played(env, seed, actions), _played(env, seed, actions)
@@ -58,7 +58,7 @@ def check(env, steps=50, seed=1):
     _require(not (_same(first, one[0][0]) and _same(second, first)), "seeds change nothing")
     if env.render_mode == "rgb_array":
         picture = env.render()
-        _require(picture.ndim == 3 and picture.shape[2] == 3 and picture.dtype == np.uint8, "render: wanted (h, w, 3) uint8")
+        _require(picture.ndim == 3 and picture.shape[2] == 3 and picture.dtype == np.uint8, "render: must be (h, w, 3) uint8")
     if HAVE_GYMNASIUM:
         from gymnasium.utils.env_checker import check_env
         check_env(env.unwrapped, skip_render_check=env.render_mode is None)

@@ -1,6 +1,6 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Environments: one session, or many side by side."""
+"""Environments with one session, or with several."""
 import copy
 
 import numpy as np
@@ -10,13 +10,13 @@ from .spaces import Box, Dict, Env, VectorEnv, batched
 
 _PICTURES = ("rgb", "depth", "labels")
 _OBSERVATIONS = ("poses", "forces", "points") + _PICTURES
-_POINTS = 512  # of the skin, evenly by their number
+_POINTS = 512  # vertices of the surface mesh, evenly spaced by index
 _FARTHEST_M = 10.0
 _UPRIGHT = (0, 0, 0, 1)
 
 
 def _value(scene, key):
-    """A number of a scene's keys, given or default."""
+    """Returns the value of a scene key, given or default."""
     for line in scene.keys.splitlines():
         name, _, value = line.partition("=")
         if name == key:
@@ -25,12 +25,12 @@ def _value(scene, key):
 
 
 class _Layout:
-    """What all episodes of an environment share: scene, spaces, how actions become poses."""
+    """Data that all episodes of an environment share: the scene and the spaces."""
 
     def __init__(self, task, observations):
         unknown = [each for each in observations if each not in _OBSERVATIONS]
         if isinstance(observations, str) or unknown:
-            raise ValueError(f"observations: wanted some of {', '.join(_OBSERVATIONS)}; found {observations!r}")
+            raise ValueError(f"observations: must be some of {', '.join(_OBSERVATIONS)}; found {observations!r}")
         self.kinds = tuple(observations)
         self.scene = Scene(task.scene, task.overrides)
         if len(self.scene.styluses) != 1:
@@ -38,7 +38,7 @@ class _Layout:
         self.low, self.high = np.array(task.low_m, float), np.array(task.high_m, float)
         self.ticks = round(1 / (self.scene.tick_s * task.control_hz))
         if self.ticks < 1 or abs(self.ticks * self.scene.tick_s * task.control_hz - 1) > 1e-9:
-            raise ValueError(f"control_hz: wanted a divisor of solver.tick_hz, {1 / self.scene.tick_s:g}; found {task.control_hz}")
+            raise ValueError(f"control_hz: must be a divisor of solver.tick_hz, {1 / self.scene.tick_s:g}; found {task.control_hz}")
         count = 3 if task.button is None else 4
         self.action_space = Box(-1.0, 1.0, (count,), np.float32)
         self.observation_space = self._space()
@@ -56,7 +56,7 @@ class _Layout:
             spaces["points"] = Box(-_FARTHEST_M, _FARTHEST_M, (_POINTS, 3), np.float32)
         if set(self.kinds) & set(_PICTURES):
             if not self.scene.cameras:
-                raise ValueError("observations: rgb, depth and labels are of the scene's first camera; it has none")
+                raise ValueError("observations: rgb, depth and labels need a camera, but the scene has none")
             w, h = (int(_value(self.scene, f"cameras[0].{side}_px")) for side in ("width", "height"))
             for kind, space in (("rgb", Box(0, 255, (h, w, 3), np.uint8)), ("labels", Box(0, 255, (h, w), np.uint8)),
                                 ("depth", Box(0, np.inf, (h, w), np.float32))):
@@ -70,14 +70,14 @@ class _Layout:
 
 
 class _Episode:
-    """One session's tip, task and score."""
+    """Tip, task and reward of one session."""
 
     def __init__(self, layout, task, session):
         self.layout, self.task, self.session = layout, task, session
         self._points = None
 
     def begin(self, rng, options):
-        """The tissue is at rest."""
+        """Begins an episode; the tissue is at rest."""
         task, options = self.task, dict(options or {})
         start = np.array(task.start_m, float) + rng.uniform(-task.start_spread_m, task.start_spread_m, 3)
         self.tip = np.clip(start, self.layout.low, self.layout.high)
@@ -86,10 +86,10 @@ class _Episode:
         task.begin(self.session, rng, options)
 
     def way(self, action):
-        """(ticks, 3) places of the tip on the way that an action takes it, and (2,) buttons."""
+        """Returns the positions of the tip during an action, (ticks, 3), and the buttons, (2,)."""
         action = np.asarray(action, float)
         if action.shape != self.layout.action_space.shape or not np.isfinite(action).all():
-            raise ValueError(f"action: wanted {self.layout.action_space.shape} finite numbers; found {action!r}")
+            raise ValueError(f"action: must be {self.layout.action_space.shape} finite numbers; found {action!r}")
         action = np.clip(action, -1, 1)
         to = np.clip(self.tip + self.task.step_m * action[:3], self.layout.low, self.layout.high)
         share = np.arange(1, self.layout.ticks + 1)[:, None] / self.layout.ticks
@@ -106,8 +106,8 @@ class _Episode:
         self.peak_n = max(self.peak_n, float(np.linalg.norm(wrench[:3])))
 
     def judged(self):
-        """reward, terminated, info"""
-        task, trips = self.task, self.session.diagnostics["governor_trips"]
+        """Returns reward, terminated and info."""
+        task, trips = self.task, self.session.diagnostics["roll_backs"]
         terms, done = task.judge(self.session, self.tip, self.force[:3], self.peak_n, self.pressed)
         failure = "instability" if trips else "force" if self.peak_n > task.most_n else ""
         terms["failure"] = -float(bool(failure))
@@ -123,7 +123,7 @@ class _Episode:
             out["forces"] = layout.bounded(self.force[None], "forces")
         if "points" in layout.kinds:
             skin = self.session.skin()
-            if self._points is None:  # the same vertices ever after, whatever is cut
+            if self._points is None:  # chosen once, so that they stay the same after cuts
                 self._points = skin.used[np.linspace(0, len(skin.used) - 1, _POINTS).astype(int)]
             out["points"] = layout.bounded(skin.positions_m[self._points], "points")
         for kind in set(layout.kinds) & set(_PICTURES):
@@ -132,13 +132,13 @@ class _Episode:
 
 
 class TissueEnv(Env):
-    """A task, by Gymnasium's API. Actions: how far the tip goes along x, y and z, of the task's step_m, and where the task
-    has a button whether it is pressed, all -1 .. 1; what is beyond is taken as the bound. The tip stays upright."""
+    """A task with Gymnasium's API. An action is the displacement of the tip along x, y and z, in units of the task's step_m,
+    and the button if the task has one. All are -1 .. 1, and are clipped. The tip stays upright."""
     metadata = {"render_modes": ["rgb_array"], "render_fps": 20}
 
     def __init__(self, task, observations=("poses", "forces"), render_mode=None):
         if render_mode not in (None, "rgb_array"):
-            raise ValueError(f"render_mode: wanted None or 'rgb_array'; found {render_mode!r}")
+            raise ValueError(f"render_mode: must be None or 'rgb_array'; found {render_mode!r}")
         layout = _Layout(task, observations)
         self.task, self.render_mode = task, render_mode
         self.metadata = {**type(self).metadata, "render_fps": task.control_hz}
@@ -158,7 +158,7 @@ class TissueEnv(Env):
 
     def step(self, action):
         if not self._begun:
-            raise RuntimeError("step: reset() comes first")
+            raise RuntimeError("step: call reset() first")
         episode = self._episode
         way, buttons = episode.way(action)
         for place in way:
@@ -175,13 +175,13 @@ class TissueEnv(Env):
 
 
 class VectorTissueEnv(VectorEnv):
-    """The same task many times, stepped by one call on threads of their own (see make_vec)."""
+    """Several sessions of a task, which one call steps on several CPU threads (see make_vec)."""
     metadata = {"render_modes": [], "autoreset_mode": "SameStep"}
 
     def __init__(self, task, num_envs=1, observations=("poses", "forces"), max_episode_steps=None, threads=0):
         layout = _Layout(task, observations)
         if set(observations) & set(_PICTURES):
-            raise ValueError("observations: pictures are of single environments; side by side wanted poses, forces, points")
+            raise ValueError("observations: pictures exist only for single environments; vectors of environments accept poses, forces, points")
         self.num_envs, self.scene = num_envs, layout.scene
         self.sessions = VectorSession(layout.scene, num_envs, threads)
         self.single_action_space, self.single_observation_space = layout.action_space, layout.observation_space
@@ -190,17 +190,17 @@ class VectorTissueEnv(VectorEnv):
         self._ticks = layout.ticks
         self._limit = task.steps if max_episode_steps is None else max_episode_steps
         if self._limit < 1:
-            raise ValueError(f"max_episode_steps: wanted 1 or more; found {self._limit}")
+            raise ValueError(f"max_episode_steps: must be 1 or more; found {self._limit}")
         self._episodes = [_Episode(layout, copy.deepcopy(task), session) for session in self.sessions]
         self._rngs = None
 
     def reset(self, *, seed=None, options=None):
-        """seed: a number, of the first, those after it have the next ones; or one for each."""
+        """seed: the seed of the first session, and the following numbers for the others; or one seed for each."""
         if seed is not None or self._rngs is None:
             seeds = [None] * self.num_envs if seed is None else seed
             seeds = [seeds + i for i in range(self.num_envs)] if isinstance(seeds, (int, np.integer)) else list(seeds)
             if len(seeds) != self.num_envs:
-                raise ValueError(f"seed: wanted a number or {self.num_envs} of them; found {len(seeds)}")
+                raise ValueError(f"seed: must be a number or a list of {self.num_envs} numbers; found {len(seeds)}")
             self._rngs = [np.random.default_rng(each) for each in seeds]
         self.sessions.reset()
         self._steps = np.zeros(self.num_envs, int)
@@ -210,9 +210,9 @@ class VectorTissueEnv(VectorEnv):
 
     def step(self, actions):
         if self._rngs is None:
-            raise RuntimeError("step: reset() comes first")
+            raise RuntimeError("step: call reset() first")
         if np.shape(actions) != self.action_space.shape or not np.isfinite(np.asarray(actions, float)).all():
-            raise ValueError(f"actions: wanted {self.action_space.shape} finite numbers; found shape {np.shape(actions)}")
+            raise ValueError(f"actions: must be {self.action_space.shape} finite numbers; found shape {np.shape(actions)}")
         ways, buttons = zip(*(episode.way(action) for episode, action in zip(self._episodes, actions)))
         ways, buttons = np.array(ways), np.array(buttons)[:, None]
         for tick in range(self._ticks):

@@ -1,6 +1,6 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Spaces and base classes: Gymnasium's where it is installed, else what of them is needed here."""
+"""Spaces and base classes: Gymnasium's if it is installed, otherwise the parts that are needed here."""
 import numpy as np
 
 try:
@@ -119,7 +119,7 @@ except ImportError:
     VectorEnv = Env
 
     class Wrapper(Env):
-        """Hands everything on that it does not do itself."""
+        """Forwards everything to the wrapped environment."""
 
         def __init__(self, env):
             self.env = env
@@ -148,7 +148,7 @@ except ImportError:
 
 
 def batched(space, n):
-    """The space of n of these, with them as leading axis."""
+    """Returns the space of n such values, stacked along the leading axis."""
     if isinstance(space, Dict):
         return Dict({key: batched(each, n) for key, each in space.items()})
     return Box(np.repeat(space.low[None], n, 0), np.repeat(space.high[None], n, 0), dtype=space.dtype)

@@ -1,35 +1,35 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is to be done: scenes of soft tissue, where tools begin, and what is rewarded."""
+"""Tasks: their scenes, initial poses of tools, and rewards."""
 import copy
 
 import numpy as np
 
 
 class Task:
-    """One tool, one tissue. A task of your own sets the values below and begin(), goal() and judge().
+    """Base class of tasks with one tool. A derived task sets the values below and begin(), goal() and judge().
 
-    scene       dict, as for viscera.Scene; solver.tick_hz a multiple of control_hz
-    terms       weights of the reward's terms, by name; judge() returns the terms, the reward is their weighted sum
+    scene       dict, as in viscera.Scene; solver.tick_hz is a multiple of control_hz
+    terms       weights of the reward's terms, by name; judge() returns the terms, and the reward is their weighted sum
     """
     name = ""
     scene = {}
-    steps = 100             # of an episode
+    steps = 100             # limit of an episode
     control_hz = 20
-    step_m = 0.004          # farthest that an action moves the tip along an axis
-    low_m, high_m = (-0.04, -0.04, -0.01), (0.04, 0.04, 0.06)  # where the tip may be
+    step_m = 0.004          # largest displacement of the tip along an axis per action
+    low_m, high_m = (-0.04, -0.04, -0.01), (0.04, 0.04, 0.06)  # bounds of the tip
     start_m, start_spread_m = (0, 0, 0.045), 0.005
-    button = None           # 0 or 1: pressed where the last number of an action is above 0
-    limit_n = 0.5           # above it, force costs
-    most_n = 3              # above it, an episode has failed
+    button = None           # 0 or 1: the button that is pressed if the last number of an action is above 0
+    limit_n = 0.5           # force above which there is a cost
+    most_n = 3              # force above which an episode has failed
     terms = {}
 
     def __init__(self, terms=None, overrides=None, **values):
-        """terms: other weights for some; overrides: keys of the scene; values: attributes of the class, by name."""
+        """terms: weights that replace the defaults; overrides: keys of the scene; values: attributes of the class, by name."""
         self.terms = dict(self.terms)
         for key, weight in (terms or {}).items():
             if key not in self.terms:
-                raise ValueError(f"terms: wanted some of {', '.join(self.terms)}; found {key!r}")
+                raise ValueError(f"terms: must be some of {', '.join(self.terms)}; found {key!r}")
             self.terms[key] = float(weight)
         for key, value in values.items():
             if key.startswith("_") or not hasattr(type(self), key) or callable(getattr(type(self), key)):
@@ -40,16 +40,16 @@ class Task:
         self._calm = 0
 
     def begin(self, session, rng, options):
-        """A new episode, after the tissue was put back to rest."""
+        """Begins an episode, after the tissue was reset."""
         self._calm = 0
 
     def goal(self):
-        """(3,) where the tip is wanted now [m]; seen in the observations."""
+        """Returns the current target of the tip, (3,) [m], which is part of the observations."""
         raise NotImplementedError
 
     def judge(self, session, tip_m, force_n, peak_n, pressed):
-        """After a step: terms by name, and whether the task is done.
-        force_n: (3,) on the tip at its end; peak_n: largest in it."""
+        """Returns the terms by name, and whether the task is done. Called after a step.
+        force_n: (3,) force on the tip at the end of the step; peak_n: largest force in it."""
         raise NotImplementedError
 
     def _kept(self, good, steps=3):
@@ -63,14 +63,14 @@ class Task:
 def _point(options, key, default, low, high):
     value = np.asarray(options.get(key, default), float)
     if value.shape != np.shape(default) or not ((value >= low) & (value <= high)).all():
-        raise ValueError(f"options: {key}: wanted {np.shape(default)} within {low} .. {high}; found {options.get(key)!r}")
+        raise ValueError(f"options: {key}: must be {np.shape(default)} within {low} .. {high}; found {options.get(key)!r}")
     return value
 
 
 def _known(options, keys):
     unknown = sorted(set(options) - set(keys))
     if unknown:
-        raise ValueError(f"options: wanted some of {', '.join(keys)}; found {', '.join(map(str, unknown))}")
+        raise ValueError(f"options: must be some of {', '.join(keys)}; found {', '.join(map(str, unknown))}")
 
 
 _CAMERA = {"name": "camera", "position_m": [0.05, -0.12, 0.09], "target_m": [0, 0, 0.01], "width_px": 96, "height_px": 96}
@@ -89,8 +89,8 @@ class Touch(Task):
         "cameras": [_CAMERA], "environment": {"gravity_m_per_s2": [0, 0, 0]}, "solver": _SOLVER,
     }
     steps = 60
-    touch_n = 0.05          # softer is no touch
-    radius_m = 0.006        # of the target, seen from above
+    touch_n = 0.05          # least force of a touch
+    radius_m = 0.006        # radius of the target, seen from above
     terms = {"distance": 1, "touch": 0.2, "force": 1, "time": 0.1, "success": 10, "failure": 10}
     _TOP_M, _REACH_M = 0.015, 0.018
 
@@ -151,7 +151,7 @@ class LiftFlap(Task):
 
 
 class CutLine(Task):
-    """Cut a sheet along a line (blade: button 2); springs cut beside it cost."""
+    """Cut a sheet along a line (blade: button 2). Springs cut off the line have a cost."""
     name = "cut_line"
     scene = {
         "name": "gym_cut_line",
@@ -168,15 +168,15 @@ class CutLine(Task):
     button = 1
     start_m = (-0.025, 0, 0.02)
     limit_n, most_n = 1, 4
-    width_m = 0.004         # of the line: cuts within are on it
-    depth_m = 0.005         # of the tip below the sheet, where it is wanted
-    ahead_m = 0.006         # of what is covered, likewise: more than a spring
+    width_m = 0.004         # half width of the line: cuts within are on it
+    depth_m = 0.005         # target depth of the tip below the sheet
+    ahead_m = 0.006         # target distance ahead of the covered line: more than a spring
     terms = {"distance": 1, "on_path": 0.2, "off_path": 0.2, "covered": 10, "force": 1, "time": 0.1, "success": 10, "failure": 10}
     _LENGTH_M, _PARTS = 0.04, 20
 
     def begin(self, session, rng, options):
         super().begin(session, rng, options)
-        _known(options, ["line"])  # y of its middle [m], angle to x [rad]
+        _known(options, ["line"])  # y of its centre [m], angle to x [rad]
         most = np.array([0.01, 0.25])
         offset, angle = _point(options, "line", rng.uniform(-most, most), -most, most)
         self._along = np.array([np.cos(angle), np.sin(angle)])
@@ -185,7 +185,7 @@ class CutLine(Task):
         self._cut, self._at, self._entered = 0, None, False
 
     def goal(self):
-        """Before the line, until the tip was there; then ahead of what is covered."""
+        """Returns a point before the line until the tip has reached it, then one ahead of the covered part."""
         at = -self.width_m
         if self._entered:
             part = self._PARTS if self._covered.all() else int(np.argmin(self._covered))
@@ -193,7 +193,7 @@ class CutLine(Task):
         return np.append(self._first + at * self._along, -self.depth_m)
 
     def judge(self, session, tip_m, force_n, peak_n, pressed):
-        """Cuts of a step are counted where the tip was at its end; covered is the line between cuts on it."""
+        """Assigns the cuts of a step to the tip's position at its end. The line between two cuts on it counts as covered."""
         away = np.linalg.norm(tip_m - self.goal())
         self._entered |= away <= self.width_m
         way = tip_m[:2] - self._first

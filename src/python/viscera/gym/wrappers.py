@@ -1,6 +1,6 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Around environments: a limit of steps, the pace of a clock, a file of each episode."""
+"""Wrappers of environments: a limit of steps, real time, a file per episode."""
 import os
 import time
 
@@ -10,11 +10,11 @@ from .spaces import Wrapper
 
 
 class TimeLimit(Wrapper):
-    """Episodes are truncated after so many steps."""
+    """Truncates episodes after max_episode_steps steps."""
 
     def __init__(self, env, max_episode_steps):
         if max_episode_steps < 1:
-            raise ValueError(f"max_episode_steps: wanted 1 or more; found {max_episode_steps}")
+            raise ValueError(f"max_episode_steps: must be 1 or more; found {max_episode_steps}")
         super().__init__(env)
         self._limit, self._steps = max_episode_steps, 0
 
@@ -29,7 +29,7 @@ class TimeLimit(Wrapper):
 
 
 class RealTime(Wrapper):
-    """A step takes as long as it is of simulated time, at least: for eyes and hands."""
+    """Delays steps to at least their simulated duration, for human viewers and users."""
 
     def reset(self, *, seed=None, options=None):
         out = self.env.reset(seed=seed, options=options)
@@ -45,9 +45,9 @@ class RealTime(Wrapper):
 
 
 class Recorder(Wrapper):
-    """Writes every episode that ends, or is broken off by reset() or close(), into a file of a folder, episode_000000.npz
-    and on: actions, rewards, terms_NAME, terminated, truncated, seed (-1: none), scene, and observations_NAME with one
-    row more than actions."""
+    """Writes every episode that ends, or that reset() or close() interrupts, to a file in a folder: episode_000000.npz and
+    so on. A file has actions, rewards, terms_NAME, terminated, truncated, seed (-1: none), scene, and observations_NAME
+    with one row more than actions."""
 
     def __init__(self, env, folder):
         super().__init__(env)

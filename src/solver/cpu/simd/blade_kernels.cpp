@@ -15,9 +15,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
-/// A brick's nodes, from the blade's first tip.
+/// Positions of a brick's nodes, relative to the blade's first tip.
 struct Places {
-  float first[3];  ///< rest position of the first one [m]
+  float first[3];  ///< rest position of the first node [m]
   float h;
   const float* u;
   HWY_INLINE Vec3 at(int i) const { return restOf(first, h, i) + loadPlanes(u + i); }
@@ -57,14 +57,14 @@ BrickPlaces boundsOf(const SweepJob& job, uint32_t b) {
   for (int i = 0; i < 64; i += static_cast<int>(hn::MaxLanes(Tag()))) {
     const Vec3 x = places.at(i), away = x - center;
     const V away2 = dot(away, away);
-    // What is not finite is looked at more closely.
+    // Positions that are not finite count as near.
     near |= !hn::AllTrue(Tag(), hn::Gt(away2, radius2));
     finite &= hn::AllTrue(Tag(), hn::Lt(away2, set(kInfinity)));
     low = {hn::Min(low.x, x.x), hn::Min(low.y, x.y), hn::Min(low.z, x.z)};
     high = {hn::Max(high.x, x.x), hn::Max(high.y, x.y), hn::Max(high.z, x.z)};
     const Vec3 v = loadPlanes(job.velocity + size_t{b} * 192 + static_cast<size_t>(i));
     const V v2 = dot(v, v);
-    speed2 = hn::Max(speed2, hn::IfThenElseZero(hn::Lt(v2, set(kInfinity)), v2));  // what is not crosses nothing
+    speed2 = hn::Max(speed2, hn::IfThenElseZero(hn::Lt(v2, set(kInfinity)), v2));  // not finite: crosses nothing
   }
   BrickPlaces out{{leastOf(low.x), leastOf(low.y), leastOf(low.z)},
                   {mostOf(high.x), mostOf(high.y), mostOf(high.z)},
@@ -81,7 +81,7 @@ void findPlaces(const SweepJob& job, size_t first, size_t last) {
   for (size_t b = first; b < last; ++b) job.places[b] = boundsOf(job, static_cast<uint32_t>(b));
 }
 
-/// 1 << bit in the lanes of a mask.
+/// Returns 1 << bit in the lanes of a mask.
 HWY_INLINE auto bitWhere(M mask, int bit) {
   const hn::RebindToSigned<Tag> ints;
   return hn::IfThenElseZero(hn::RebindMask(ints, mask), hn::Set(ints, 1 << bit));
@@ -101,7 +101,7 @@ void findSides(const SweepJob& job, const uint32_t* bricks, size_t count) {
       for (int k = 0; k < 3; ++k) {
         const float* axis = sweep.axes[k];
         const V along = dot({set(axis[0]), set(axis[1]), set(axis[2])}, x);
-        // What is not finite is beyond none.
+        // Positions that are not finite are beyond no side.
         sides = hn::Or(sides, bitWhere(hn::Lt(along, hn::Sub(set(sweep.low_m[k]), reach)), 2 * k));
         sides = hn::Or(sides, bitWhere(hn::Gt(along, hn::Add(set(sweep.high_m[k]), reach)), 2 * k + 1));
       }

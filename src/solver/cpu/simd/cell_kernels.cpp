@@ -14,7 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
-/// Planes of nodes, bit per plane, below and above rows of cells.
+/// Returns the planes of nodes, one bit each, below and above rows of cells.
 HWY_INLINE uint32_t planesOf(uint32_t rows) {
   uint32_t planes = 0;
   for (int z = 0; z < 4; ++z) planes |= (rows >> (4 * z) & 15) != 0 ? 3u << z : 0u;

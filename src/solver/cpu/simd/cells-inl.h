@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Nodes as cells see them, and sums by node of what cells do to their corners. Included once per instruction set
-// (Highway).
+// The corners of cells, gathered from nodes, and sums by node of the forces of cells on their corners. Included once
+// per instruction set (Highway).
 #if defined(VISCERA_SOLVER_CPU_CELLS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef VISCERA_SOLVER_CPU_CELLS_INL_H
 #undef VISCERA_SOLVER_CPU_CELLS_INL_H
@@ -11,22 +11,22 @@
 #endif
 
 #include "hwy/highway.h"
-#include "solver/cpu/simd/cell_motion-inl.h"
+#include "solver/cpu/simd/cell_modes-inl.h"
 #include "solver/cpu/simd/kernels.h"
 #include "solver/cpu/simd/springs-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
-/// Displacements or velocities of a brick's nodes and of those above it, as they are and shifted by 1 along x and y:
-/// the node at (x, y, z) + (dx, dy, 0), with x, y in 0..3 and z in 0..4, is at[dx][dy][z * kUpPlane + 4 * y + x]. So
-/// all that is read was written as a whole, and lies within a line of the cache.
+/// Displacements or velocities of the nodes of a brick and of the plane above it, unshifted and shifted by 1 along x
+/// and y. The node at (x, y, z) + (dx, dy, 0), with x, y in 0..3 and z in 0..4, is at[dx][dy][z * kUpPlane + 4 * y +
+/// x]. So every load reads what one store wrote, within one cache line.
 constexpr int kUpPlane = 16;
 struct alignas(64) UpTile {
   float component[3][2][2][5 * kUpPlane];
 };
 
-/// The rows of a vector from its second on, and the first of the next vector.
+/// Returns the rows of a vector from its second on, followed by the first row of the next vector.
 HWY_INLINE V rowsAfter(V rows, V next) {
   const Tag d;
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
@@ -42,7 +42,9 @@ HWY_INLINE V rowsAfter(V rows, V next) {
 #endif
 }
 
-/// @param planes  bit z: wanted   @param get  says the vector of numbers at an index as in Arrays' fields
+/// Fills a tile from the brick and its neighbours.
+/// @param planes  bit z: plane z is needed
+/// @param get  returns the vector of numbers at an index of Arrays' fields
 template <class Get>
 HWY_INLINE void fillUp(const Arrays& a, uint32_t b, uint32_t planes, UpTile& tile, const Get& get) {
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
@@ -75,7 +77,7 @@ HWY_INLINE void fillUp(const Arrays& a, uint32_t b, uint32_t planes, UpTile& til
   }
 }
 
-/// What four corners of cells at one height have or get, by their x and y.
+/// Values of the four corners of cells at one height, by their x and y.
 struct Corners {
   Vec3 n00, n10, n01, n11;
 };
@@ -88,9 +90,9 @@ HWY_INLINE Corners cornersAt(const UpTile& tile, int at) {
   return {upAt<0, 0>(tile, at), upAt<1, 0>(tile, at), upAt<0, 1>(tile, at), upAt<1, 1>(tile, at)};
 }
 
-// A vector is rows of four: shifts of lanes stay within them.
+// A vector consists of rows of four lanes; shifts of lanes stay within them.
 
-/// The last row of a vector.
+/// Returns the last row of a vector.
 template <class D>
 HWY_INLINE hn::Vec<Row> lastRow(D /*d*/, hn::Vec<D> v) {
   if constexpr (hn::MaxLanes(D()) == 4) {
@@ -100,7 +102,7 @@ HWY_INLINE hn::Vec<Row> lastRow(D /*d*/, hn::Vec<D> v) {
     return lastRow(half, hn::UpperHalf(half, v));
   }
 }
-/// A vector that begins with a row, and else is 0.
+/// Returns a vector that begins with a row and is 0 elsewhere.
 template <class D>
 HWY_INLINE hn::Vec<D> firstRow(D d, hn::Vec<Row> row) {
   if constexpr (hn::MaxLanes(D()) == 4) {
@@ -109,7 +111,7 @@ HWY_INLINE hn::Vec<D> firstRow(D d, hn::Vec<Row> row) {
     return hn::ZeroExtendVector(d, firstRow(hn::Half<D>(), row));
   }
 }
-/// Every row where the next one was, the first 0.
+/// Moves every row to the place of the next one; the first becomes 0.
 template <class D>
 HWY_INLINE hn::Vec<D> nextRow(D d, hn::Vec<D> v) {
   constexpr size_t kLanes = hn::MaxLanes(D());
@@ -122,7 +124,7 @@ HWY_INLINE hn::Vec<D> nextRow(D d, hn::Vec<D> v) {
     return hn::IfThenZeroElse(hn::FirstN(d, 4), hn::TableLookupLanes(v, hn::SetTableIndices(d, kFrom)));
   }
 }
-/// Of each row [x3, y3, z3, 0].
+/// Returns [x3, y3, z3, 0] of each row.
 template <class D>
 HWY_INLINE hn::Vec<D> lastOfRows(D d, hn::Vec<D> x, hn::Vec<D> y, hn::Vec<D> z) {
   const hn::RepartitionToWide<D> wide;
@@ -131,14 +133,15 @@ HWY_INLINE hn::Vec<D> lastOfRows(D d, hn::Vec<D> x, hn::Vec<D> y, hn::Vec<D> z) 
   return hn::BitCast(d, hn::InterleaveUpper(wide, xy, z0));
 }
 
-/// Nodes of the lowest faces of a vector of cells. @param at  place of the first in the tile
+/// Returns the nodes of the lowest faces of a vector of cells.
+/// @param at  index of the first node in the tile
 HWY_INLINE Face faceAt(const UpTile& tile, int at) {
   const Corners n = cornersAt(tile, at);
   return faceOf(n.n00, n.n10, n.n01, n.n11);
 }
 
-/// What the nodes of a plane get from the cells below and above it.
-HWY_INLINE Corners gathered(const CellMotion& below, const CellMotion& above) {
+/// Returns the sums, at the nodes of a plane, of the contributions of the cells below and above it.
+HWY_INLINE Corners gathered(const CellModes& below, const CellModes& above) {
   const Vec3 ss = above.dc - below.dc, sd = (above.hx - above.db) - (below.hx + below.db);
   const Vec3 ds = (above.hy - above.da) - (below.hy + below.da);
   const Vec3 dd = (above.hxyz - above.hz) - (below.hxyz + below.hz);
@@ -146,13 +149,13 @@ HWY_INLINE Corners gathered(const CellMotion& below, const CellMotion& above) {
   return {even - sum, odd - difference, odd + difference, even + sum};
 }
 
-/// What the last rows of a vector of cells gave to those behind them, for the next vector of their plane.
+/// Contributions of the last rows of a vector of cells to the row behind them, kept for the next vector of their plane.
 struct alignas(16) Behind {
   float own[5][3][4], right[5][4];
 };
 
-/// Adds `behind` to what is a row farther, and for the first row what the vector before left in `kept`; what is beyond
-/// the last row is left there in turn or, at the end of the plane, at `end`.
+/// Adds `behind` to the rows one farther along y. The first row gets what the previous vector left in `kept`. The part
+/// beyond the last row is stored in `kept` in turn or, at the end of the plane, in `end`.
 HWY_INLINE V withBehind(V own, V behind, int i, float* kept, float* end) {
   const Tag d;
   const Row row;
@@ -163,8 +166,9 @@ HWY_INLINE V withBehind(V own, V behind, int i, float* kept, float* end) {
   return sum;
 }
 
-/// Writes the sums (ownSumsAt and so on) of a plane of nodes. @param i  place of the vector's first cell in its plane:
-/// vectors come in their order   @param f  what the corners of its cells get there
+/// Writes the sums (ownSumsAt and the others) of a plane of nodes. Vectors must come in order.
+/// @param i  index of the vector's first cell in its plane
+/// @param f  contributions to the corners of its cells there
 HWY_INLINE void writeSums(float* sums, Behind& behind, int z, int i, const Corners& f) {
   const Tag d;
   for (int c = 0; c < 3; ++c) {
@@ -176,7 +180,7 @@ HWY_INLINE void writeSums(float* sums, Behind& behind, int z, int i, const Corne
   hn::StoreU(withBehind(right, farther, i, behind.right[z], sums + cornerSumsAt(z)), d, sums + rightSumsAt(z) + i);
 }
 
-/// Where the sums are that a brick's nodes get: its own and those of bricks below along x, y and z, bit per axis.
+/// Pointers to the sums for a brick's nodes: its own and those of the bricks below along x, y and z, bit per axis.
 struct CellSources {
   const float* of[8];
 };
@@ -191,19 +195,20 @@ HWY_INLINE CellSources sourcesOf(const Arrays& a, uint32_t b) {
   return out;
 }
 
-/// The first component of each row [x, y, z, 0] of lastOfRows(), as first lane; by C.
+/// Returns in the first lane of each row its component C, of rows [x, y, z, 0] of lastOfRows().
 template <int C, class D>
 HWY_INLINE hn::Vec<D> firstOfRows(D d, hn::Vec<D> packed) {
   alignas(64) static constexpr uint32_t kFirst[16] = {~0u, 0, 0, 0, ~0u, 0, 0, 0, ~0u, 0, 0, 0, ~0u, 0, 0, 0};
   if constexpr (C == 2) {
-    return hn::ShiftRightLanes<2>(d, packed);  // what follows it is 0
+    return hn::ShiftRightLanes<2>(d, packed);  // the lanes after it are 0
   } else {
     const auto mask = hn::BitCast(d, hn::Load(hn::RebindToUnsigned<D>(), kFirst));
     return hn::And(mask, C == 0 ? packed : hn::ShiftRightLanes<1>(d, packed));
   }
 }
 
-/// Force of the cells around on the nodes of a vector. @param i  index of the first in the brick
+/// Returns the force of the surrounding cells on the nodes of a vector.
+/// @param i  index of the vector's first node in the brick
 HWY_INLINE Vec3 forceOfCells(const CellSources& sources, int i) {
   const Tag d;
   const Row row;

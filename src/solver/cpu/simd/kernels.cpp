@@ -17,8 +17,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
-/// Force of springs on the nodes of a vector. @param pull_of  says SpringPull of the one to (X, Y, Z), index i
-/// @param mild  all springs are, see kMild
+/// Sums the forces of springs on the nodes of a vector.
+/// @param pull_of  returns SpringPull of the spring to (X, Y, Z) with index i
+/// @param mild  set to whether all springs are mild (kMild)
 template <class PullOf>
 HWY_INLINE Vec3 sumOfSprings(const PullOf& pull_of, bool& mild) {
   Vec3 force = zero3();
@@ -34,11 +35,11 @@ HWY_INLINE Vec3 sumOfSprings(const PullOf& pull_of, bool& mild) {
   return force;
 }
 
-/// Springs that are mild, or of any length but without dashpots.
+/// Springs that are mild, or springs of any length without dashpots.
 template <bool kUniform, bool kAny>
 struct PlainSprings {
-  const Surroundings& u;  ///< predicted if there are dashpots
-  const Vec3 near;        ///< the same of the nodes themselves
+  const Neighborhood& u;  ///< predicted if there are dashpots
+  const Vec3 near;        ///< the same for the nodes themselves
   const Material& m;
   const float* k;  ///< stiffness of their first spring; the next is 16 farther
 
@@ -50,7 +51,7 @@ struct PlainSprings {
 };
 /// Springs of any length with dashpots.
 struct DampedSprings {
-  const Surroundings &u, &v, &predicted;
+  const Neighborhood &u, &v, &predicted;
   const Vec3 near;  ///< predicted
   const Material& m;
   const float* k;
@@ -64,22 +65,22 @@ struct DampedSprings {
   }
 };
 
-/// The rarer cases, kept out of the way of the other.
-HWY_NOINLINE Vec3 anySpringForce(const Surroundings& u, const Material& m, const float* k, bool& mild) {
+/// The rarer cases, kept out of line.
+HWY_NOINLINE Vec3 anySpringForce(const Neighborhood& u, const Material& m, const float* k, bool& mild) {
   return sumOfSprings(PlainSprings<false, true>{u, seen<0, 0, 0>(u), m, k}, mild);
 }
-HWY_NOINLINE Vec3 anySpringForce(const Surroundings& u, const Surroundings& v, const Surroundings& predicted,
+HWY_NOINLINE Vec3 anySpringForce(const Neighborhood& u, const Neighborhood& v, const Neighborhood& predicted,
                                  const Material& m, const float* k, bool& mild) {
   return sumOfSprings(DampedSprings{u, v, predicted, seen<0, 0, 0>(predicted), m, k}, mild);
 }
 
-/// What lies around a brick. With dashpots few bricks need what is there now.
+/// Displacements and velocities around a brick. With dashpots only few bricks need the current ones.
 struct SpringViews {
   Around u, v, predicted;
   bool knows_u, knows_v;
 };
 
-/// Forces on a brick's nodes of the springs around them.
+/// Forces of springs on the nodes of a brick.
 template <bool kUniform, bool kDashpot>
 struct ForceOfSprings {
   const LeapfrogJob& job;
@@ -87,28 +88,30 @@ struct ForceOfSprings {
   SpringViews& views;
   uint32_t b;
 
-  HWY_INLINE Surroundings now(int i) const {
+  HWY_INLINE Neighborhood now(int i) const {
     const Arrays& a = job.arrays;
     if (!views.knows_u) lookAround(a, a.displacement, b, views.u);
     views.knows_u = true;
-    return surroundings(views.u, i);
+    return neighborhood(views.u, i);
   }
-  HWY_INLINE Surroundings speeds(int i) const {
+  HWY_INLINE Neighborhood speeds(int i) const {
     if (!views.knows_v) lookAround(job.arrays, job.arrays.velocity, b, views.v);
     views.knows_v = true;
-    return surroundings(views.v, i);
+    return neighborhood(views.v, i);
   }
-  HWY_INLINE Vec3 anyForce(const Surroundings& around, const float* k, int i, bool& mild) const {
+  HWY_INLINE Vec3 anyForce(const Neighborhood& around, const float* k, int i, bool& mild) const {
     if (!kDashpot) return anySpringForce(around, material, k, mild);
     return anySpringForce(now(i), speeds(i), around, material, k, mild);
   }
 
+  /// Returns the force on a vector of nodes.
   /// @param i  index of the vector's first node in the brick
   HWY_INLINE Vec3 operator()(int i) const {
     const Arrays& a = job.arrays;
-    const Surroundings around = surroundings(kDashpot ? views.predicted : views.u, i);
+    const Neighborhood around = neighborhood(kDashpot ? views.predicted : views.u, i);
     const float* k = a.spring_stiffness + springAt(size_t{b} * 64 + static_cast<size_t>(i), 0);
-    // What was strained in the last substep is taken to be so still; which formula counts is the state's affair alone.
+    // Vectors that were strained in the last substep are assumed to be strained still. The result depends on the state
+    // alone, since the formula is chosen again if the assumption is wrong.
     const uint32_t bit = 1u << (i / 4);
     bool strained = (job.strained[b] & bit) != 0, mild;
     Vec3 force;
@@ -128,13 +131,15 @@ struct ForceOfSprings {
   }
 };
 
-/// Forces on a brick's nodes of the cells around them, where these obey a law.
+/// Forces of cells with a law on the nodes of a brick.
 struct ForceOfCells {
   CellSources sources;
   HWY_INLINE Vec3 operator()(int i) const { return forceOfCells(sources, i); }
 };
 
-/// One vector of nodes. @param i  index of the first in the brick   @return |v|^2
+/// Steps one vector of nodes.
+/// @param i  index of the vector's first node in the brick
+/// @return |v|^2
 HWY_INLINE V stepVector(const Arrays& a, const Motion& motion, uint32_t b, int i, const Vec3& force, Vec3& u_next) {
   const size_t slot = size_t{b} * 64 + static_cast<size_t>(i);
   const layout::NodeBits* const nodes = a.nodes ? a.nodes + slot : nullptr;
@@ -148,18 +153,19 @@ HWY_INLINE V stepVector(const Arrays& a, const Motion& motion, uint32_t b, int i
   return dot(v_next, v_next);
 }
 
-/// Is a node of the vector within reach of a probe?
+/// Returns whether a node of the vector is within reach of a probe.
 HWY_INLINE bool inReach(const LeapfrogJob& job, const Vec3& x) {
   for (size_t r = 0; r < job.reaches; ++r) {
     const Reach& reach = job.reach[r];
     const Vec3 off = x - Vec3{set(reach.center_m[0]), set(reach.center_m[1]), set(reach.center_m[2])};
-    // A little more than is needed: who looks closer rounds otherwise.
+    // Slightly larger than needed, as the exact test rounds differently.
     if (!hn::AllFalse(Tag(), hn::Lt(dot(off, off), set(1.001f * reach.radius_m * reach.radius_m)))) return true;
   }
   return false;
 }
 
-/// @param force_of  force on the nodes of a vector [N], by the index of the first
+/// Steps the nodes of a brick.
+/// @param force_of  returns the force on a vector of nodes [N], by the index of its first
 template <class ForceOf>
 HWY_NOINLINE void stepBrick(const LeapfrogJob& job, const layout::BodyParams& body, uint32_t b,
                             const ForceOf& force_of) {
@@ -174,7 +180,7 @@ HWY_NOINLINE void stepBrick(const LeapfrogJob& job, const layout::BodyParams& bo
   bool near = false;
   constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
   for (int i = 0; i < 64; i += kLanes) {
-    // Nodes that are not there or never move: both states have their places already.
+    // Both states already have the positions of nodes that do not exist or never move.
     if (noRows(~uint32_t{a.idle_rows[b]}, i)) continue;
     Vec3 u_next;
     speed2 = hn::Max(speed2, stepVector(a, motion, b, i, force_of(i), u_next));
@@ -184,7 +190,7 @@ HWY_NOINLINE void stepBrick(const LeapfrogJob& job, const layout::BodyParams& bo
   if (near) job.near[b] = 1;
 }
 
-/// A brick of springs.
+/// Steps a brick with springs.
 template <bool kDashpot>
 HWY_INLINE void stepBySprings(const LeapfrogJob& job, const layout::BodyParams& body, uint32_t b, SpringViews& views) {
   const Material material = materialOf(body);
@@ -200,7 +206,7 @@ HWY_INLINE void stepBySprings(const LeapfrogJob& job, const layout::BodyParams& 
     stepBrick(job, body, b, ForceOfSprings<false, kDashpot>{job, material, views, b});
 }
 
-/// The same, and of cells in thin walls.
+/// The same, plus the forces of cells in thin walls.
 struct ForceOfWalls {
   CellSources sources;
   const float* walls;
@@ -217,7 +223,7 @@ void predictOf(const LeapfrogJob& job, const uint32_t* bricks, size_t count) {
   }
 }
 
-/// Has what the nodes of a brick need fetched, where their cells are summed: little is done with it.
+/// Prefetches the data of a brick's nodes. The pass over nodes with summed cells does little work per load.
 HWY_INLINE void prefetchBrick(const Arrays& a, uint32_t b) {
   for (size_t i = 0; i < kCellSums; i += 16) hwy::Prefetch(a.cell_sums + size_t{b} * kCellSums + i);
   for (size_t i = 0; i < 192; i += 16) {

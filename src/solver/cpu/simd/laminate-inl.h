@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Cells of two materials, a vector at a time: shaders/solver/tissue/laminate.glsl, whose names these are. Included once
+// Cells with two materials, a vector at a time, with the names of shaders/solver/tissue/laminate.glsl. Included once
 // per instruction set (Highway).
 #if defined(VISCERA_SOLVER_CPU_LAMINATE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef VISCERA_SOLVER_CPU_LAMINATE_INL_H
@@ -16,12 +16,12 @@
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
-/// One layer: constants, then what it does at its gradient F + s a N^T.
+/// One layer: its constants, then its state at its gradient F + s a N^T.
 struct LawLayer {
-  V s;       ///< share of the other layer, with a sign
-  V weight;  ///< its share times its shear modulus, over the mean modulus
+  V s;       ///< signed share of the other layer
+  V weight;  ///< share of this layer times its shear modulus, over the mean modulus
   V modulus, bulk;
-  V slope;  ///< modulus times |s|: of the traction by a
+  V slope;  ///< modulus times |s|: factor of the derivative of the traction by a
   V e, size, shear, kappa, off, inverse, volume_slope;
 };
 struct LawLaminate {
@@ -29,7 +29,8 @@ struct LawLaminate {
   LawLayer a, b;
 };
 
-/// @param numbers  of the first cell (CpuStrengths::brick_laminates); the next is 16 farther
+/// Loads the laminates of a vector of cells.
+/// @param numbers  of the first cell (CpuStrengths::brick_laminates); the next number is 16 farther
 HWY_INLINE LawLaminate loadLaminate(const float* numbers) {
   const V one = set(1), share_a = load(numbers + 48), share_b = hn::Sub(one, share_a);
   const V mu_a = load(numbers + 64), mu_b = load(numbers + 80);
@@ -48,12 +49,13 @@ HWY_INLINE LawLaminate loadLaminate(const float* numbers) {
   return out;
 }
 
-/// Dot products that the jump alpha off + beta m is found with.
+/// Dot products from which the jump alpha off + beta m is computed.
 struct JumpPlane {
   V om, oo, mm, of, j, e, size;
 };
 
-/// Brings a layer to a jump. @param by_e, by_f, square  m.a, f.a and a.a
+/// Updates a layer for a jump.
+/// @param by_e, by_f, square  m.a, f.a and a.a
 HWY_INLINE void moveLayer(const LawBody& body, const JumpPlane& p, V by_e, V by_f, V square, LawLayer& y) {
   y.e = hn::MulAdd(y.s, by_e, p.e);
   y.size = hn::MulAdd(y.s, hn::MulAdd(set(2), by_f, hn::Mul(y.s, square)), p.size);
@@ -67,7 +69,7 @@ HWY_INLINE void moveLayer(const LawBody& body, const JumpPlane& p, V by_e, V by_
   y.kappa = hn::NegMulAdd(y.shear, y.off, pressure);
 }
 
-/// How kappa and shear of a layer change along a change of a, over s: by_e as m.da, by_f as f.da.
+/// Returns the derivatives of a layer's kappa and shear along a change of a, over s: by_e is m.da, by_f is f.da.
 HWY_INLINE V kappaAlong(const LawLayer& y, V by_e, V by_f) {
   const V one = set(1), of_shear = hn::Mul(y.shear, y.inverse);
   const V of_e = hn::MulAdd(hn::Mul(set(0.5f), y.bulk), hn::MulAdd(y.inverse, y.inverse, one),
@@ -85,7 +87,7 @@ HWY_INLINE V partOfStep(const LawLayer& y, V gains) {
   return hn::Min(one, hn::Div(most, hn::Max(loses, set(1e-20f))));
 }
 
-/// A layer's traction along off and m over its modulus, and both by alpha and beta over s.
+/// A layer's traction along off and m over its modulus, and its derivatives by alpha and beta over s.
 struct Traction {
   V off, m, off_alpha, off_beta, m_alpha, m_beta;
 };
@@ -101,7 +103,7 @@ HWY_INLINE Traction tractionOf(const LawLayer& y, const JumpPlane& p, V alpha, V
           hn::MulAdd(shear_beta, across, hn::Add(kappaAlong(y, p.mm, hn::Add(one, y.e)), y.shear))};
 }
 
-/// One step of Newton's method for alpha and beta.
+/// Makes one step of Newton's method for alpha and beta.
 HWY_INLINE void stepJump(const LawLaminate& l, const JumpPlane& p, V& alpha, V& beta) {
   const Traction a = tractionOf(l.a, p, alpha, beta), b = tractionOf(l.b, p, alpha, beta);
   const auto differ = [&](V of_a, V of_b)
@@ -119,8 +121,8 @@ HWY_INLINE void stepJump(const LawLaminate& l, const JumpPlane& p, V& alpha, V& 
   beta = hn::MulAdd(part, by_beta, beta);
 }
 
-/// Brings a laminate's layers to the jump at which their tractions are one. @param d, c, e  mean gradient less 1, its
-/// cofactors less 1 and its dilation
+/// Updates a laminate's layers for the jump at which their tractions are equal.
+/// @param d, c, e  mean gradient minus 1, its cofactors minus 1 and its dilation
 inline HWY_NOINLINE void findJump(const LawBody& body, const Columns& d, const Columns& c, V e, LawLaminate& l) {
   const Vec3& n = l.normal;
   const Vec3 m = timesOf(c, n), off = mulAdd(n.x, d.a - c.a, mulAdd(n.y, d.b - c.b, n.z * (d.c - c.c)));
@@ -146,7 +148,7 @@ inline HWY_NOINLINE void findJump(const LawBody& body, const Columns& d, const C
   l.jump = mulAdd(alpha, off, beta * m);
 }
 
-/// What a N^T adds to F, and to its cofactors.
+/// Returns what a N^T adds to F and to its cofactors.
 HWY_INLINE Columns jumpColumns(const LawLaminate& l) {
   return {l.normal.x * l.jump, l.normal.y * l.jump, l.normal.z * l.jump};
 }
@@ -158,7 +160,9 @@ HWY_INLINE Columns jumpCofactors(const LawLaminate& l, const Columns& d) {
   return {cross(l.jump, n.y * fc - n.z * fb), cross(l.jump, n.z * fa - n.x * fc), cross(l.jump, n.x * fb - n.y * fa)};
 }
 
-/// mu dW/dF of both layers. @param numbers  as of loadLaminate()   @param c, e  of d
+/// Returns mu dW/dF of both layers.
+/// @param numbers  as for loadLaminate()
+/// @param c, e  cofactors minus 1 and dilation of d
 inline HWY_NOINLINE Columns laminateStress(const LawBody& body, const float* numbers, V mu, const Columns& d,
                                            const Columns& c, V e) {
   LawLaminate l = loadLaminate(numbers);

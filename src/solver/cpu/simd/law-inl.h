@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The neo-Hookean law, a vector of cells at a time: shaders/solver/tissue/law.glsl, whose names these are. Included
-// once per instruction set (Highway).
+// The neo-Hookean law, a vector of cells at a time, with the names of shaders/solver/tissue/law.glsl. Included once per
+// instruction set (Highway).
 #if defined(VISCERA_SOLVER_CPU_LAW_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef VISCERA_SOLVER_CPU_LAW_INL_H
 #undef VISCERA_SOLVER_CPU_LAW_INL_H
@@ -16,21 +16,22 @@
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
-// Displacements are scaled by 1 / (4 h) as they are loaded, so that a cell's motion is made of plain sums: D of the
-// mean edges, half of the hourglass motions H, and a fourth of T = sqrt(8) H_xyz.
+// Displacements are scaled by 1 / (4 h) when they are loaded, so that the modes of a cell are plain sums: D of the mean
+// edges, half of the hourglass motions H, and a fourth of T = sqrt(8) H_xyz.
 
 /// s of three hourglass motions: components along the frame's axes.
-struct Bends {
+struct Curvatures {
   Vec3 x, y, z;
 };
-/// Of a cell's tissue: twice its centroid, and four times the second moments about it.
+/// Moments of a cell's tissue: twice its centroid, and four times the second moments about it.
 struct LawMoments {
   Vec3 centroid2, square, mixed;
 };
 
-/// Derivatives of s.K.s/2 by s over mu. @tparam kFull  all cells are full, `m` is not looked at
+/// Computes the derivatives of s.K.s/2 by s over mu.
+/// @tparam kFull  all cells are full; `m` is not read
 template <bool kFull>
-HWY_INLINE Bends lawBends(const LawBody& body, const LawMoments& m, const Bends& s) {
+HWY_INLINE Curvatures lawBends(const LawBody& body, const LawMoments& m, const Curvatures& s) {
   if constexpr (kFull) {
     const auto of = [&](V own, V other) HWY_ATTR { return hn::MulAdd(body.along, own, hn::Mul(body.aside, other)); };
     const V third = set(1.0f / 3), trace = hn::Add(s.x.x, hn::Add(s.y.y, s.z.z));
@@ -61,8 +62,9 @@ HWY_INLINE Bends lawBends(const LawBody& body, const LawMoments& m, const Bends&
   }
 }
 
-/// G of F* = F (1 + G): its columns. @param c2  twice the centroid
-HWY_INLINE Columns atCentroid(V poisson, const Bends& s, const Vec3& c2) {
+/// Returns the columns of G in F* = F (1 + G).
+/// @param c2  twice the centroid
+HWY_INLINE Columns atCentroid(V poisson, const Curvatures& s, const Vec3& c2) {
   const auto two = [](V x, V a, V y, V b) HWY_ATTR { return hn::MulAdd(x, a, hn::Mul(y, b)); };
   const V px = hn::Mul(poisson, c2.x), py = hn::Mul(poisson, c2.y), pz = hn::Mul(poisson, c2.z);
   return {{hn::NegMulAdd(px, hn::Add(s.z.y, s.y.z), two(s.z.x, c2.y, s.y.x, c2.z)),
@@ -75,8 +77,8 @@ HWY_INLINE Columns atCentroid(V poisson, const Bends& s, const Vec3& c2) {
            hn::NegMulAdd(c2.z, s.x.z, two(s.y.y, c2.x, s.x.y, c2.y)),
            hn::NegMulAdd(pz, hn::Add(s.y.x, s.x.y), two(s.y.z, c2.x, s.x.z, c2.y))}};
 }
-/// Adds to derivatives by s what q = F^T dW/dF* does by G.
-HWY_INLINE void addAtCentroid(V poisson, const Columns& q, const Vec3& c2, Bends& r) {
+/// Adds to the derivatives by s the contribution of q = F^T dW/dF* through G.
+HWY_INLINE void addAtCentroid(V poisson, const Columns& q, const Vec3& c2, Curvatures& r) {
   const auto add = [](V& to, V a, V x, V b, V y, V less)
                        HWY_ATTR { to = hn::Sub(hn::MulAdd(a, x, hn::MulAdd(b, y, to)), less); };
   const V px = hn::Mul(poisson, hn::Mul(c2.x, q.a.x)), py = hn::Mul(poisson, hn::Mul(c2.y, q.b.y));
@@ -92,8 +94,9 @@ HWY_INLINE void addAtCentroid(V poisson, const Columns& q, const Vec3& c2, Bends
   add(r.z.y, c2.y, q.a.y, c2.x, q.b.y, hn::MulAdd(c2.y, q.b.x, px));
 }
 
-/// dW/dF where it does not depend on 1/J: s is C^T H over kLeastVolume there. @param k  derivatives by s
-HWY_INLINE Columns addCofactorPull(const Columns& p, V r, const Bends& k, const CellMotion& q) {
+/// Adds the derivatives by F through the cofactors where they do not depend on 1/J: there s is C^T H over kLeastVolume.
+/// @param k  derivatives by s
+HWY_INLINE Columns addCofactorPull(const Columns& p, V r, const Curvatures& k, const CellModes& q) {
   const V one = set(1);
   const Vec3 fa = {hn::Add(q.da.x, one), q.da.y, q.da.z}, fb = {q.db.x, hn::Add(q.db.y, one), q.db.z};
   const Vec3 fc = {q.dc.x, q.dc.y, hn::Add(q.dc.z, one)};
@@ -103,15 +106,18 @@ HWY_INLINE Columns addCofactorPull(const Columns& p, V r, const Bends& k, const 
           p.c + cross(wa, fb) + cross(fa, wb)};
 }
 
-/// lawPull() of law.glsl. @param mu  rigidity over 4 h [N], 0 where there is no cell   @param tension  as of
-/// loadTension(); null: none is stressed at rest   @param laminate  as of loadLaminate(); null: none is of two
-/// materials   @param q  motion of displacements over 4 h   @param out  derivatives by it [N]   @tparam kFull  all
-/// cells are full, `m` is not looked at
-/// @tparam kAny  cells may be squeezed to less than kLeastVolume
-/// @return false if kAny is needed: `out` is not set then
+/// Computes lawPull() of law.glsl.
+/// @param mu  rigidity over 4 h [N], 0 where there is no cell
+/// @param tension  as for loadTension(); null: no cell has a prestress
+/// @param laminate  as for loadLaminate(); null: no cell has two materials
+/// @param q  modes of displacements over 4 h
+/// @param out  derivatives by them [N]
+/// @tparam kFull  all cells are full; `m` is not read
+/// @tparam kAny  cells may be compressed below kLeastVolume
+/// @return false if kAny is needed; `out` is not set then
 template <bool kFull, bool kAny>
 HWY_INLINE bool lawForcesOf(const LawBody& body, const LawMoments& m, const float* tension, const float* laminate, V mu,
-                            const CellMotion& q, CellMotion& out) {
+                            const CellModes& q, CellModes& out) {
   const V one = set(1), least = set(kLeastVolume - 1);
   const M there = hn::Gt(mu, hn::Zero(Tag()));
   const Columns d = {q.da, q.db, q.dc}, c = cofactorsOf(d);
@@ -124,8 +130,8 @@ HWY_INLINE bool lawForcesOf(const LawBody& body, const LawMoments& m, const floa
     v.inverse = hn::Div(one, kAny ? hn::Max(hn::Add(e, one), set(kLeastVolume)) : hn::Add(e, one));
   }
   const V r = v.inverse;
-  const Bends s = {r * transposedOf(c, q.hx), r * transposedOf(c, q.hy), r * transposedOf(c, q.hz)};
-  Bends k = lawBends<kFull>(body, m, s);
+  const Curvatures s = {r * transposedOf(c, q.hx), r * transposedOf(c, q.hy), r * transposedOf(c, q.hz)};
+  Curvatures k = lawBends<kFull>(body, m, s);
   k = {mu * k.x, mu * k.y, mu * k.z};
   Columns p;
   if constexpr (kFull) {
@@ -145,7 +151,7 @@ HWY_INLINE bool lawForcesOf(const LawBody& body, const LawMoments& m, const floa
     p = {plusThree(ps.a, ps.a, g.a.x, ps.b, g.b.x, ps.c, g.c.x), plusThree(ps.b, ps.a, g.a.y, ps.b, g.b.y, ps.c, g.c.y),
          plusThree(ps.c, ps.a, g.a.z, ps.b, g.b.z, ps.c, g.c.z)};
   }
-  // Of T / 4 = H_xyz sqrt(8) / 4: twice the derivative by H_xyz squared.
+  // Derivative by T / 4 = H_xyz sqrt(8) / 4: twice that of H_xyz squared.
   out.hxyz = hn::Mul(set(2 * kLawAlternating), mu) * q.hxyz;
   out.hx = timesOf(c, r * k.x);
   out.hy = timesOf(c, r * k.y);
@@ -164,17 +170,19 @@ HWY_INLINE bool lawForcesOf(const LawBody& body, const LawMoments& m, const floa
 }
 template <bool kFull>
 HWY_NOINLINE void squeezedForces(const LawBody& body, const LawMoments& m, const float* tension, const float* laminate,
-                                 V mu, const CellMotion& q, CellMotion& out) {
+                                 V mu, const CellModes& q, CellModes& out) {
   lawForcesOf<kFull, true>(body, m, tension, laminate, mu, q, out);
 }
 template <bool kFull>
 HWY_INLINE void lawForces(const LawBody& body, const LawMoments& m, const float* tension, const float* laminate, V mu,
-                          const CellMotion& q, CellMotion& out) {
+                          const CellModes& q, CellModes& out) {
   if (HWY_UNLIKELY((!lawForcesOf<kFull, false>(body, m, tension, laminate, mu, q, out))))
     squeezedForces<kFull>(body, m, tension, laminate, mu, q, out);
 }
 
-/// @param numbers  of their brick (CpuStrengths)   @param cell  index of the vector's first cell in it
+/// Loads the moments of a vector of cells.
+/// @param numbers  of their brick (CpuStrengths)
+/// @param cell  index of the vector's first cell in it
 HWY_INLINE LawMoments loadLawMoments(const float* numbers, int cell) {
   const float* at = numbers + cellNumberAt(static_cast<uint32_t>(cell), 0, kMomentNumbers);
   return {{load(at), load(at + 16), load(at + 32)},

@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Bricks whose cells obey a hyperelastic law: forces of their cells, those that have lost a spring included. Included
-// once per instruction set (Highway).
+// Forces of the cells of bricks with a hyperelastic law, including cells that have lost a spring. Included once per
+// instruction set (Highway).
 #if defined(VISCERA_SOLVER_CPU_LAW_BRICKS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef VISCERA_SOLVER_CPU_LAW_BRICKS_INL_H
 #undef VISCERA_SOLVER_CPU_LAW_BRICKS_INL_H
@@ -18,8 +18,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
-/// (u + dashpot_s v) / (4 h) of a brick's nodes and of those above it (fillUp()): cells take their forces where their
-/// corners will be, which damps (docs/physics.md 2).
+/// Loads (u + dashpot_s v) / (4 h) of the nodes of a brick and of the plane above it (fillUp()). The forces of cells
+/// are those at the predicted positions of their corners, which damps (docs/physics.md 2).
 template <bool kDashpot>
 HWY_INLINE void fillScaled(const Arrays& a, uint32_t b, uint32_t planes, const LawBody& body, UpTile& tile) {
   const V scale = set(body.scale), ahead = set(body.dashpot_s * body.scale);
@@ -38,7 +38,7 @@ struct LawBrick {
 };
 
 // clang-format off
-/// Calls APPLY(number, near, far, x, y, z) for the springs within a cell (kBrokenSprings): from corner to corner, bit
+/// Calls APPLY(number, near, far, x, y, z) for the springs within a cell (kBrokenSprings), from corner to corner: bit
 /// per axis, x lowest.
 #define VISCERA_SPRINGS_WITHIN(APPLY)                                                                          \
   APPLY(0, 0, 1, 1, 0, 0) APPLY(1, 2, 3, 1, 0, 0) APPLY(2, 4, 5, 1, 0, 0) APPLY(3, 6, 7, 1, 0, 0)              \
@@ -49,7 +49,7 @@ struct LawBrick {
   APPLY(20, 0, 6, 0, 1, 1) APPLY(21, 1, 7, 0, 1, 1) APPLY(22, 4, 2, 0, 1, -1) APPLY(23, 5, 3, 0, 1, -1)
 // clang-format on
 
-/// Springs of a material where lengths are in units of 4 h, and their stiffness in N per unit.
+/// Returns the constants of springs in units of 4 h for lengths, with stiffness in N per unit.
 HWY_INLINE Material springsWithin() {
   Material m{};
   m.h = set(0.25f);
@@ -58,12 +58,13 @@ HWY_INLINE Material springsWithin() {
   return m;
 }
 
-/// Place among a broken cell's numbers of how much shorter a spring is at rest than a lattice has it.
+/// Returns the index, among a broken cell's numbers, of the shortening of a spring at rest relative to the lattice.
 constexpr uint32_t shorterAt(uint32_t number) {
   return kBrokenSprings + (number < 12 ? number / 4 : 3 + (number - 12) / 2);
 }
 
-/// A spring whose length at rest is l0 / sqrt(1 + more). @param w  u_far - u_near, over 4 h   @return L^2/l0^2 - 1
+/// Computes L^2/l0^2 - 1 of a spring with rest length l0 / sqrt(1 + more).
+/// @param w  u_far - u_near, over 4 h
 template <int X, int Y, int Z>
 HWY_INLINE V growthOf(const Material& m, V more, const Vec3& w) {
   constexpr int kKind = X * X + Y * Y + Z * Z - 1;
@@ -71,9 +72,9 @@ HWY_INLINE V growthOf(const Material& m, V more, const Vec3& w) {
   return hn::Add(hn::MulAdd(q, more, q), more);
 }
 
-/// Adds what the springs that broken cells have left do, as derivatives by the cells' motions.
+/// Adds the forces of the remaining springs of broken cells, as derivatives by the cells' modes.
 /// @param k  numbers of the first cell (CpuStrengths::broken); the next are 16 farther
-inline HWY_NOINLINE void addBroken(const float* k, const Corners& low, const Corners& high, CellMotion& out) {
+inline HWY_NOINLINE void addBroken(const float* k, const Corners& low, const Corners& high, CellModes& out) {
   const Vec3 n[8] = {low.n00, low.n10, low.n01, low.n11, high.n00, high.n10, high.n01, high.n11};
   Vec3 f[8] = {zero3(), zero3(), zero3(), zero3(), zero3(), zero3(), zero3(), zero3()};
   const Material m = springsWithin();
@@ -91,10 +92,10 @@ inline HWY_NOINLINE void addBroken(const float* k, const Corners& low, const Cor
   }
   VISCERA_SPRINGS_WITHIN(VISCERA_PULL)
 #undef VISCERA_PULL
-  // Forces that sum up to nothing are those of the seven motions: -1/8 sum of sign times force.
+  // Forces with a sum of zero are those of the seven modes: -1/8 sum of sign times force.
   const V eighth = set(-0.125f);
   const Face below = faceOf(f[0], f[1], f[2], f[3]), above = faceOf(f[4], f[5], f[6], f[7]);
-  const CellMotion sum = motionOf4(below, above);
+  const CellModes sum = motionOf4(below, above);
   out.da = mulAdd(eighth, sum.da, out.da);
   out.db = mulAdd(eighth, sum.db, out.db);
   out.dc = mulAdd(eighth, sum.dc, out.dc);
@@ -104,12 +105,13 @@ inline HWY_NOINLINE void addBroken(const float* k, const Corners& low, const Cor
   out.hxyz = mulAdd(eighth, sum.hxyz, out.hxyz);
 }
 
-/// What a vector of cells does to its corners. @param cell  index of the first in the brick
+/// Computes the contributions of a vector of cells to its corners.
+/// @param cell  index of the first cell in the brick
 template <bool kFull>
 HWY_NOINLINE void lawCells(const LawBrick& of, int cell, V rigidity, const Face& below, const Face& above,
-                           CellMotion& out) {
+                           CellModes& out) {
   const V mu = hn::Mul(rigidity, of.body.per_4h);
-  const CellMotion q = motionOf4(below, above);
+  const CellModes q = motionOf4(below, above);
   const float* tension = of.job.tension[of.b];
   if (HWY_UNLIKELY(tension != nullptr)) tension += cellNumberAt(static_cast<uint32_t>(cell), 0, kTensionNumbers);
   const float* laminate = kFull ? nullptr : of.job.laminates[of.b];
@@ -126,18 +128,19 @@ HWY_NOINLINE void lawCells(const LawBrick& of, int cell, V rigidity, const Face&
   lawForces<kFull>(body, moments, tension, laminate, mu, q, out);
 }
 
-/// What the four vectors of cells of a column do. @param i  place of the column's vectors in their planes
+/// Contributions of the four vectors of cells of a column.
+/// @param i  index of the column's vectors in their planes
 struct LawColumn {
-  CellMotion cells[4];
-  const CellMotion* at[6];  ///< below and above a plane of nodes
+  CellModes cells[4];
+  const CellModes* at[6];  ///< contributions below and above a plane of nodes
 };
-HWY_INLINE void stepLawColumn(const LawBrick& of, int i, const CellMotion& nothing, LawColumn& column) {
+HWY_INLINE void stepLawColumn(const LawBrick& of, int i, const CellModes& nothing, LawColumn& column) {
   Face faces[2];
-  int known = -1;  // last plane whose face is
+  int known = -1;  // last plane with a computed face
   column.at[0] = column.at[5] = &nothing;
   for (int z = 0; z < 4; ++z) {
     const int cell = 16 * z + i, at = z * kUpPlane + i;
-    CellMotion& out = column.cells[z];
+    CellModes& out = column.cells[z];
     column.at[z + 1] = &nothing;
     if (noRows(~uint32_t{of.job.idle_rows[of.b]}, cell)) continue;
     const V rigidity = load(of.job.rigidity + size_t{of.b} * 64 + static_cast<size_t>(cell));
@@ -160,9 +163,10 @@ HWY_INLINE void stepLawColumn(const LawBrick& of, int i, const CellMotion& nothi
   }
 }
 
-/// @param planes  bit z: of nodes, which cells may do something to; the others' sums are 0 and stay so
+/// Sums the forces of a brick's cells by node.
+/// @param planes  bit z: plane of nodes on which cells may act; the sums of other planes are 0 and stay 0
 HWY_INLINE void sumLawBrick(const LawBrick& of, uint32_t planes) {
-  const CellMotion nothing = {zero3(), zero3(), zero3(), zero3(), zero3(), zero3(), zero3()};
+  const CellModes nothing = {zero3(), zero3(), zero3(), zero3(), zero3(), zero3(), zero3()};
   LawColumn column;
   float* sums = of.job.sums + size_t{of.b} * kCellSums;
   Behind behind;
@@ -174,7 +178,8 @@ HWY_INLINE void sumLawBrick(const LawBrick& of, uint32_t planes) {
   }
 }
 
-/// @param next  the brick after it
+/// Computes the sums of one brick.
+/// @param next  the brick after it, for prefetching
 HWY_INLINE void lawBrick(const CellJob& job, const layout::BodyParams& params, uint32_t b, uint32_t next,
                          uint32_t planes, UpTile& tile) {
   const V ratio = set(params.rigidity_j > 0 ? params.bulk_j / params.rigidity_j : 0);

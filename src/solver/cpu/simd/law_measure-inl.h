@@ -19,7 +19,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
-/// (exp(b x) - 1) / b, straight from b x = kMostExponent on; x without stiffening.
+/// Returns (exp(b x) - 1) / b, linear in x from b x = kMostExponent on; x without stiffening.
 HWY_INLINE V shearEnergy(const LawBody& body, V x) {
   if (!body.stiffens) return x;
   const V y = hn::Mul(body.stiffening, x), least = hn::Min(y, set(kMostExponent));
@@ -27,7 +27,9 @@ HWY_INLINE V shearEnergy(const LawBody& body, V x) {
   return hn::Div(hn::Add(hn::Expm1(Tag(), least), straight), body.stiffening);
 }
 
-/// W over mu. @param bulk  K/mu   @param size  |F|^2 - 3
+/// Returns W over mu.
+/// @param bulk  K/mu
+/// @param size  |F|^2 - 3
 HWY_INLINE V lawDensity(const LawBody& body, V bulk, V size, V e) {
   const V one = set(1), two = set(2), least = set(kLeastVolume), j = hn::Add(one, e);
   const V above = hn::Max(e, set(kLeastVolume - 1)), logarithm = hn::Log1p(Tag(), above);
@@ -35,14 +37,14 @@ HWY_INLINE V lawDensity(const LawBody& body, V bulk, V size, V e) {
   const V shape = hn::MulAdd(set(3), less, hn::Mul(hn::Add(one, less), size));
   const V squeezed = hn::MulSub(volumeOf<true>(e).phi, hn::Add(size, set(3)), set(3));
   const M below = hn::Lt(j, least);
-  // J^2 - 1 - 2 ln J, its logarithm going on straight below kLeastVolume
+  // J^2 - 1 - 2 ln J, with a linear continuation of the logarithm below kLeastVolume
   const V straight = hn::Add(logarithm, hn::Div(hn::Sub(j, hn::Max(j, least)), least));
   const V volume = hn::NegMulAdd(two, straight, hn::Mul(e, hn::Add(e, two)));
   return hn::MulAdd(hn::Mul(set(0.25f), bulk), volume,
                     hn::Mul(set(0.5f), shearEnergy(body, hn::IfThenElse(below, squeezed, shape))));
 }
 
-/// Largest row sum of |M|^T |M| for M = 1 + m: at least the square of its largest stretch.
+/// Returns the largest row sum of |M|^T |M| for M = 1 + m: at least the square of its largest stretch.
 HWY_INLINE V largestOf(const Columns& m) {
   const V one = set(1);
   const Vec3 a = {hn::Add(m.a.x, one), m.a.y, m.a.z}, b = {m.b.x, hn::Add(m.b.y, one), m.b.z};
@@ -52,20 +54,21 @@ HWY_INLINE V largestOf(const Columns& m) {
   return hn::Max(x, hn::Max(y, hn::Add(dot(c, c), hn::Add(bc, ca))));
 }
 
-/// S : (F^T F - 1) / 2.
+/// Returns S : (F^T F - 1) / 2.
 HWY_INLINE V tensionEnergy(const LawTension& t, const Columns& d) {
   const Columns f = tensionAt(t, d), zero = {zero3(), zero3(), zero3()}, s = tensionAt(t, zero);
   const auto of = [](const Vec3& at, const Vec3& at_rest, const Vec3& by) HWY_ATTR { return dot(at + at_rest, by); };
   return hn::Mul(set(0.5f), hn::Add(of(f.a, s.a, d.a), hn::Add(of(f.b, s.b, d.b), of(f.c, s.c, d.c))));
 }
-/// The largest row sum of a stress.
+/// Returns the largest row sum of a stress.
 HWY_INLINE V largestOf(const LawTension& t) {
   const V x = hn::Abs(t.sheared.x), y = hn::Abs(t.sheared.y), z = hn::Abs(t.sheared.z);
   return hn::Max(hn::Add(hn::Abs(t.pulled.x), hn::Add(y, z)),
                  hn::Max(hn::Add(hn::Abs(t.pulled.y), hn::Add(z, x)), hn::Add(hn::Abs(t.pulled.z), hn::Add(x, y))));
 }
 
-/// lawStiffening() of law.glsl. @param tension  of its stress at rest
+/// Computes lawStiffening() of law.glsl.
+/// @param tension  largest row sum of the prestress
 HWY_INLINE V stiffeningOf(const LawBody& body, V bulk, const Columns& d, const Columns& c, V e, V tension) {
   const V one = set(1), zero = hn::Zero(Tag()), j = hn::Add(e, one);
   const Volume v = volumeOf<true>(e);
@@ -77,7 +80,7 @@ HWY_INLINE V stiffeningOf(const LawBody& body, V bulk, const Columns& d, const C
   waves = hn::NegMulAdd(hn::Mul(set(4.0f / 3), slope), hn::Max(j, zero), waves);
   const V turned = hn::MulAdd(set(2.0f / 3), slope, hn::Mul(hn::Mul(set(0.5f), bulk), v.inverse));
   waves = hn::IfThenElse(hn::Lt(j, set(kLeastVolume)), hn::MulAdd(turned, hn::Sqrt(size), waves), waves);
-  if (body.stiffens) {  // along d x / d F = 2 phi (F - size/(3 J) C)
+  if (body.stiffens) {  // along dx/dF = 2 phi (F - size/(3 J) C)
     const V y = hn::Mul(body.stiffening, x), third = hn::Mul(set(1.0f / 3), hn::Mul(size, v.inverse));
     const V longest = hn::Max(largestOf(d), hn::Mul(hn::Mul(third, third), across));
     const V more = hn::Mul(hn::Mul(set(2), hn::Mul(body.stiffening, v.phi)), hn::Mul(shear, longest));
@@ -88,8 +91,8 @@ HWY_INLINE V stiffeningOf(const LawBody& body, V bulk, const Columns& d, const C
   return hn::Max(one, hn::Div(waves, hn::Add(bulk, set(4.0f / 3))));
 }
 
-/// Energy of cells of two materials over mu, and lawLaminateStiffening() of laminate.glsl: the mean of the layers', by
-/// what they are of the fastest wave at rest.
+/// Energy of cells with two materials over mu, and lawLaminateStiffening() of laminate.glsl: the mean of the layers',
+/// weighted by their part in the fastest wave at rest.
 struct LaminateMeasured {
   V density, stiffening;
 };
@@ -112,11 +115,12 @@ inline HWY_NOINLINE LaminateMeasured measureLaminate(const LawBody& body, const 
   return out;
 }
 
-/// Energy of whole cells [J], and how much stiffer the stiffest is than at rest.
+/// Energy of full cells [J], and the largest stiffness over that at rest.
 struct LawMeasured {
   V energy, stiffening;
 };
-/// @param n  displacements of the corners of the cells above a vector's nodes [m]
+/// Measures the cells of a law above a vector's nodes.
+/// @param n  displacements of the corners of these cells [m]
 inline HWY_NOINLINE LawMeasured measureLaw(const CellJob& job, const layout::BodyParams& params, size_t slot,
                                            const Vec3 (&n)[8]) {
   const V rigidity = load(job.rigidity + slot), none = hn::Zero(Tag());
@@ -128,15 +132,15 @@ inline HWY_NOINLINE LawMeasured measureLaw(const CellJob& job, const layout::Bod
   const auto scaled = [&](const Vec3& v) HWY_ATTR { return scale * v; };
   const Face low = faceOf(scaled(n[0]), scaled(n[1]), scaled(n[2]), scaled(n[3]));
   const Face high = faceOf(scaled(n[4]), scaled(n[5]), scaled(n[6]), scaled(n[7]));
-  const CellMotion q = motionOf4(low, high);
+  const CellModes q = motionOf4(low, high);
   const float* numbers = job.moments[slot / 64];
   const V twelfth4 = set(4.0f / 12);
   LawMoments m = {zero3(), {twelfth4, twelfth4, twelfth4}, zero3()};
   if (numbers != nullptr) m = loadLawMoments(numbers, static_cast<int>(slot % 64));
   const Columns d = {q.da, q.db, q.dc}, c = cofactorsOf(d);
   const V e = dilationOf(d, c), r = hn::Div(set(1), hn::Max(hn::Add(e, set(1)), set(kLeastVolume)));
-  const Bends s = {r * transposedOf(c, q.hx), r * transposedOf(c, q.hy), r * transposedOf(c, q.hz)};
-  const Bends k = lawBends<false>(body, m, s);
+  const Curvatures s = {r * transposedOf(c, q.hx), r * transposedOf(c, q.hy), r * transposedOf(c, q.hz)};
+  const Curvatures k = lawBends<false>(body, m, s);
   const Columns g = atCentroid(body.poisson, s, m.centroid2);
   const Columns star = {timesOf(d, g.a) + d.a, timesOf(d, g.b) + d.b, timesOf(d, g.c) + d.c};
   const Columns of_star = cofactorsOf(star);
@@ -165,11 +169,12 @@ inline HWY_NOINLINE LawMeasured measureLaw(const CellJob& job, const layout::Bod
   return {hn::Mul(rigidity, energy), hn::IfThenElseZero(there, stiffening)};
 }
 
-/// Energy of the springs that broken cells have left, over that in the given shape, as of whole cells [J]. @param k  as
-/// of addBroken()   @param n  displacements [m]
+/// Returns the energy of the remaining springs of broken cells minus that of the rest shape, scaled to full cells [J].
+/// @param k  as for addBroken()
+/// @param n  displacements [m]
 inline HWY_NOINLINE V brokenEnergy(const float* k, const Material& m, float h, const Vec3 (&n)[8]) {
   V energy = hn::Zero(Tag());
-  const V eighth = set(0.125f / h);  // half of k, which is kept times 4 h
+  const V eighth = set(0.125f / h);  // half of k, which is stored times 4 h
 #define VISCERA_STORED(number, near, far, X, Y, Z)                                                       \
   {                                                                                                      \
     constexpr int kKind = X * X + Y * Y + Z * Z - 1;                                                     \

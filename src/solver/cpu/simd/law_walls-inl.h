@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Cells in thin walls, a vector at a time: the law with second derivatives by rows of nodes (physics.md 1, Thin walls;
-// shaders/solver/tissue/law_walls.glsl). Included once per instruction set (Highway).
+// Cells in thin walls, a vector at a time: the law with second derivatives from rows of nodes (physics.md 1, Thin
+// walls; shaders/solver/tissue/law_walls.glsl). Included once per instruction set (Highway).
 #if defined(VISCERA_SOLVER_CPU_LAW_WALLS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef VISCERA_SOLVER_CPU_LAW_WALLS_INL_H
 #undef VISCERA_SOLVER_CPU_LAW_WALLS_INL_H
@@ -18,8 +18,8 @@ namespace viscera::simd::HWY_NAMESPACE {
 
 using layout::kRowStressAcross;
 
-/// What rows say of a cell, and derivatives by it: half of the second derivative along each axis, and how it varies
-/// along the next axis but one and the next but two, cyclically.
+/// Second derivatives from rows of nodes, or derivatives by them: half of the second derivative along each axis, and
+/// its variation along the next two axes, in cyclic order.
 struct RowMotion {
   Vec3 second[3], varies[3][2];
 };
@@ -28,7 +28,8 @@ struct LawWall {
   Vec3 normal, rows;
   V across, variation;
 };
-/// @param numbers  of the first cell (WallGroups::numbers); the next is 16 farther
+/// Loads the walls of a vector of cells.
+/// @param numbers  of the first cell (WallGroups::numbers); the next number is 16 farther
 HWY_INLINE LawWall loadWall(const float* numbers) {
   return {{load(numbers), load(numbers + 16), load(numbers + 32)},
           {load(numbers + 48), load(numbers + 64), load(numbers + 80)},
@@ -36,8 +37,9 @@ HWY_INLINE LawWall loadWall(const float* numbers) {
           load(numbers + 112)};
 }
 
-/// Of sums over edges along an axis of the second differences at both ends, over 4 h: by side along the next axis, then
-/// along the next but one.
+/// Adds the motion of the rows along an axis.
+/// @param edges  sums of the second differences at both ends of each edge along the axis, over 4 h; by side along the
+/// next axis, then along the one after it
 HWY_INLINE void addRowMotion(const Vec3 (&edges)[2][2], int axis, RowMotion& out) {
   const Vec3 low = edges[0][0] + edges[0][1], high = edges[1][0] + edges[1][1];
   out.second[axis] = set(0.25f) * (low + high);
@@ -45,7 +47,7 @@ HWY_INLINE void addRowMotion(const Vec3 (&edges)[2][2], int axis, RowMotion& out
   out.varies[axis][1] = (edges[0][1] + edges[1][1]) - (edges[0][0] + edges[1][0]);
 }
 
-/// A symmetric tensor: xx, yy, zz; and yz, zx, xy, of strains doubled.
+/// A symmetric tensor: xx, yy, zz; and yz, zx, xy, doubled for strains.
 struct Symmetric {
   Vec3 pulled, sheared;
 };
@@ -54,19 +56,21 @@ HWY_INLINE Symmetric weighed(const Symmetric (&g)[3], V x, V y, V z) {
           mulAdd(x, g[0].sheared, mulAdd(y, g[1].sheared, z * g[2].sheared))};
 }
 
-/// What second derivatives by rows add to those of the cell's own: v of physics.md 1, by axis.
+/// Excess of the second derivatives from rows over those of the cell itself: v of physics.md 1, by axis.
 struct RowExcess {
   Vec3 x, y, z;
 };
+/// Returns this excess.
 /// @param s, e  of hourglass motions and of rows, in the frame
-HWY_INLINE RowExcess excessOf(V poisson, const Vec3& rows, const Bends& s, const Bends& e) {
+HWY_INLINE RowExcess excessOf(V poisson, const Vec3& rows, const Curvatures& s, const Curvatures& e) {
   const auto own = [&](V a, V b) HWY_ATTR { return hn::Mul(poisson, hn::Add(a, b)); };
   const Vec3 x = {own(s.z.y, s.y.z), s.z.x, s.y.x}, y = {s.z.y, own(s.x.z, s.z.x), s.x.y};
   const Vec3 z = {s.y.z, s.x.z, own(s.y.x, s.x.y)};
   return {rows.x * (e.x + x), rows.y * (e.y + y), rows.z * (e.z + z)};
 }
-/// Adds to derivatives by s what those by the excess do. @param r  times the rows
-HWY_INLINE void addExcess(V poisson, const RowExcess& r, Bends& k) {
+/// Adds to the derivatives by s those through the excess.
+/// @param r  derivatives by the excess times the share of rows
+HWY_INLINE void addExcess(V poisson, const RowExcess& r, Curvatures& k) {
   const auto add = [](V& to, V a, V b) HWY_ATTR { to = hn::Add(to, hn::Add(a, b)); };
   const V px = hn::Mul(poisson, r.x.x), py = hn::Mul(poisson, r.y.y), pz = hn::Mul(poisson, r.z.z);
   add(k.z.y, px, r.y.x);
@@ -77,16 +81,16 @@ HWY_INLINE void addExcess(V poisson, const RowExcess& r, Bends& k) {
   add(k.x.y, pz, r.y.z);
 }
 
-/// Strain's gradient along each axis, twice over.
-HWY_INLINE void gradientsOf(V poisson, const Bends& s, const RowExcess& v, Symmetric (&g)[3]) {
+/// Computes twice the gradient of strain along each axis.
+HWY_INLINE void gradientsOf(V poisson, const Curvatures& s, const RowExcess& v, Symmetric (&g)[3]) {
   const auto thin = [&](V a, V b, V more) HWY_ATTR { return hn::NegMulAdd(poisson, hn::Add(a, b), more); };
   g[0] = {{thin(s.z.y, s.y.z, v.x.x), s.z.y, s.y.z}, {hn::Add(s.y.y, s.z.z), v.x.z, v.x.y}};
   g[1] = {{s.z.x, thin(s.x.z, s.z.x, v.y.y), s.x.z}, {v.y.z, hn::Add(s.z.z, s.x.x), v.y.x}};
   g[2] = {{s.y.x, s.x.y, thin(s.y.x, s.x.y, v.z.z)}, {v.z.y, v.z.x, hn::Add(s.x.x, s.y.y)}};
 }
 
-/// Derivatives of s.K.s/2 by strain's gradients over mu: stresses' moments. That across the wall is free but for a
-/// tenth.
+/// Computes the derivatives of s.K.s/2 by the gradients of strain over mu: the moments of stresses. All but a tenth of
+/// the stress across the wall is relieved.
 HWY_INLINE void momentsOf(const LawBody& body, const LawMoments& m, const LawWall& wall, const Symmetric (&g)[3],
                           Symmetric (&out)[3]) {
   const V lambda = hn::Sub(body.bulk, set(2.0f / 3)), two = set(2);
@@ -108,8 +112,8 @@ HWY_INLINE void momentsOf(const LawBody& body, const LawMoments& m, const LawWal
   }
 }
 
-/// How the variation of second derivatives of rows along axis `k` along axis `l` counts: what it adds to the gradient's
-/// columns l and k.
+/// Weights of the variation along axis `l` of the second derivatives along axis `k`: its contributions to columns l and
+/// k of the gradient.
 struct RowWeights {
   V at_l, at_k;
 };
@@ -120,17 +124,18 @@ HWY_INLINE RowWeights rowWeights(const LawMoments& m, const LawWall& wall, int k
   return {hn::Mul(hn::Mul(set(0.5f), quarter), square), hn::Mul(quarter, mixed)};
 }
 
-/// F* of a cell in a thin wall, and what it is made of.
+/// F* of a cell in a thin wall, and its inputs.
 struct WallPoint {
   Columns c, g, star;
   V e, inverse;
-  Bends s, rows;  ///< of hourglass motions and of rows, in the frame
+  Curvatures s, rows;  ///< hourglass motions and rows, in the frame
   RowExcess v;
 };
-/// @param kAny  as of lawForcesOf()
+/// Computes F* and its inputs.
+/// @param kAny  as for lawForcesOf()
 template <bool kAny>
 HWY_INLINE WallPoint wallPoint(const LawBody& body, const LawMoments& m, const LawWall& wall, M there,
-                               const CellMotion& q, const RowMotion& rows) {
+                               const CellModes& q, const RowMotion& rows) {
   WallPoint out;
   const Columns d = {q.da, q.db, q.dc};
   out.c = cofactorsOf(d);
@@ -157,11 +162,12 @@ HWY_INLINE WallPoint wallPoint(const LawBody& body, const LawMoments& m, const L
   return out;
 }
 
-/// Derivatives by the mean gradient where it does not depend on 1/J (addCofactorPull()). @param r, rd  by s and by rows
-HWY_INLINE Columns addWallPull(const Columns& p, V inverse, const Bends& r, const Bends& rd, const CellMotion& q,
-                               const RowMotion& rows) {
+/// Adds to the derivatives by the mean gradient the terms of addCofactorPull() for the cell itself and for rows.
+/// @param r, rd  derivatives by s and by rows
+HWY_INLINE Columns addWallPull(const Columns& p, V inverse, const Curvatures& r, const Curvatures& rd,
+                               const CellModes& q, const RowMotion& rows) {
   const Columns flat = addCofactorPull(p, inverse, r, q), none = {zero3(), zero3(), zero3()};
-  CellMotion of_rows = q;
+  CellModes of_rows = q;
   of_rows.hx = rows.second[0];
   of_rows.hy = rows.second[1];
   of_rows.hz = rows.second[2];
@@ -169,7 +175,8 @@ HWY_INLINE Columns addWallPull(const Columns& p, V inverse, const Bends& r, cons
   return {flat.a + more.a, flat.b + more.b, flat.c + more.c};
 }
 
-/// Derivatives by what rows say of how second derivatives vary. @param ps  dW/dF at F*
+/// Adds the derivatives by the variation of the second derivatives from rows.
+/// @param ps  dW/dF at F*
 HWY_INLINE void pullVariation(const LawMoments& m, const LawWall& wall, const Columns& ps, RowMotion& pull) {
   const Vec3 p[3] = {ps.a, ps.b, ps.c};
   for (int k = 0; k < 3; ++k) {
@@ -181,10 +188,11 @@ HWY_INLINE void pullVariation(const LawMoments& m, const LawWall& wall, const Co
   }
 }
 
-/// lawForcesOf() of cells in thin walls. @param pull  derivatives by what rows say [N]
+/// Computes lawForcesOf() for cells in thin walls.
+/// @param pull  derivatives by the motion of rows [N]
 template <bool kAny>
 HWY_INLINE bool wallForcesOf(const LawBody& body, const LawMoments& m, const LawWall& wall, const float* laminate, V mu,
-                             const CellMotion& q, const RowMotion& rows, CellMotion& out, RowMotion& pull) {
+                             const CellModes& q, const RowMotion& rows, CellModes& out, RowMotion& pull) {
   const V least = set(kLeastVolume - 1);
   const M there = hn::Gt(mu, hn::Zero(Tag()));
   const WallPoint at = wallPoint<kAny>(body, m, wall, there, q, rows);
@@ -200,9 +208,9 @@ HWY_INLINE bool wallForcesOf(const LawBody& body, const LawMoments& m, const Law
   const auto thin = [&](V of, V own) HWY_ATTR { return hn::Mul(mu, hn::NegMulAdd(body.poisson, own, of)); };
   const Symmetric &x = sigma[0], &y = sigma[1], &z = sigma[2];
   const V bx = hn::Mul(mu, x.sheared.x), by = hn::Mul(mu, y.sheared.y), bz = hn::Mul(mu, z.sheared.z);
-  Bends r = {{hn::Add(by, bz), thin(z.pulled.y, z.pulled.z), thin(y.pulled.z, y.pulled.y)},
-             {thin(z.pulled.x, z.pulled.z), hn::Add(bz, bx), thin(x.pulled.z, x.pulled.x)},
-             {thin(y.pulled.x, y.pulled.y), thin(x.pulled.y, x.pulled.x), hn::Add(bx, by)}};
+  Curvatures r = {{hn::Add(by, bz), thin(z.pulled.y, z.pulled.z), thin(y.pulled.z, y.pulled.y)},
+                  {thin(z.pulled.x, z.pulled.z), hn::Add(bz, bx), thin(x.pulled.z, x.pulled.x)},
+                  {thin(y.pulled.x, y.pulled.y), thin(x.pulled.y, x.pulled.x), hn::Add(bx, by)}};
   const Columns of_g = {transposedOf(d, ps.a), transposedOf(d, ps.b), transposedOf(d, ps.c)};
   addAtCentroid(body.poisson, of_g, m.centroid2, r);
   const auto excess = [&](const Vec3& moment, V c2, const Vec3& of, V share)
@@ -225,7 +233,7 @@ HWY_INLINE bool wallForcesOf(const LawBody& body, const LawMoments& m, const Law
     const Vec3 less = minusThree(whole, out.hx, hx, out.hy, hy, out.hz, hz);
     return minusThree(less, pull.second[0], dx, pull.second[1], dy, pull.second[2], dz);
   };
-  const Bends &s = at.s, &w = at.rows;
+  const Curvatures &s = at.s, &w = at.rows;
   const Vec3 ga = {at.g.a.x, at.g.b.x, at.g.c.x}, gb = {at.g.a.y, at.g.b.y, at.g.c.y};
   const Vec3 gc = {at.g.a.z, at.g.b.z, at.g.c.z};
   out.da = byColumn(ps.a, ga, s.x.x, s.y.x, s.z.x, w.x.x, w.y.x, w.z.x);
@@ -244,18 +252,19 @@ HWY_INLINE bool wallForcesOf(const LawBody& body, const LawMoments& m, const Law
   return true;
 }
 inline HWY_NOINLINE void squeezedWallForces(const LawBody& body, const LawMoments& m, const LawWall& wall,
-                                            const float* laminate, V mu, const CellMotion& q, const RowMotion& rows,
-                                            CellMotion& out, RowMotion& pull) {
+                                            const float* laminate, V mu, const CellModes& q, const RowMotion& rows,
+                                            CellModes& out, RowMotion& pull) {
   wallForcesOf<true>(body, m, wall, laminate, mu, q, rows, out, pull);
 }
 inline HWY_NOINLINE void wallForces(const LawBody& body, const LawMoments& m, const LawWall& wall,
-                                    const float* laminate, V mu, const CellMotion& q, const RowMotion& rows,
-                                    CellMotion& out, RowMotion& pull) {
+                                    const float* laminate, V mu, const CellModes& q, const RowMotion& rows,
+                                    CellModes& out, RowMotion& pull) {
   if (HWY_UNLIKELY((!wallForcesOf<false>(body, m, wall, laminate, mu, q, rows, out, pull))))
     squeezedWallForces(body, m, wall, laminate, mu, q, rows, out, pull);
 }
 
-/// What an edge along an axis gets of the cell, at its sides -1 or 1 along the next axis and the next but one.
+/// Returns the contribution of the cell to an edge along an axis, at sides -1 or 1 along the next axis and the one
+/// after it.
 HWY_INLINE Vec3 pullOfEdge(const RowMotion& pull, int axis, int side, int other) {
   const Vec3 mean = set(-0.25f) * pull.second[axis];
   return mulAdd(set(static_cast<float>(-side)), pull.varies[axis][0],

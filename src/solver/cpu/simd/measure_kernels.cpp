@@ -17,7 +17,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
-/// Lanes whose numbers are all finite.
+/// Returns the lanes with finite components only.
 HWY_INLINE M finite(const Vec3& v) {
   const hn::RebindToUnsigned<Tag> bits;
   const auto exponent = hn::Set(bits, 0x7f800000u);
@@ -34,7 +34,7 @@ HWY_INLINE uint32_t count(M mask) {
   return static_cast<uint32_t>(hn::CountTrue(Tag(), mask));
 }
 
-/// Stretch and energy of the springs that a vector's nodes own.
+/// Measures the stretch and energy of the springs that a vector's nodes own.
 template <int X, int Y, int Z>
 HWY_INLINE void measureSpring(const Tile& u, int at, const Material& m, V k, M good, V& stretch, V& elastic,
                               uint32_t& collapsed) {
@@ -56,13 +56,14 @@ HWY_INLINE Bits lowBits(const layout::NodeBits* nodes) {
   hn::LoadInterleaved2(hn::RebindToUnsigned<Tag>(), &nodes->lo, low, high);
   return low;
 }
-/// Has a node one of some bits?
+/// Returns the nodes with at least one of some bits.
 HWY_INLINE M hasBits(Bits of, uint32_t bits) {
   const hn::RebindToUnsigned<Tag> d;
   return hn::RebindMask(Tag(), hn::Ne(hn::And(of, hn::Set(d, bits)), hn::Zero(d)));
 }
 
-/// Elastic energy of cells of a law above a vector's nodes [J]. @param good  whose nodes are finite
+/// Returns the elastic energy of cells with a law above a vector's nodes [J].
+/// @param good  lanes with finite nodes
 HWY_INLINE V measureLawCells(const MeasureJob& job, const Material& m, const layout::BodyParams& body, size_t slot,
                              const Vec3 (&corners)[8], M good, BrickStats& stats) {
   const LawMeasured law = measureLaw(job.cells, body, slot, corners);

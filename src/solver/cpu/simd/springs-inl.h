@@ -16,13 +16,13 @@
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
-// With q = (L^2 - l0^2) / l0^2, computed without cancellation, the force of a spring on its near end is
-//   k (L - l0)/L e = k q phi(q) e,  phi(q) = 1 / (1 + q + sqrt(1 + q)),  e = vector to the far end (physics.md 1, 2).
-// Below kShortest of its length at rest a spring has no direction of its own (shaders/solver/tissue/spring.glsl).
+// With q = (L^2 - l0^2) / l0^2, computed without cancellation, the force of a spring on its near end is k (L - l0)/L e
+// = k q phi(q) e. Here phi(q) = 1 / (1 + q + sqrt(1 + q)) and e is the vector to the far end (physics.md 1, 2). Below
+// kShortest of its rest length a spring keeps its direction at rest (shaders/solver/tissue/spring.glsl).
 constexpr float kShortest2 = 1e-12f;
 
-/// phi for any q > -1: one Newton step each on the processor's estimates of 1/sqrt(4 x) and of 1/(4 x + 4 sqrt(x)),
-/// x = 1 + q, where they have 12 bits at least; else exact.
+/// Computes phi for any q > -1. Where the processor's estimates of 1/sqrt(4 x) and 1/(4 x + 4 sqrt(x)), x = 1 + q, have
+/// at least 12 bits, one Newton step refines each; elsewhere it is exact.
 HWY_INLINE V anyPhi(V q) {
   const V x4 = hn::Max(hn::MulAdd(q, set(4), set(4)), set(1e-24f));
 #if HWY_ARCH_X86
@@ -36,18 +36,22 @@ HWY_INLINE V anyPhi(V q) {
 #endif
 }
 
-/// What a spring pulls its near end with, the other with the opposite: pull e.
+/// Force of a spring on its near end: pull e. The force on the far end is the opposite.
 struct SpringPull {
-  V pull;  ///< N/m
-  Vec3 e;  ///< to the far end [m]
+  V pull;  ///< force over length, N/m
+  Vec3 e;  ///< vector to the far end [m]
 };
-/// @param w  u_far - u_near   @param dv  v_far - v_near   @param largest  |q| so far   @tparam kUniform  all springs
-/// are there   @tparam kAny  they may have any length, else |q| < kMild
+/// Computes the force of the springs in direction (X, Y, Z).
+/// @param w  u_far - u_near
+/// @param dv  v_far - v_near
+/// @param largest  largest |q| so far, updated
+/// @tparam kUniform  all springs exist
+/// @tparam kAny  springs may have any length; otherwise |q| < kMild
 template <int X, int Y, int Z, bool kUniform, bool kAny, bool kDashpot>
 HWY_INLINE SpringPull springPull(const Material& m, V k, const Vec3& w, const Vec3& dv, V& largest) {
   constexpr int kKind = X * X + Y * Y + Z * Z - 1;
   V q = hn::Mul(dot(w, shifted<X, Y, Z>(w, m.h2)), m.per_length2[kKind]);
-  // Springs that are not there have no say in whether the others are mild, and no power of q that is infinite.
+  // Absent springs must not decide whether the others are mild, and no power of q may be infinite.
   if (!kUniform) q = hn::IfThenElseZero(hn::Gt(k, hn::Zero(Tag())), q);
   largest = hn::Max(largest, hn::Abs(q));
   Vec3 e = shifted<X, Y, Z>(w, m.h);
@@ -56,8 +60,8 @@ HWY_INLINE SpringPull springPull(const Material& m, V k, const Vec3& w, const Ve
     phi = anyPhi(q);
     const V x = hn::Add(set(1), q);
     const M collapsed = hn::Lt(x, set(kShortest2));
-    if (HWY_UNLIKELY(!hn::AllFalse(Tag(), collapsed))) {  // k ext in the direction at rest
-      // So that q phi is ext / l0 and e, of length l0, stands for the direction.
+    if (HWY_UNLIKELY(!hn::AllFalse(Tag(), collapsed))) {  // force k (L - l0) along the direction at rest
+      // Makes q phi equal to (L - l0) / l0 and e, of length l0, the direction.
       phi = hn::IfThenElse(collapsed, set(1), phi);
       e = select(collapsed, shifted<X, Y, Z>(zero3(), m.h), e);
     }
@@ -73,13 +77,14 @@ HWY_INLINE SpringPull springPull(const Material& m, V k, const Vec3& w, const Ve
   return {hn::Mul(k, c), e};
 }
 
-/// What the ends of springs are apart now, far less near [m, m/s].
+/// Current relative displacement and velocity of the ends of springs, far minus near [m, m/s].
 struct Apart {
   Vec3 u, v;
 };
-/// The same of springs whose mild ones pull as they will, where nodes are predicted, and the others as they do now,
-/// with their dashpots (shaders/solver/step/leapfrog.comp). @param w  of where nodes are predicted   @param now  says
-/// Apart
+/// Computes the same with dashpots. Mild springs use the predicted positions of nodes, the others the current positions
+/// and velocities (shaders/solver/step/leapfrog.comp).
+/// @param w  relative displacement at the predicted positions
+/// @param now  returns Apart
 template <int X, int Y, int Z, class Now>
 HWY_INLINE SpringPull predictedPull(const Material& m, V k, const Vec3& w, const Now& now, V& largest) {
   V stretch = hn::Zero(Tag());

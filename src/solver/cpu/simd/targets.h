@@ -11,22 +11,23 @@
 
 namespace viscera::simd {
 
-/// Place of an instruction set in the tables that HWY_EXPORT makes. Those follow what the file was compiled for: not to
-/// be shared between files.
+/// Returns the place of an instruction set in the tables of HWY_EXPORT. The tables depend on what the including file is
+/// compiled for, so files must not share this function.
 static inline size_t placeOf(int64_t target) {
-  hwy::ChosenTarget chosen;  // one of our own: the process's says nothing of a single solver
+  hwy::ChosenTarget chosen;  // a local one, since the process-wide target says nothing about a single solver
   chosen.Update(target);
   return chosen.GetIndex();
 }
 
-/// What HWY_EXPORT(function) has for one instruction set, of those that hwy::SupportedAndGeneratedTargets() names.
+/// Returns the entry of HWY_EXPORT(function) for one of the instruction sets of hwy::SupportedAndGeneratedTargets().
 #if HWY_IDE || ((HWY_TARGETS & (HWY_TARGETS - 1)) == 0)  // the table has one entry then
 #define VISCERA_KERNEL_FOR(function, target) (static_cast<void>(target), HWY_DISPATCH_TABLE(function)[0])
 #else
 #define VISCERA_KERNEL_FOR(function, target) HWY_DISPATCH_TABLE(function)[placeOf(target)]
 #endif
 
-// Each from the file that compiles it. @param target  Highway's bit of an instruction set
+// Returns the kernel of an instruction set, each from the file that compiles it.
+// @param target  Highway's bit of the instruction set
 BrickLeapfrog leapfrogFor(int64_t target);
 BrickPredict predictFor(int64_t target);
 BrickMeasure measureFor(int64_t target);

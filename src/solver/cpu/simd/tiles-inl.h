@@ -1,7 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A brick with what is around it, its springs and cells, for SIMD kernels. Included per instruction set (Highway).
+// A brick with its surroundings, and its springs and cells, for SIMD kernels. Included once per instruction set
+// (Highway).
 #if defined(VISCERA_SOLVER_CPU_TILES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef VISCERA_SOLVER_CPU_TILES_INL_H
 #undef VISCERA_SOLVER_CPU_TILES_INL_H
@@ -18,16 +19,15 @@ namespace viscera::simd::HWY_NAMESPACE {
 
 using Row = hn::FixedTag<float, 4>;
 
-/// A brick and what lies around it, for each component of a vector. Rows are stored three times, shifted by -1, 0 and 1
-/// along x, so that a neighbour in any direction is one load away.
-/// The value of the node at (x, y, z), with x in 0..3 and y, z in -1..4, seen from dx aside, is
-/// at[dx + 1][(z + 1) * kPlane + kOwn + 4 * y + x].
+/// A brick and its surroundings, for each component of a vector. Rows are stored three times, shifted by -1, 0 and 1
+/// along x, so that any neighbour is one load away. The value of the node at (x + dx, y, z), with x in 0..3 and y, z in
+/// -1..4, is at[dx + 1][(z + 1) * kPlane + kOwn + 4 * y + x].
 constexpr int kPlane = 48, kOwn = 16;
 struct alignas(64) Tile {
   float component[3][3][6 * kPlane];
 };
 
-/// Rows of one plane of the brick, its neighbours at the left and right, shifted by -1, 0, 1.
+/// Copies rows of one plane of the brick, with its left and right neighbours, shifted by -1, 0 and 1.
 template <class D>
 HWY_INLINE void copyShifted(D d, const float* own, const float* left, const float* right, float* minus, float* zero,
                             float* plus) {
@@ -37,7 +37,8 @@ HWY_INLINE void copyShifted(D d, const float* own, const float* left, const floa
   hn::StoreU(hn::CombineShiftRightBytes<4>(d, hn::LoadU(d, right), middle), d, plus);
 }
 
-/// @param corners  opposite corners of cells are needed too: springs never join them, volumes do
+/// Fills a tile from a brick and its neighbours.
+/// @param corners  the bricks at opposite corners of cells are needed too: volumes depend on them, springs do not
 template <bool corners>
 HWY_INLINE void fill(const Arrays& a, const float* values, uint32_t b, Tile& tile) {
   constexpr int kFloats = 64;
@@ -48,7 +49,7 @@ HWY_INLINE void fill(const Arrays& a, const float* values, uint32_t b, Tile& til
   for (int c = 0; c < 3; ++c) {
     float *minus = tile.component[c][0], *zero = tile.component[c][1], *plus = tile.component[c][2];
     for (int z = -1; z <= 4; ++z) {
-      const int side = z < 0 ? 0 : z > 3 ? 18 : 9;  // of the 27 neighbours
+      const int side = z < 0 ? 0 : z > 3 ? 18 : 9;  // index among the 27 neighbours
       const int from = c * kFloats + (z & 3) * 16, to = (z + 1) * kPlane + kOwn;
       for (int i = 0; i < 16; i += static_cast<int>(hn::MaxLanes(d))) {
         copyShifted(d, brick[side + 4] + from + i, brick[side + 3] + from + i, brick[side + 5] + from + i,
@@ -67,7 +68,7 @@ HWY_INLINE void fill(const Arrays& a, const float* values, uint32_t b, Tile& til
   }
 }
 
-/// Neighbour in direction (X, Y, Z) of the nodes at an index of the tile.
+/// Returns the neighbours in direction (X, Y, Z) of the nodes at an index of the tile.
 template <int X, int Y, int Z>
 HWY_INLINE Vec3 seen(const Tile& tile, int at) {
   constexpr int kOffset = Z * kPlane + Y * 4;
@@ -78,7 +79,7 @@ template <int sign>
 HWY_INLINE V shifted(V value, V by) {
   return sign > 0 ? hn::Add(value, by) : sign < 0 ? hn::Sub(value, by) : value;
 }
-/// value + (X, Y, Z) by
+/// Returns value + (X, Y, Z) by.
 template <int X, int Y, int Z>
 HWY_INLINE Vec3 shifted(const Vec3& value, V by) {
   return {shifted<X>(value.x, by), shifted<Y>(value.y, by), shifted<Z>(value.z, by)};
@@ -86,10 +87,10 @@ HWY_INLINE Vec3 shifted(const Vec3& value, V by) {
 
 /// Constants of a body, in all lanes.
 struct Material {
-  V h, h2;               ///< spacing, twice
+  V h, h2;               ///< spacing and twice the spacing [m]
   V per_length2[2];      ///< 1 / l0^2 of axial and diagonal springs
   V dashpot_length2[2];  ///< c / (k l0^2)
-  V full[2];             ///< N/m of whole springs
+  V full[2];             ///< stiffness of intact springs [N/m]
 };
 HWY_INLINE Material materialOf(const layout::BodyParams& body) {
   const float h = body.origin_spacing.w;
@@ -114,7 +115,8 @@ HWY_INLINE Material materialOf(const layout::BodyParams& body) {
   APPLY(14, 0, 1, 1) APPLY(15, 0, -1, -1) APPLY(16, 0, 1, -1) APPLY(17, 0, -1, 1)
 // clang-format on
 
-/// V/V0 - 1 of cells. @param n  displacements of their corners: bit 0 of the index x, bit 1 y, bit 2 z
+/// Returns V/V0 - 1 of cells.
+/// @param n  displacements of their corners: bit 0 of the index is x, bit 1 y, bit 2 z
 /// @param quarter  0.25 / h
 HWY_INLINE V dilationOf(const Vec3 (&n)[8], V quarter) {
   const Vec3 da = quarter * (((n[1] - n[0]) + (n[3] - n[2])) + ((n[5] - n[4]) + (n[7] - n[6])));
@@ -127,7 +129,8 @@ HWY_INLINE V dilationOf(const Vec3 (&n)[8], V quarter) {
   return hn::Add(trace, hn::Add(minors, dot(da, cross(db, dc))));
 }
 
-/// Corners of the cell in which the nodes of a vector are corner (A, B, C). @param where  of what seen() knows
+/// Collects the corners of the cells in which the nodes of a vector are corner (A, B, C).
+/// @param where  arguments of seen()
 template <int A, int B, int C, class... Where>
 HWY_INLINE void cornersAround(Vec3 (&n)[8], const Where&... where) {
   n[0] = seen<-A, -B, -C>(where...);

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Vectors of nodes for the SIMD kernels, and how a node moves. Included once per instruction set (Highway).
+// Vectors of nodes for the SIMD kernels, and the leapfrog step of a node. Included once per instruction set (Highway).
 #if defined(VISCERA_SOLVER_CPU_VECTORS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef VISCERA_SOLVER_CPU_VECTORS_INL_H
 #undef VISCERA_SOLVER_CPU_VECTORS_INL_H
@@ -28,8 +28,8 @@ HWY_INLINE V set(float value) {
   return hn::Set(Tag(), value);
 }
 
-// Of a length L that was l0 at rest, q = (L^2 - l0^2) / l0^2: (L - l0)/L = q phi(q), phi(q) = 1 / (1 + q + sqrt(1 +
-// q)). Below |q| = kMild phi is a polynomial of degree 5, with a relative error of 5.2e-8 at most.
+// For a spring of length L and rest length l0, q = (L^2 - l0^2) / l0^2 and (L - l0)/L = q phi(q) with phi(q) = 1 / (1 +
+// q + sqrt(1 + q)). For |q| < kMild, phi is a polynomial of degree 5 with a relative error of at most 5.2e-8.
 const float kMild = layout::kMildStretch;
 constexpr float kPhi[6] = {0.500000026f, -0.375000048f, 0.312470624f, -0.273403791f, 0.251082405f, -0.230579299f};
 HWY_INLINE V mildPhi(V q) {
@@ -55,7 +55,7 @@ HWY_INLINE Vec3 operator*(V a, const Vec3& b) {
 HWY_INLINE V dot(const Vec3& a, const Vec3& b) {
   return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
 }
-/// a + s b
+/// Returns a + s b.
 HWY_INLINE Vec3 mulAdd(V s, const Vec3& b, const Vec3& a) {
   return {hn::MulAdd(s, b.x, a.x), hn::MulAdd(s, b.y, a.y), hn::MulAdd(s, b.z, a.z)};
 }
@@ -79,8 +79,9 @@ HWY_INLINE void storePlanes(const Vec3& value, float* at) {
   hn::StoreU(value.z, Tag(), at + 128);
 }
 
-/// Rest position of a vector's nodes [m]. @param from  rest position of the brick's first slot   @param i  index of the
-/// first node
+/// Returns the rest positions of a vector's nodes [m].
+/// @param from  rest position of the brick's first slot
+/// @param i  index of the vector's first node
 HWY_INLINE Vec3 restOf(const float (&from)[3], float h, int i) {
   alignas(64) static constexpr float kX[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
   alignas(64) static constexpr float kY[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
@@ -89,7 +90,7 @@ HWY_INLINE Vec3 restOf(const float (&from)[3], float h, int i) {
           set(from[2] + h * static_cast<float>(i >> 4))};
 }
 
-/// sum + increment, with Kahan's compensation where there is memory for it (shaders/solver/step/leapfrog.comp).
+/// Returns sum + increment, with Kahan's compensation if there is memory for it (shaders/solver/step/leapfrog.comp).
 HWY_INLINE Vec3 added(float* compensation, size_t at, const Vec3& sum, const Vec3& increment) {
   if (!compensation) return sum + increment;
   const Vec3 all_of_it = increment - loadPlanes(compensation + at);
@@ -98,28 +99,28 @@ HWY_INLINE Vec3 added(float* compensation, size_t at, const Vec3& sum, const Vec
   return next;
 }
 
-/// A substep, in all lanes.
+/// Constants of a substep, in all lanes.
 struct Motion {
   V kick, drag2, per_drag, dt, sleep2;
   Vec3 gravity;
 };
 
 HWY_INLINE Motion motionOf(const Substep& step, const layout::BodyParams& body) {
-  const float g = 0.5f * body.drag_per_s * step.kick_s;
+  const float g = 0.5f * body.mass_damping_per_s * step.kick_s;
   const float far = step.sleep_distance_m;
   return {set(step.kick_s), set(2 * g),     set(1 / (1 + g)),
           set(step.dt_s),   set(far * far), {set(step.gravity.x()), set(step.gravity.y()), set(step.gravity.z())}};
 }
 
-/// Which nodes of a vector does no hand hold?
+/// Returns which nodes of a vector no stylus holds.
 HWY_INLINE M areFree(const layout::NodeBits* nodes) {
   HWY_ALIGN float free[hn::MaxLanes(Tag())];
   for (size_t i = 0; i < hn::MaxLanes(Tag()); ++i) free[i] = (nodes[i].lo & layout::kGrabMask) != 0u ? 0.0f : 1.0f;
   return hn::Gt(hn::Load(Tag(), free), hn::Zero(Tag()));
 }
 
-/// Fragments that fall come to lie where sleep_distance_m ends (shaders/solver/tissue/sleep.glsl).
-/// @param nodes  as of move()
+/// Stops falling fragments at the distance sleep_distance_m (shaders/solver/tissue/sleep.glsl).
+/// @param nodes  as for move()
 HWY_INLINE void fallAsleep(const Motion& s, const layout::NodeBits* nodes, const Vec3& u, Vec3& u_next, Vec3& v_next) {
   const V away = dot(u_next, u_next);
   const M beyond = hn::Gt(away, s.sleep2);
@@ -132,14 +133,16 @@ HWY_INLINE void fallAsleep(const Motion& s, const layout::NodeBits* nodes, const
   v_next = select(falls, zero3(), v_next);
 }
 
-/// Leapfrog (shaders/solver/step/leapfrog.comp). @param mobility  1/kg, 0 where nothing moves   @param nodes  the first
-/// of the vector; null where none can be held   @param near, speed  u and v before
-/// @param lost  compensation of u, that of v 192 farther; or null
+/// Makes a leapfrog step (shaders/solver/step/leapfrog.comp).
+/// @param mobility  1/kg, 0 where nothing moves
+/// @param nodes  bits of the vector's first node; null where none can be held
+/// @param near, speed  u and v before the step
+/// @param lost  compensation of u, with that of v 192 farther; or null
 HWY_INLINE void move(const Motion& s, V mobility, const layout::NodeBits* nodes, const Vec3& force, const Vec3& near,
                      const Vec3& speed, float* lost, Vec3& u_next, Vec3& v_next) {
   const M moves = hn::Gt(mobility, hn::Zero(Tag()));
   const Vec3 acceleration = mulAdd(mobility, force, s.gravity);
-  // ((1 - g) v + kick a) / (1 + g), as v and an increment.
+  // ((1 - g) v + kick a) / (1 + g), written as v and an increment.
   const Vec3 change = s.per_drag * mulAdd(hn::Neg(s.drag2), speed, s.kick * acceleration);
   v_next = added(lost, 192, speed, change);
   u_next = added(lost, 0, near, s.dt * v_next);
@@ -148,7 +151,9 @@ HWY_INLINE void move(const Motion& s, V mobility, const layout::NodeBits* nodes,
   v_next = select(moves, v_next, zero3());
 }
 
-/// Has no row of a vector its bit set? @param rows  bit r: the four from 4 r on   @param i  index of the vector's first
+/// Returns whether the bits of all rows of a vector are 0.
+/// @param rows  bit r: the four nodes from 4 r on
+/// @param i  index of the vector's first node
 HWY_INLINE bool noRows(uint32_t rows, int i) {
   constexpr uint32_t kRows = (1u << (hn::MaxLanes(Tag()) / 4)) - 1;
   return (rows >> (i / 4) & kRows) == 0;

@@ -16,7 +16,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
-/// Some cells of a group, from `lane` on.
+/// The cells of a group from `lane` on.
 struct WallVector {
   const WallJob& job;
   size_t group;
@@ -25,13 +25,13 @@ struct WallVector {
   const float* at(const float* numbers, uint32_t count) const { return numbers + group * count * kWallLanes + lane; }
 };
 
-/// What a vector of cells is computed from.
+/// Inputs of a vector of cells.
 struct WallMotion {
-  CellMotion cell;
+  CellModes cell;
   RowMotion rows;
 };
 
-/// Vectors by node, of some cells: x, y, z of each.
+/// Vectors by node, for some cells: x, y, z of each.
 struct alignas(64) NodeVectors {
   float values[kWallNodes][3][hn::MaxLanes(Tag())];
 
@@ -45,8 +45,8 @@ struct alignas(64) NodeVectors {
   }
 };
 
-/// Displacements of the nodes of a vector of cells over 4 h. They are four numbers each in memory: loaded as rows and
-/// turned, which takes half the time of gathering single numbers.
+/// Loads the displacements of the nodes of a vector of cells over 4 h. Each is four numbers in memory: loading rows and
+/// transposing them takes half the time of gathering single numbers.
 HWY_INLINE void loadNodes(const WallVector& of, NodeVectors& out) {
   const Row row;
   const uint32_t* nodes = of.job.walls.nodes + of.group * kWallNodes * kWallLanes + of.lane;
@@ -65,7 +65,7 @@ HWY_INLINE void loadNodes(const WallVector& of, NodeVectors& out) {
   }
 }
 
-/// Writes forces on the nodes of a vector of cells.
+/// Writes the forces on the nodes of a vector of cells.
 HWY_INLINE void writeNodes(const WallVector& of, const NodeVectors& forces) {
   const Row row;
   for (size_t lane = 0; lane < hn::MaxLanes(Tag()); lane += 4) {
@@ -117,9 +117,9 @@ HWY_INLINE const float* laminateOf(const WallVector& of) {
   return HWY_UNLIKELY(numbers != nullptr) ? numbers + of.lane : nullptr;
 }
 
-/// Forces of cells' motions and of their rows on their nodes.
-HWY_INLINE void storeForces(const WallVector& of, const CellMotion& out, const RowMotion& pull) {
-  const CellMotion none = {zero3(), zero3(), zero3(), zero3(), zero3(), zero3(), zero3()};
+/// Converts derivatives by modes and rows into forces on nodes, and writes them.
+HWY_INLINE void storeForces(const WallVector& of, const CellModes& out, const RowMotion& pull) {
+  const CellModes none = {zero3(), zero3(), zero3(), zero3(), zero3(), zero3(), zero3()};
   const Corners low = gathered(none, out), high = gathered(out, none);
   Vec3 f[8] = {low.n00, low.n10, low.n01, low.n11, high.n00, high.n10, high.n01, high.n11};
   NodeVectors forces;
@@ -155,7 +155,7 @@ void wallsOf(const WallJob& job, const uint32_t* groups, size_t count) {
       }
       const WallMotion motion = wallMotion(of);
       const LawWall wall = loadWall(of.at(job.walls.numbers, kWallNumbers));
-      CellMotion out;
+      CellModes out;
       RowMotion pull;
       wallForces(body, loadLawMoments(of.at(job.walls.moments, kMomentNumbers), 0), wall, laminateOf(of), mu,
                  motion.cell, motion.rows, out, pull);
@@ -164,7 +164,7 @@ void wallsOf(const WallJob& job, const uint32_t* groups, size_t count) {
   }
 }
 
-/// Energy of a vector of cells over rigidity, and how much stiffer they are than at rest.
+/// Measures a vector of cells: energy over rigidity, and stiffness over that at rest.
 HWY_INLINE LawMeasured measuredOf(const LawBody& body, const LawMoments& m, const LawWall& wall, const float* laminate,
                                   M there, const WallMotion& motion) {
   const WallPoint at = wallPoint<true>(body, m, wall, there, motion.cell, motion.rows);

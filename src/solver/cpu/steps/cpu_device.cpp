@@ -16,7 +16,7 @@ namespace {
 
 struct KernelRow {
   const char* name;
-  int features, choosable;  ///< what it is compiled with; what others of its name are compiled with or without
+  int features, choosable;  ///< features of this kernel; features in which kernels of this name differ
   CpuDevice::Run run;
 };
 
@@ -30,7 +30,7 @@ void runVariant(CpuLattice& lattice, const ImplicitKernel& bound, size_t first, 
 #define VARIANT_NAME Choose
 #define VARIANT_BASE ImplicitKernel
 #define VARIANT_TEXT "shaders/solver/implicit/implicit_fold.comp"
-#include "solver/cpu/text/glsl_variant.inc"
+#include "solver/cpu/kernels/glsl_variant.inc"
 
 #include "kernels/implicit_kernels.inc"
 

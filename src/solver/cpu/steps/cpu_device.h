@@ -8,24 +8,24 @@
 #include <memory>
 #include <string>
 
-#include "solver/cpu/store/cpu_stepper.h"
-#include "solver/cpu/text/glsl_kernel.h"
-#include "solver/cpu/text/node_pairs.h"
+#include "solver/cpu/kernels/glsl_kernel.h"
+#include "solver/cpu/kernels/node_pairs.h"
+#include "solver/cpu/state/cpu_stepper.h"
 #include "solver/device/device.h"
 
-/// Probes and obstacles: what a scene has none of does nothing.
+/// Probes and obstacles. They have no effect in scenes without any.
 #define WITH_EVERY_CONTACT WITH_CONTACT | WITH_TOOLS | WITH_OBSTACLES
 
 namespace viscera {
 
 namespace glsl {
 
-/// What kernels of implicit Euler find in buffers and uniforms (shaders/solver/implicit/implicit.glsl, implicit_*.comp,
+/// Buffers and uniforms of the kernels of implicit Euler (shaders/solver/implicit/implicit.glsl, implicit_*.comp,
 /// pd.comp).
 struct ImplicitBuffers : PairBuffers {
   Word* guard = nullptr;
   const vec4* increment = nullptr;
-  vec4* increments = nullptr;  // the same buffer, to write
+  vec4* increments = nullptr;  // the same buffer, writable
   vec4* next_increments = nullptr;
   vec4* node_contacts = nullptr;
   uint contact_rows = 0;
@@ -40,7 +40,7 @@ struct ImplicitKernel : Kernel, ImplicitBuffers {
 
 }  // namespace glsl
 
-/// Nodes brick by brick as jobs: large enough to be worth a thread's while, the same whatever the threads.
+/// Bricks per job: large enough to be worth dispatching, and independent of the number of threads.
 constexpr size_t kBricksPerJob = 4;
 constexpr size_t kNodesPerJob = kBricksPerJob * layout::kBrickSlots;  ///< at most
 
@@ -57,7 +57,7 @@ __attribute__((flatten)) void runRange(Kernel& kernel, size_t first, size_t end)
   }
 }
 
-/// Places in `active` of a job's nodes.
+/// Returns the range of a job's nodes in `active`.
 inline std::array<size_t, 2> nodesOfJob(const CpuLattice& lattice, size_t job) {
   return {lattice.store.first_active[job * kBricksPerJob],
           lattice.store.first_active[std::min((job + 1) * kBricksPerJob, lattice.brickCount())]};
@@ -95,14 +95,15 @@ class CpuDevice {
     void clear() { std::fill(this->begin(), this->end(), 0); }
     std::vector<uint32_t> read() const { return {this->begin(), this->end()}; }
   };
-  /// Invocations first .. end of a kernel with what it finds in buffers and uniforms.
+  /// Function that runs invocations first .. end of a kernel with these buffers and uniforms.
   using Run = void (*)(CpuLattice& lattice, const glsl::ImplicitKernel& bound, size_t first, size_t end);
   struct Pass {
     explicit operator bool() const { return runs[0]; }
-    Run runs[2] = {};  ///< where nothing may touch nodes, and where something may
+    Run runs[2] = {};  ///< without contacts, and with contacts
   };
 
-  /// All of them must outlive the device. @param contacts  between nodes, part of the solution; null: none
+  /// All arguments must outlive the device.
+  /// @param contacts  between nodes, part of the solution; null: none
   CpuDevice(CpuLattice& lattice, const Parallel& parallel, CpuNodePairs* contacts = nullptr);
 
   size_t slots() const { return lattice_.slotCount(); }
@@ -115,7 +116,7 @@ class CpuDevice {
   void bind(uint32_t, Field<Word>& guard) { bound_.guard = guard.data(); }
   void bind(uint32_t binding, Field<vec4>& field);
   void run(const Pass& pass, const Substep& step, Over over, std::initializer_list<Uniform> uniforms = {});
-  /// The best share of what implicit_guess.comp found, into the guard (implicit_fold.comp).
+  /// Writes the best share found by implicit_guess.comp into the guard (implicit_fold.comp).
   void chooseShare(bool bound_energy);
   void findPairs(const Substep& step) {
     if (pairs) pairs->find(lattice_, step, bound_.increments);

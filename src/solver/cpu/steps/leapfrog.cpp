@@ -7,20 +7,20 @@
 #include <numeric>
 
 #include "math/archive.h"
-#include "solver/cpu/store/lattice_arrays.h"
-#include "solver/cpu/text/tool_passes.h"
+#include "solver/cpu/kernels/tool_passes.h"
+#include "solver/cpu/state/lattice_arrays.h"
 
 namespace viscera {
 
 namespace {
 
-constexpr size_t kMostBricks = 16;     // that a thread takes at a time: about 10 us of work
-constexpr size_t kLeastBricks = 2;     // towards a round's end: about 1 us, still ten times what taking them costs
-constexpr size_t kPartsPerThread = 8;  // at least, where there are bricks enough: a free thread takes the next
+constexpr size_t kMostBricks = 16;  // bricks that a thread takes at a time: about 10 us of work
+constexpr size_t kLeastBricks = 2;  // towards the end of a round: about 1 us, still ten times the cost of taking them
+constexpr size_t kPartsPerThread = 8;  // at least, given enough bricks: an idle thread takes the next part
 
-/// How far a probe reaches in a substep, around where it is at the end [m].
-/// @param deepest_m  that a node lies below the surface by which it is touched
-/// @param edge_m  that a node of a spring may be beyond it (edgeReach())
+/// Returns the reach of a probe in a substep, around its final position [m].
+/// @param deepest_m  largest depth of a node below the surface at which it is touched
+/// @param edge_m  largest distance of a spring's node from the probe (edgeReach())
 float reachOf(const layout::ToolMotion& m, float deepest_m, float edge_m) {
   const Vector3f travel(m.to.x - m.from.x, m.to.y - m.from.y, m.to.z - m.from.z);
   return m.from.w + deepest_m + edge_m + travel.norm();
@@ -68,11 +68,12 @@ CpuLeapfrog::CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts)
 
 void CpuLeapfrog::restart() {
   std::fill(compensation_.begin(), compensation_.end(), 0.0f);
-  forgetSums();
+  clearSums();
 }
 
-/// Planes of nodes that cells do nothing to are not written; which these are, a state from outside may change.
-void CpuLeapfrog::forgetSums() {
+/// Clears the sums. Planes of nodes on which no cell acts are never written, and an external write to the state may
+/// change which these are.
+void CpuLeapfrog::clearSums() {
   std::fill(cell_sums_.begin(), cell_sums_.end(), 0.0f);
 }
 
@@ -81,7 +82,7 @@ void CpuLeapfrog::persist(Archive& archive, CpuLattice& /*lattice*/) {
   archive.values(near_);
   archive.values(strained_);
   archive.values(speed2_);
-  if (archive.reads()) forgetSums();
+  if (archive.reads()) clearSums();
 }
 
 void CpuLeapfrog::run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
@@ -91,7 +92,7 @@ void CpuLeapfrog::run(CpuLattice& lattice, const Substep& step, const layout::To
   sleep_.passed(lattice, step.dt_s, speed2_);
 }
 
-/// One substep of the bricks that are awake.
+/// Steps the awake bricks.
 void CpuLeapfrog::stepAwake(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
   const size_t awake = sleep_.awake().size();
   const size_t fair = awake / (kPartsPerThread * static_cast<size_t>(parallel_.threads()));
@@ -122,8 +123,8 @@ void CpuLeapfrog::stepAwake(CpuLattice& lattice, const Substep& step, const layo
   }
 }
 
-/// Bricks that sleep stand still: what is predicted of them holds while the same are awake, unless others wrote the
-/// state.
+/// Predicts the displacements of bricks. Sleeping bricks do not move, so their prediction holds while the same bricks
+/// are awake, unless the state was written from outside.
 void CpuLeapfrog::predict(const Substep& step) {
   const std::vector<uint32_t>& awake = sleep_.awake();
   const bool whole = step.restarted || step.index == 0 || predicted_awake_ != awake;
@@ -134,7 +135,7 @@ void CpuLeapfrog::predict(const Substep& step) {
                    [&](size_t first, size_t end) { predict_bricks_(job_, &bricks[first], end - first); });
 }
 
-/// Forces of all cells that have a corner in a brick that is awake: of its own and of the seven below it.
+/// Sums the forces of all cells with a corner in an awake brick: those of the brick itself and of the seven below it.
 void CpuLeapfrog::sumCells(CpuLattice& lattice) {
   if (cell_bricks_awake_ != sleep_.awake()) {
     cell_bricks_awake_ = sleep_.awake();
@@ -158,7 +159,7 @@ void CpuLeapfrog::sumCells(CpuLattice& lattice) {
                    [&](size_t first, size_t end) { sum_cells_(job, &cell_bricks_[first], end - first); });
 }
 
-/// Forces of cells in thin walls on the nodes of bricks that are awake.
+/// Sums the forces of cells in thin walls on the nodes of awake bricks.
 void CpuLeapfrog::sumWalls(CpuLattice& lattice) {
   CpuWalls& walls = lattice.strengths.walls;
   parallel_.ranges(wall_bricks_.size(), portions_, [&](size_t first, size_t end) {
@@ -190,14 +191,14 @@ void CpuLeapfrog::stepBricks(CpuLattice& lattice, const Substep& step, const lay
   }
 }
 
-/// What tools do to the nodes of a brick in the substep.
+/// Applies tools to the nodes of a brick in the substep.
 void CpuLeapfrog::touch(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, uint32_t brick) {
   const uint32_t first = lattice.store.first_active[brick], end = lattice.store.first_active[brick + 1];
   resolveContacts(lattice, step, motions, &lattice.store.active[first], end - first);
-  speed2_[brick] = std::numeric_limits<float>::infinity();  // stays awake
+  speed2_[brick] = std::numeric_limits<float>::infinity();  // keeps it awake
 }
 
-/// One substep of the nodes with explicit connections.
+/// Steps the nodes with explicit connections.
 void CpuLeapfrog::stepNetwork(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
   network_->step(lattice, step, compensation_);
   if (!step.tools) return;

@@ -4,14 +4,14 @@
 
 #include <vector>
 
+#include "solver/cpu/kernels/tool_passes.h"
 #include "solver/cpu/simd/kernels.h"
+#include "solver/cpu/state/cpu_stepper.h"
 #include "solver/cpu/steps/network.h"
-#include "solver/cpu/store/cpu_stepper.h"
-#include "solver/cpu/text/tool_passes.h"
 
 namespace viscera {
 
-/// Leapfrog, brick by brick where they are awake: SIMD kernels (kernels.h), and network.h for explicit connections.
+/// Leapfrog: SIMD kernels (kernels.h) brick by brick, where these are awake, and network.h for explicit connections.
 class CpuLeapfrog : public CpuStepper {
  public:
   CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts);
@@ -24,7 +24,7 @@ class CpuLeapfrog : public CpuStepper {
   void predict(const Substep& step);
   void sumCells(CpuLattice& lattice);
   void sumWalls(CpuLattice& lattice);
-  void forgetSums();
+  void clearSums();
   void stepBricks(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, size_t first,
                   size_t end);
   void stepNetwork(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
@@ -33,30 +33,30 @@ class CpuLeapfrog : public CpuStepper {
   const Parallel& parallel_;
   Sleep& sleep_;
   CpuNetwork* network_;
-  bool dashpot_;  ///< some body has one
+  bool dashpot_;  ///< at least one body has a dashpot
   simd::BrickLeapfrog step_bricks_;
   simd::BrickPredict predict_bricks_;
   simd::BrickCells sum_cells_;
   simd::WallForces sum_walls_;
-  AlignedVector<float> predicted_;           ///< [3 * slots], see kernels.h; empty where it is not needed
-  std::vector<uint32_t> all_bricks_;         ///< where it is
-  std::vector<uint32_t> predicted_awake_;    ///< those awake when it was written as a whole
+  AlignedVector<float> predicted_;           ///< [3 * slots], see kernels.h; empty if not needed
+  std::vector<uint32_t> all_bricks_;         ///< all bricks, if predicted_ is needed
+  std::vector<uint32_t> predicted_awake_;    ///< bricks that were awake when all of it was written
   AlignedVector<float> cell_sums_;           ///< [simd::kCellSums * bricks] N; empty without a law
-  std::vector<uint32_t> cell_bricks_;        ///< whose cells the nodes of those awake are corners of
-  std::vector<uint32_t> cell_bricks_awake_;  ///< those awake when they were listed
-  AlignedVector<float> wall_forces_;         ///< [3 * slots] N; empty without such cells
-  std::vector<uint32_t> wall_groups_;        ///< that act on bricks that are awake
-  std::vector<uint32_t> wall_bricks_;        ///< that they look at
-  std::vector<uint8_t> wanted_;              ///< [bricks] while they are listed
+  std::vector<uint32_t> cell_bricks_;        ///< bricks of the cells with corners in awake bricks
+  std::vector<uint32_t> cell_bricks_awake_;  ///< bricks that were awake when these were listed
+  AlignedVector<float> wall_forces_;         ///< [3 * slots] N; empty without cells in thin walls
+  std::vector<uint32_t> wall_groups_;        ///< groups that act on awake bricks
+  std::vector<uint32_t> wall_bricks_;        ///< bricks with nodes of these groups
+  std::vector<uint8_t> wanted_;              ///< [bricks] scratch while listing
   AlignedVector<float> compensation_;        ///< [6 * slots], see kernels.h; empty without compensation
   simd::LeapfrogJob job_{};
-  float deepest_m_;                 ///< of surface_depth
+  float deepest_m_;                 ///< largest value of surface_depth [m]
   std::vector<uint8_t> near_;       ///< [bricks]
   std::vector<uint16_t> strained_;  ///< [bricks]
   std::vector<float> speed2_;       ///< [bricks]
   CpuEdges edges_;
   std::vector<NodeReach> reaches_;  ///< of probes in this substep, for nodes with explicit connections
-  Portions portions_;               ///< of bricks
+  Portions portions_;               ///< portions of bricks
 };
 
 }  // namespace viscera

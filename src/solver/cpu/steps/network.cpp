@@ -18,9 +18,9 @@ namespace {
 #define VARIANT_NAME Place
 #define VARIANT_BASE Kernel
 #define VARIANT_TEXT "shaders/solver/tissue/lattice.glsl"
-#include "solver/cpu/text/glsl_variant.inc"
+#include "solver/cpu/kernels/glsl_variant.inc"
 
-/// Where an invocation puts a node's energies, whatever its index.
+/// Storage of a node's energies in one place, whatever the index of the invocation.
 struct OneNode {
   vec2 sum = vec2(0);
   vec2& operator[](uint) { return sum; }
@@ -37,7 +37,7 @@ struct MeasuringKernel : Kernel {
 #define VARIANT_BASE MeasuringKernel
 #define VARIANT_TEXT "shaders/solver/step/measure.comp"
 #define VARIANT_FEATURES WITH_DASHPOT
-#include "solver/cpu/text/glsl_variant.inc"
+#include "solver/cpu/kernels/glsl_variant.inc"
 
 struct CutKernel : Kernel {
   explicit CutKernel(CpuLattice& lattice)
@@ -58,13 +58,13 @@ struct CutKernel : Kernel {
 #define VARIANT_NAME CutLinks
 #define VARIANT_BASE CutKernel
 #define VARIANT_TEXT "shaders/solver/tools/cut_links.comp"
-#include "solver/cpu/text/glsl_variant.inc"
+#include "solver/cpu/kernels/glsl_variant.inc"
 
 #define VARIANT_NAME CutLinksOfParticles
 #define VARIANT_BASE CutKernel
 #define VARIANT_TEXT "shaders/solver/tools/cut_links.comp"
 #define VARIANT_FEATURES WITH_PARTICLES
-#include "solver/cpu/text/glsl_variant.inc"
+#include "solver/cpu/kernels/glsl_variant.inc"
 
 }  // namespace
 
@@ -72,7 +72,8 @@ struct CutKernel : Kernel {
 
 namespace {
 
-/// @param may_lose  (slot, slot): may the spring between them be cut?
+/// Cuts links.
+/// @param may_lose  (slot, slot): returns whether the spring between them may be cut
 template <class Kernel, class MayLose>
 uint32_t cutWith(CpuLattice& lattice, const layout::ToolMotion& motion, const MayLose& may_lose) {
   Kernel kernel(lattice);
@@ -86,7 +87,7 @@ uint32_t cutWith(CpuLattice& lattice, const layout::ToolMotion& motion, const Ma
 }
 
 void takeLarger(uint32_t& bits, uint32_t other) {
-  bits = std::max(bits, other);  // positive floats order like their bits
+  bits = std::max(bits, other);  // positive floats sort like their bits
 }
 
 template <class Kernel>
@@ -110,8 +111,8 @@ void measureWith(CpuLattice& lattice, const std::vector<uint32_t>& slots, layout
   takeLarger(stats.max_rate_bits, kernel.stats.max_rate_bits);
 }
 
-constexpr Portions kGroupsPerStep{2, 16};      // of a substep: some 10 us of work at most
-constexpr Portions kGroupsPerSpread{64, 512};  // the same
+constexpr Portions kGroupsPerStep{2, 16};      // per step: some 10 us of work at most
+constexpr Portions kGroupsPerSpread{64, 512};  // likewise
 
 std::vector<uint32_t> groupsOf(const std::vector<uint32_t>& slots) {
   std::vector<uint32_t> out;

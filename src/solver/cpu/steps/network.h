@@ -4,41 +4,42 @@
 
 #include <vector>
 
+#include "solver/cpu/kernels/glsl_kernel.h"
+#include "solver/cpu/kernels/near_links.h"
 #include "solver/cpu/simd/kernels.h"
+#include "solver/cpu/state/parallel.h"
 #include "solver/cpu/steps/network_kernels.h"
-#include "solver/cpu/store/parallel.h"
-#include "solver/cpu/text/glsl_kernel.h"
-#include "solver/cpu/text/near_links.h"
 
 namespace viscera {
 
 class Archive;
 
-/// A probe in a substep: nodes that come into this sphere are looked at one by one (shaders/solver/tools/contact.glsl).
+/// A probe in a substep: nodes in this sphere are tested one by one (shaders/solver/tools/contact.glsl).
 struct NodeReach {
   glsl::vec3 center_m;
   float radius_m;
 };
 
-/// Leapfrog, measurements and cuts of bodies with explicit connections: shaders/solver/step/leapfrog.comp,
-/// measure.comp and cut_links.comp on the CPU. Leapfrog is a
-/// SIMD kernel (network_kernels.h), the rest the shaders' text.
+/// Leapfrog, measurements and cuts of bodies with explicit connections: shaders/solver/step/leapfrog.comp, measure.comp
+/// and cut_links.comp on the CPU. Leapfrog is a SIMD kernel (network_kernels.h), the rest is the shaders' text.
 class CpuNetwork {
  public:
   CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, const FeatureSet& features,
              const simd::Kernels& kernels);
 
-  /// One substep of all of them, without contacts, from the current state into the other one.
+  /// Makes one substep of all these bodies, without contacts, from the current state to the other one.
   /// @param compensation  [6 * slots] of the lattice's kernels; empty without compensation
   void step(CpuLattice& lattice, const Substep& step, AlignedVector<float>& compensation);
-  /// Slots of the nodes just stepped that are held, or within reach of a probe.
+  /// Returns the slots of the nodes just stepped that are held or within reach of a probe.
   /// @param reaches  of this substep
   const std::vector<uint32_t>& touched(CpuLattice& lattice, const std::vector<NodeReach>& reaches);
-  /// Adds what they measure to what was measured of the others: energies, maxima and counts.
+  /// Adds the measurements of these bodies to those of the others: energies, maxima and counts.
   void measure(CpuLattice& lattice, layout::TickStats& stats) const;
-  /// Erases the springs that the swept blade crosses. @param spared  as of CpuCut::run()   @return how many
+  /// Removes the springs that the swept blade crosses.
+  /// @param spared  as for CpuCut::run()
+  /// @return number of springs cut
   uint32_t cut(CpuLattice& lattice, const layout::ToolMotion& motion, bool particles, const uint8_t* spared = nullptr);
-  /// The state was written from outside: springs may have changed.
+  /// Updates the springs after an external write to the state.
   void restart(const CpuLattice& lattice);
 
  private:
@@ -47,7 +48,7 @@ class CpuNetwork {
   bool dashpot_;
   NearLinks near_;
   simd::LinkRows rows_;
-  AlignedVector<float> places_, speeds_;  ///< of NetworkJob
+  AlignedVector<float> places_, speeds_;  ///< as in NetworkJob
   std::vector<uint32_t> slots_, touched_;
 };
 

@@ -17,11 +17,12 @@
 HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
-constexpr float kCollapsedShare = 1e-6f;  // of the rest length: kShortest of shaders/solver/tissue/spring.glsl
-constexpr size_t kRun = 8;                // links that are summed before they are added to the others
-constexpr float kLeast = 1e-30f;          // far below any length: nothing is divided by 0
+constexpr float kCollapsedShare = 1e-6f;  // share of the rest length: kShortest of shaders/solver/tissue/spring.glsl
+constexpr size_t kRun = 8;                // links that are summed before the sum is added to the others
+constexpr float kLeast = 1e-30f;          // far below any length, to prevent division by 0
 
-/// Every fourth of some vectors of four, side by side. @param at  of the first of them
+/// Returns every fourth of some vectors of four, next to each other.
+/// @param at  of the first of them
 template <class D>
 HWY_INLINE hn::Vec<D> everyFourth(D d, const float* vectors, const int32_t* at) {
   if constexpr (hn::MaxLanes(d) == 4) {
@@ -31,11 +32,11 @@ HWY_INLINE hn::Vec<D> everyFourth(D d, const float* vectors, const int32_t* at) 
     return hn::Combine(d, everyFourth(half, vectors, at + hn::MaxLanes(half)), everyFourth(half, vectors, at));
   }
 }
-/// The vectors of a row's far ends: whole ones and transposed, which takes a third of the time that gathering three
-/// components takes.
+/// Returns the vectors of a row's far ends. Loading whole vectors and transposing them takes a third of the time of
+/// gathering three components.
 HWY_INLINE Vec3 gathered(const float* vectors, const int32_t* at) {
   const Tag d;
-  const hn::RepartitionToWide<Tag> pairs;  // of components
+  const hn::RepartitionToWide<Tag> pairs;  // pairs of components
   const V a = everyFourth(d, vectors, at), b = everyFourth(d, vectors, at + 1), c = everyFourth(d, vectors, at + 2),
           e = everyFourth(d, vectors, at + 3);
   const auto low = hn::BitCast(pairs, hn::InterleaveLower(d, a, b)),
@@ -53,7 +54,8 @@ struct Links {
   V per_length2;  ///< 1/l0^2
   M live;
 };
-/// @param i  of the row's first lane
+/// Loads links of a row.
+/// @param i  index of the row's first lane
 HWY_INLINE Links linksOf(const LinkRows& rows, const LinkRows::Row& row, size_t i) {
   const float* const at = &rows.constants[row.constants];
   const uint32_t live = row.live >> i;
@@ -65,8 +67,10 @@ HWY_INLINE Links linksOf(const LinkRows& rows, const LinkRows::Row& row, size_t 
   return {{each(0), each(1), each(2)}, l0, each(4), each(5), hn::Div(set(1), hn::Mul(l0, l0)), mask};
 }
 
-/// Force of links of any length (shaders/solver/tissue/spring.glsl, springBetween).
-/// @param w  u_far - u_near   @param dv  v_far - v_near   @param twice  L^2 - l0^2
+/// Returns the force of links of any length (shaders/solver/tissue/spring.glsl, springBetween).
+/// @param w  u_far - u_near
+/// @param dv  v_far - v_near
+/// @param twice  L^2 - l0^2
 template <bool kDashpot>
 HWY_INLINE Vec3 anyPull(const Links& of, const Vec3& w, const Vec3& dv, V twice, V dashpot_s) {
   const V least = set(kLeast);
@@ -83,7 +87,8 @@ HWY_INLINE Vec3 anyPull(const Links& of, const Vec3& w, const Vec3& dv, V twice,
   return hn::Mul(of.k, pull) * direction;
 }
 
-/// What a row of links adds to the force on its nodes. @param far  of the row's first lane
+/// Adds the forces of a row of links to its nodes.
+/// @param far  of the row's first lane
 template <bool kDashpot>
 HWY_INLINE void addRow(const NetworkJob& job, const Links& of, const int32_t* far, const Vec3& u, const Vec3& v,
                        V dashpot_s, Vec3& force) {
@@ -103,7 +108,7 @@ HWY_INLINE void addRow(const NetworkJob& job, const Links& of, const int32_t* fa
   } else {
     added = anyPull<kDashpot>(of, w, dv, twice, dashpot_s);
   }
-  force = select(of.live, force + added, force);  // a spring that is cut may join places that are not even finite
+  force = select(of.live, force + added, force);  // the ends of a cut spring may not even be finite
 }
 
 template <bool kDashpot>
@@ -120,7 +125,7 @@ HWY_INLINE void stepGroups(const NetworkJob& job, size_t first, size_t last) {
       const Vec3 u = loadPlanes(job.displacement + at), v = loadPlanes(job.velocity + at);
       Vec3 force = zero3();
       for (size_t r = rows.starts[g]; r < rows.starts[g + 1];) {
-        Vec3 run = zero3();  // short sums of their own: hundreds of links in one would lose a digit
+        Vec3 run = zero3();  // partial sums, as a single sum over hundreds of links would lose a digit
         for (const size_t end = std::min<size_t>(r + kRun, rows.starts[g + 1]); r < end; ++r) {
           addRow<kDashpot>(job, linksOf(rows, rows.rows[r], i), &rows.far[kGroupNodes * r + i], u, v, dashpot_s, run);
         }
@@ -163,7 +168,7 @@ void leapfrogNetworkOf(const NetworkJob& job, size_t first, size_t last) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include "solver/cpu/store/cpu_lattice.h"
+#include "solver/cpu/state/cpu_lattice.h"
 
 namespace viscera::simd {
 
@@ -180,7 +185,7 @@ NetworkGroups spreadNetworkFor(int64_t target) {
 namespace {
 
 constexpr size_t kConstants = 6;
-constexpr double kAlikeCost = 0.6;  // of a row of links that are alike over another, in a box of 42,875 nodes
+constexpr double kAlikeCost = 0.6;  // cost of a row of equal links over another row, in a box of 42,875 nodes
 
 std::array<float, kConstants> constantsOf(const layout::Link& link) {
   const layout::vec4& rest = link.offset_length;
@@ -205,11 +210,11 @@ LinkRows::LinkRows(const JoinedNetwork& network, const std::vector<uint32_t>& it
   writeStiffness(network.links);
 }
 
-/// Rows of 16 nodes: first those of links that are alike in many of them, then of what is left of each. Either in the
-/// order in which a node has them: sorted by direction, sums of hundreds would lose a digit.
+/// Adds the rows of 16 nodes: first links that many of them have in common, then the rest of each node. Both are in the
+/// node's own order: sorted by direction, sums of hundreds of links would lose a digit.
 void LinkRows::addGroup(const JoinedNetwork& network, uint32_t group) {
   std::map<std::array<float, kConstants>, size_t> known;
-  std::vector<std::vector<uint32_t>> kinds;  // [16] links that are alike, of each kind
+  std::vector<std::vector<uint32_t>> kinds;  // [16] equal links, by kind
   std::array<std::vector<uint32_t>, kGroupNodes> rest;
   const auto ofEach = [&](const auto& visit) {
     for (size_t i = 0; i < kGroupNodes; ++i) {
@@ -223,7 +228,7 @@ void LinkRows::addGroup(const JoinedNetwork& network, uint32_t group) {
     uint32_t& place = kinds[kind->second][i];
     if (place == kNone) place = l;
   });
-  // Those shared by most nodes first: so many of them get rows of their own as cost least with the rows of the rest.
+  // Kinds that most nodes share come first. As many of them get rows of their own as minimize the total cost.
   std::vector<size_t> by_count(kinds.size());
   std::iota(by_count.begin(), by_count.end(), size_t{0});
   const auto shared = [&](size_t kind) {
@@ -260,6 +265,7 @@ void LinkRows::addGroup(const JoinedNetwork& network, uint32_t group) {
   }
 }
 
+/// Adds one row.
 /// @param its  [16] links
 void LinkRows::addRow(const std::vector<layout::Link>& links, const std::vector<uint32_t>& its) {
   link.insert(link.end(), its.begin(), its.end());
@@ -277,7 +283,7 @@ void LinkRows::addRow(const std::vector<layout::Link>& links, const std::vector<
     constants.insert(constants.end(), first->begin(), first->end());
     constants.push_back(1 / ((*first)[3] * (*first)[3]));
     constants.resize(constants.size() + kGroupNodes - kConstants -
-                     1);  // whole vectors, so that loads stay within lines
+                     1);  // whole vectors, so that loads stay within cache lines
     return;
   }
   for (size_t c = 0; c < kConstants; ++c) {

@@ -14,29 +14,30 @@
 
 namespace viscera::simd {
 
-constexpr size_t kGroupNodes = 16;  ///< slots on end that are stepped together; a brick has four such groups
+constexpr size_t kGroupNodes = 16;  ///< adjacent slots that are stepped together; a brick has four such groups
 
-/// The links of a network in rows: row r of a group has the r-th link of each of its 16 nodes, filled up where a node
-/// has fewer. As wide as its node of most links, so nodes of like valence should lie together. What rows keep is most
-/// of what a substep reads: of links that are all alike, as within lattices and sheets, it is kept once.
+/// The links of a network in rows. Row r of a group has the r-th link of each of its 16 nodes, with padding for nodes
+/// with fewer links. A group has as many rows as its node with most links, so nodes of similar valence should be
+/// adjacent. Most memory that a substep reads is rows. The constants of a row of equal links, common in lattices and
+/// sheets, are therefore stored once.
 struct LinkRows {
   struct Row {
-    uint32_t
-        constants;   ///< where they begin: x, y, z of the rest offset, l0, prestrain, k; 1/l0^2 where they are alike
-    uint16_t live;   ///< bit per node: it has a link there, which is not cut
-    uint16_t alike;  ///< each constant is there once, not 16 times
+    uint32_t constants;  ///< where they begin: x, y, z of the rest offset, l0, prestrain, k; plus 1/l0^2 in rows of
+                         ///< equal links
+    uint16_t live;       ///< bit per node: it has a link there that is not cut
+    uint16_t alike;      ///< 1: each constant is stored once, not 16 times
   };
   LinkRows() = default;
-  /// @param groups  of slots, ascending, that have explicit connections
+  /// @param groups  those with explicit connections, ascending
   LinkRows(const JoinedNetwork& network, const std::vector<uint32_t>& groups);
-  /// Takes over the stiffness of links that were cut, or made whole.
+  /// Copies the stiffness of links after cuts or repairs.
   void writeStiffness(const std::vector<layout::Link>& links);
 
   std::vector<uint32_t> groups;  ///< [groups] first slot / 16
-  std::vector<uint32_t> starts;  ///< [groups + 1] rows
+  std::vector<uint32_t> starts;  ///< [groups + 1] first row of each
   std::vector<uint32_t> link;    ///< [16 * rows] index of the link, or kNone
   AlignedVector<int32_t>
-      far;  ///< [16 * rows] four times the slot of the far end; of the near one where there is no link
+      far;  ///< [16 * rows] four times the slot of the far end; of the near end where there is no link
   std::vector<Row> rows;
   AlignedVector<float> constants;  ///< of all rows
   static constexpr uint32_t kNone = 0xffffffffu;
@@ -49,12 +50,12 @@ struct LinkRows {
 struct NetworkJob {
   const LinkRows* rows;
   Substep step;
-  bool dashpot;  ///< some body has one
+  bool dashpot;  ///< at least one body has a dashpot
   const layout::Brick* bricks;
   const layout::BodyParams* bodies;
   const float* displacement;  ///< [3 * slots] m
   const float* velocity;      ///< [3 * slots] m/s
-  float* places;              ///< [4 * slots] displacement once more, node by node, as far ends are looked up
+  float* places;              ///< [4 * slots] copy of displacement, node by node, for lookup by far ends
   float* speeds;              ///< [4 * slots] velocity; null without dashpots
   float* next_displacement;
   float* next_velocity;

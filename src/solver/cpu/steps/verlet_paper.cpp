@@ -20,18 +20,18 @@ struct PositionKernel : Kernel {
 #define VARIANT_BASE PositionKernel
 #define VARIANT_TEXT "shaders/solver/step/verlet_paper.comp"
 #define VARIANT_FEATURES WITH_REBUILD
-#include "solver/cpu/text/glsl_variant.inc"
+#include "solver/cpu/kernels/glsl_variant.inc"
 
 #define VARIANT_NAME Advance
 #define VARIANT_BASE PositionKernel
 #define VARIANT_TEXT "shaders/solver/step/verlet_paper.comp"
-#include "solver/cpu/text/glsl_variant.inc"
+#include "solver/cpu/kernels/glsl_variant.inc"
 
 #define VARIANT_NAME AdvanceWithTools
 #define VARIANT_BASE PositionKernel
 #define VARIANT_TEXT "shaders/solver/step/verlet_paper.comp"
 #define VARIANT_FEATURES WITH_TOOLS
-#include "solver/cpu/text/glsl_variant.inc"
+#include "solver/cpu/kernels/glsl_variant.inc"
 
 }  // namespace
 
@@ -64,7 +64,7 @@ void CpuVerletPaper::persist(Archive& archive, CpuLattice& /*lattice*/) {
 }
 
 void CpuVerletPaper::run(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions) {
-  // x_prev is a whole substep behind x: another length of it makes another x_prev.
+  // x_prev is one substep before x: a substep of another length needs another x_prev.
   if (step.restarted || step.dt_s != last_dt_s_) runNodes(parallel_, lattice, kernel<glsl::Rebuild>(lattice, step));
   last_dt_s_ = step.dt_s;
   step.tools ? advance<glsl::AdvanceWithTools>(lattice, step, motions) : advance<glsl::Advance>(lattice, step, motions);

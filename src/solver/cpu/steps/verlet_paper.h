@@ -6,7 +6,7 @@
 
 namespace viscera {
 
-/// Position Verlet as VR05 and GW print it: shaders/solver/step/verlet_paper.comp in C++, as
+/// Position Verlet as printed in VR05 and GW: shaders/solver/step/verlet_paper.comp in C++; see
 /// solver/gpu/steps/verlet_paper_pass.h.
 class CpuVerletPaper : public CpuStepper {
  public:

@@ -8,21 +8,21 @@
 #include "gpu/archive.h"
 #include "gpu/limits.h"
 #include "layout/bindings.h"
-#include "layout/surface_ways.h"
-#include "solver/cpu/store/sleep.h"
+#include "layout/surface_offsets.h"
+#include "solver/cpu/state/sleep.h"
 #include "solver/tissue/joined_lattice.h"
 
 namespace viscera {
 
 namespace {
 
-/// Blocks of the kernel that has most of them, LIST.
+/// Returns the number of storage blocks of LIST, the kernel with most of them.
 size_t mostBlocks(const FeatureSet& features) {
   return features.law ? 10 : 8;
 }
 
-/// Invocations of a brick: side by side on a GPU. On the processor, where they would run one after the other and wait
-/// for each other, one.
+/// Returns the number of invocations per brick. On a GPU they run in parallel. On a software renderer they would run
+/// one after the other and wait for each other, so there is one.
 uint32_t lanes() {
   return gpu::driverLimits().loads ? layout::kBrickSlots : 1;
 }
@@ -37,7 +37,7 @@ gpu::Program compiled(const FeatureSet& of, const char* feature, bool tools = fa
   return gpu::Program::compute("awake_bricks.comp", defines);
 }
 
-/// Where a brick's part begins and how long it is in an ascending list of slots.
+/// Finds the range of each brick in an ascending list of slots.
 void countIn(const std::vector<uint32_t>& slots, std::vector<layout::SleepingBrick>& bricks,
              uint32_t layout::SleepingBrick::*first, uint32_t layout::SleepingBrick::*count) {
   for (uint32_t i = 0; i < slots.size(); ++i) {
@@ -178,7 +178,9 @@ void AwakeBricks::slept(const Substep& step) {
   if (isLook(step)) restart();
 }
 
-/// @param here  what they are in this scene   @throws Error  they are others
+/// Checks the ranges of bricks in a saved state.
+/// @param here  those of this scene
+/// @throws Error  they differ
 void AwakeBricks::requireBricks(const Archive& archive, const std::vector<layout::SleepingBrick>& here) const {
   const std::vector<layout::SleepingBrick> read = bricks_.read();
   for (size_t b = 0; b < here.size(); ++b) {
@@ -186,12 +188,14 @@ void AwakeBricks::requireBricks(const Archive& archive, const std::vector<layout
     const bool same = is.kind <= layout::kNeverSleeps && is.first_node == was.first_node &&
                       is.node_count == was.node_count && is.first_cell == was.first_cell &&
                       is.cell_count == was.cell_count;
-    if (!same) archive.require(false, "brick " + std::to_string(b) + " is not of this tissue");
+    if (!same) archive.require(false, "brick " + std::to_string(b) + " does not belong to this tissue");
     if (is.awake > 1) archive.require(false, "brick " + std::to_string(b) + " is neither awake nor asleep");
   }
 }
 
-/// A list, into an archive or out of it. @param items  that it may have, of slots below `slots`   @throws Error
+/// Saves or loads a list.
+/// @param slots  the list may hold slots below this number
+/// @throws Error
 void AwakeBricks::persistList(Archive& archive, gpu::RawBuffer& list, size_t slots) {
   gpu::persist(archive, list);
   if (!archive.reads() || list.bytes() == 0) return;
@@ -200,13 +204,13 @@ void AwakeBricks::persistList(Archive& archive, gpu::RawBuffer& list, size_t slo
   layout::AwakeList head;
   std::memcpy(&head, words.data(), sizeof head);
   constexpr size_t kHead = sizeof head / sizeof(uint32_t);
-  archive.require(head.count <= words.size() - kHead, "more is listed as awake than there is");
+  archive.require(head.count <= words.size() - kHead, "the list of awake items is longer than possible");
   const uint32_t groups = (head.count + group_size_ - 1) / group_size_;
   archive.require(head.groups_x <= std::max(1U, groups) && head.groups_y <= std::max(1U, groups) && head.groups_z <= 1,
-                  "more is dispatched than is listed as awake");
+                  "more groups are dispatched than items are awake");
   archive.require(std::all_of(words.begin() + kHead, words.begin() + kHead + head.count,
                               [slots](uint32_t slot) { return slot < slots; }),
-                  "what is listed as awake is not there");
+                  "an item of the list of awake items does not exist");
 }
 
 void AwakeBricks::persist(Archive& archive) {

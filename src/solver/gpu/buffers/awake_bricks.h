@@ -15,43 +15,43 @@ namespace viscera {
 
 class Archive;
 
-/// Which bricks leapfrog steps on the GPU, by the rule of the CPU's Sleep, found and listed there: kernels are
-/// dispatched over what is awake and the host need not know how much that is.
+/// Lists, made on the GPU, of the bricks that leapfrog steps, by the rule of the CPU's Sleep. Kernels are dispatched
+/// indirectly over the lists, so the host need not know their lengths.
 /// Owner of shaders/solver/step/awake_bricks.comp.
 class AwakeBricks {
  public:
-  /// @param speed_m_per_s  what is slower falls asleep, > 0
+  /// @param speed_m_per_s  slower bricks fall asleep, > 0
   AwakeBricks(const Model& model, const FeatureSet& features, const LatticeBuffers& buffers, double speed_m_per_s);
-  /// Has the driver enough storage blocks for the kernels?
+  /// Returns whether the driver has enough storage blocks for the kernels.
   static bool fits(const FeatureSet& features);
 
   void bind() const;
-  /// @name What wakes bricks
-  /// From the next substep on. The buffers must be bound.
+  /// @name Waking bricks
+  /// These take effect from the next substep on. The buffers must be bound.
   /// @{
   void wakeAll() { all_ = true; }
   void wakeNear(const std::vector<ToolBox>& boxes);  ///< at most kMaxStyluses
-  void wakeHeld();                                   ///< those with a node that is held
-  /// Those in the sphere that the blade may cut in, where springs were cut since the last substep.
+  void wakeHeld();                                   ///< those with a held node
+  /// Wakes bricks in the sphere that the blade may cut in, where springs were cut since the last substep.
   void wakeCut(uint32_t stylus);
-  void wakeMarked();  ///< another kernel has marked bricks as awake
+  void wakeMarked();  ///< those that another kernel has marked as awake
   /// @}
 
-  /// Lists what is awake, where that may have changed.
+  /// Lists what is awake, if that may have changed.
   void list();
-  void dispatchNodes() const;  ///< of the program in use, over the nodes that are awake; after list()
-  void dispatchCells() const;  ///< over the cells around these
-  /// They have made a substep, whose result is not the current state yet. After every Sleep::kSubsteps there is a look;
-  /// with cells in thin walls, whose forces reach farther, after every second one.
+  void dispatchNodes() const;  ///< dispatches the program in use over the awake nodes; after list()
+  void dispatchCells() const;  ///< dispatches it over the cells around these
+  /// Records that the awake bricks have made a substep; its result is not the current state yet. Every Sleep::kSubsteps
+  /// they are checked; with cells in thin walls, with their longer reach of forces, every second substep.
   void passed(const Substep& step);
-  /// The same where all sleep and no kernel runs.
+  /// Records a substep in which all bricks sleep and no kernel runs.
   void slept(const Substep& step);
-  void restart();  ///< substeps are counted from zero
+  void restart();  ///< restarts the count of substeps
   void persist(Archive& archive);
 
-  /// The first sizeof(layout::AwakeList) bytes say how much is awake.
+  /// Returns the list of awake nodes. Its first sizeof(layout::AwakeList) bytes hold the counts.
   const gpu::RawBuffer& nodes() const { return nodes_; }
-  /// [bricks] 1 where awake; waits. Bricks that never sleep are not.
+  /// Returns [bricks] 1 where awake; waits. Bricks that never sleep count as 0.
   std::vector<uint8_t> awake() const;
 
  private:

@@ -51,14 +51,14 @@ void StoreBuffers::persistNodes(Archive& archive) {
 
 namespace {
 
-/// Masses and depths in turn.
+/// Interleaves masses and depths.
 std::vector<float> inTurn(const std::vector<float>& masses_kg, const std::vector<float>& depths_m) {
   std::vector<float> out;
   for (size_t slot = 0; slot < masses_kg.size(); ++slot) out.insert(out.end(), {masses_kg[slot], depths_m[slot]});
   return out;
 }
 
-/// Of arrays with `planes` numbers to a slot: as inPlanes() of lattice.glsl has them.
+/// Rearranges arrays with `planes` numbers per slot as inPlanes() of lattice.glsl expects.
 std::vector<float> inPlanes(const std::vector<float>& by_slot, size_t planes) {
   std::vector<float> out(by_slot.size());
   for (size_t i = 0; i < by_slot.size(); ++i) {
@@ -95,9 +95,9 @@ void StrengthBuffers::writeMoments(const Model& model, const FeatureSet& feature
   }
   cell_strengths = gpu::Buffer<layout::vec4>(cells, "cell strengths");
   cell_moments = gpu::Buffer<layout::vec4>(moments.vectors, "cell moments");
-  std::vector<uint32_t> ways = surfaceWays(model);
+  std::vector<uint32_t> ways = surfaceOffsets(model);
   ways.resize(model.slots(), 0);
-  surface_ways = gpu::Buffer<uint32_t>(ways, "ways to the surface");
+  surface_offsets = gpu::Buffer<uint32_t>(ways, "ways to the surface");
   bulk_texels_ = gpu::TexelView(cell_strengths.raw(), gpu::TexelFormat::kRgba32f);
   moment_texels_ = gpu::TexelView(cell_moments.raw(), gpu::TexelFormat::kRgba32f);
   if (features.walls) walls = WallBuffers(model, moments);
@@ -107,14 +107,14 @@ void StrengthBuffers::bind() const {
   if (spring_stiffness.size()) {
     spring_texels_.bind(layout::kUnitSpringStiffness);
     if (cell_strengths.size()) bulk_texels_.bind(layout::kUnitCellBulk);
-    if (gpu::driverLimits().loads) {  // elsewhere kernels have texels alone, which may be longer
+    if (gpu::driverLimits().loads) {  // other drivers have texel buffers only, which may be longer
       spring_stiffness.bindStorage(layout::kBindSpringStiffness);
       if (cell_strengths.size()) cell_strengths.bindStorage(layout::kBindCellStrengths);
     }
   }
   if (cell_moments.size()) {
     moment_texels_.bind(layout::kUnitCellMoments);
-    surface_ways.bindStorage(layout::kBindSurfaceWays);
+    surface_offsets.bindStorage(layout::kBindSurfaceOffsets);
     walls.bind();
   }
   if (node_mass.size()) mass_texels_.bind(layout::kUnitNodeMass);
@@ -131,7 +131,7 @@ StateBuffers::StateBuffers(size_t slots, const FeatureSet& features) {
   if (features.compensated) compensation = gpu::Buffer<layout::vec4>(2 * slots, "compensation");
 }
 
-/// Two calls, as this is done after every substep.
+/// Binds both states with two calls, as this happens after every substep.
 void StateBuffers::bindBoth() const {
   const int next = 1 - current;
   gpu::bindStorages(layout::kBindDisplacementIn,
@@ -183,7 +183,7 @@ LatticeBuffers::LatticeBuffers(const Model& model, const std::vector<layout::Bod
     cell_forces = gpu::Buffer<layout::vec4>(vectors * store.slot_count, "cell forces");
     cell_force_texels_ = gpu::TexelView(cell_forces.raw(), gpu::TexelFormat::kRgba32f);
   }
-  bind();  // what is too large for the driver is said now
+  bind();  // reports buffers that are too large for the driver at once
 }
 
 void LatticeBuffers::bind() const {
@@ -233,7 +233,7 @@ void LatticeBuffers::writeAxialCut(const std::vector<float>& cut) {
 void LatticeBuffers::reset() {
   links.writeSpringCut({});
   store.reset();
-  visitState([](const StateField&, auto& buffer) { buffer.clear(); });  // all that the GPU keeps is 0 at rest
+  visitState([](const StateField&, auto& buffer) { buffer.clear(); });  // the whole state on the GPU is 0 at rest
   state.current = 0;
   stats.clear();
 }

@@ -16,12 +16,13 @@ namespace viscera {
 
 class Archive;
 
-/// Which nodes there are and where.
+/// The nodes and their arrangement.
 struct StoreBuffers {
   /// @param bodies  [bodies] material constants
   StoreBuffers(const Model& model, const std::vector<layout::BodyParams>& bodies, const FeatureSet& features);
   void bind() const;
   void reset();
+  /// Saves or loads node bits.
   /// @throws Error  the nodes of a saved state are not of this tissue
   void persistNodes(Archive& archive);
 
@@ -30,14 +31,14 @@ struct StoreBuffers {
   gpu::Buffer<layout::Brick> bricks;       ///< [bricks]
   gpu::Buffer<layout::BodyParams> bodies;  ///< [bodies]
   gpu::Buffer<layout::NodeBits> nodes;     ///< [slots]
-  gpu::Buffer<uint32_t> cells;             ///< [cells] slots of their lowest corners; feature volume
+  gpu::Buffer<uint32_t> cells;             ///< [cells] slots of the lowest corners of cells; feature volume
 
  private:
   std::vector<layout::NodeBits> whole_nodes_;
   gpu::TexelView brick_texels_;
 };
 
-/// How strong springs and cells are and how heavy the nodes, where the counts of springs do not say it.
+/// Strengths of springs and cells, and masses of nodes, if the counts of springs do not determine them.
 struct StrengthBuffers {
   /// @param masses_kg  [slots] of explicit connections; empty without
   /// @throws SceneError  parts (strengths)
@@ -45,11 +46,11 @@ struct StrengthBuffers {
   void bind() const;
 
   gpu::Buffer<float> spring_stiffness;  ///< [9 * slots] N/m, in planes; feature parts
-  gpu::Buffer<float> node_mass;  ///< [slots] kg; features parts, network; [2 * slots] with surfaceDepths() in turn
+  gpu::Buffer<float> node_mass;  ///< [slots] kg; features parts, network; [2 * slots] interleaved with surfaceDepths()
   gpu::Buffer<layout::vec4>
-      cell_strengths;  ///< [slots] x bulk, y rigidity [J], z which moments, w stress; features parts, law
+      cell_strengths;  ///< [slots] x bulk, y rigidity [J], z index of moments, w index of stress; features parts, law
   gpu::Buffer<layout::vec4> cell_moments;  ///< JoinedMoments::vectors; features parts, law
-  gpu::Buffer<uint32_t> surface_ways;      ///< [slots] surfaceWays(), or 0 everywhere; features parts, law
+  gpu::Buffer<uint32_t> surface_offsets;   ///< [slots] surfaceOffsets(), or 0 everywhere; features parts, law
   WallBuffers walls;                       ///< feature walls
 
  private:
@@ -57,12 +58,12 @@ struct StrengthBuffers {
   gpu::TexelView spring_texels_, mass_texels_, bulk_texels_, moment_texels_;
 };
 
-/// How all nodes move: two states, of which one is current and the other the last or the next one.
+/// Motion of all nodes as two states: one is current, the other is the last or the next one.
 struct StateBuffers {
   StateBuffers(size_t slots, const FeatureSet& features);
-  /// With the current state as input and the other as output.
+  /// Binds the current state as input and the other one as output.
   void bind() const;
-  /// What was output becomes the current state. Binds again only what that changes.
+  /// Makes the output state the current one. Rebinds only what changes.
   void swap();
 
   gpu::Buffer<layout::vec4> displacement[2];  ///< [slots] m
@@ -75,7 +76,7 @@ struct StateBuffers {
   gpu::TexelView displacement_texels_[2], velocity_texels_[2];
 };
 
-/// What styluses hold and give, feature tools; and what obstacles give.
+/// State of grips and impulses of styluses, feature tools; and impulses of obstacles.
 struct HandBuffers {
   HandBuffers(size_t slots, const FeatureSet& features);
   void bind() const;
@@ -89,10 +90,11 @@ struct HandBuffers {
 struct LinkBuffers {
   LinkBuffers(const Model& model, const FeatureSet& features);
   void bind() const;
-  /// Whole but for those that are cut. @param cut  [springs] as in CutSprings
+  /// Restores all links except those that are cut.
+  /// @param cut  [springs] as in CutSprings
   void writeSpringCut(const std::vector<float>& cut);
 
-  JoinedNetwork network;                    ///< whole, as on the host; empty without
+  JoinedNetwork network;                    ///< intact links, as on the host; empty without
   gpu::Buffer<layout::vec4> rest;           ///< [slots] m
   gpu::Buffer<uint32_t> link_starts;        ///< [slots + 1]
   gpu::Buffer<layout::Link> links;          ///< [2 * springs]
@@ -103,18 +105,19 @@ struct LinkBuffers {
   gpu::TexelView rest_texels_, start_texels_, link_texels_;
 };
 
-/// The nodes of all bodies in GPU memory, with all that is known of them: what every kernel of the solver works on.
+/// The nodes of all bodies in GPU memory with all their data. All kernels of the solver work on it.
 struct LatticeBuffers {
-  /// @param bodies  [bodies] material constants   @param features  what is allocated beyond the state itself
+  /// @param bodies  [bodies] material constants
+  /// @param features  determine which optional buffers exist
   LatticeBuffers(const Model& model, const std::vector<layout::BodyParams>& bodies, const FeatureSet& features);
 
-  /// Binds what all kernels share, with the current state as input and the other as output.
+  /// Binds the buffers that all kernels share, with the current state as input and the other one as output.
   void bind() const;
   void swap() { state.swap(); }
-  /// Rest state, whole springs, nothing held.
+  /// Resets to the rest state with intact springs and no grips.
   void reset();
-  /// Calls visit(StateField, buffer) with all of the state that a scene has, but node bits and cut links, which springs
-  /// follow from.
+  /// Calls visit(StateField, buffer) for the state that a scene has, except node bits and cut links, which follow from
+  /// the springs.
   template <class Visit>
   void visitState(const Visit& visit) {
     const auto there = [&](const StateField& field, auto& buffer) {
@@ -131,11 +134,11 @@ struct LatticeBuffers {
     there(fields::kImpulses, hands.impulses);
     there(fields::kImpulses, hands.obstacle_impulses);
   }
-  /// Clears what a roll-back clears.
+  /// Clears the fields that a roll-back clears.
   void clearRolledBack();
   void persist(Archive& archive);                                               ///< waits
   std::vector<float> readAxialCut(const std::vector<float>& spring_cut) const;  ///< both as in CutSprings; waits
-  void writeAxialCut(const std::vector<float>& cut);                            ///< as in CutSprings, none: whole
+  void writeAxialCut(const std::vector<float>& cut);                            ///< as in CutSprings; empty: all intact
   void writeSpringCut(const std::vector<float>& cut) { links.writeSpringCut(cut); }
 
   StoreBuffers store;
@@ -144,7 +147,7 @@ struct LatticeBuffers {
   StateBuffers state;
   HandBuffers hands;
   CutRecord record;
-  gpu::Buffer<layout::vec4> cut_sides;   ///< [slots] where there is axial_cut: see shaders/solver/tools/cut_sides.glsl
+  gpu::Buffer<layout::vec4> cut_sides;   ///< [slots] if there is axial_cut: see shaders/solver/tools/cut_sides.glsl
   gpu::Buffer<float> axial_cut;          ///< [record.size()] of implicit lattices; features cuts, lattice
   gpu::Buffer<layout::TickStats> stats;  ///< [1]
   gpu::Buffer<layout::vec4>

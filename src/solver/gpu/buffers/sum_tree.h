@@ -6,16 +6,16 @@
 
 namespace viscera {
 
-// A sum in a fixed order: runs of kSumRun terms become one partial sum each, level by level, until one is left. The
-// order depends on the number of terms only, and so does the rounding.
+// A sum in fixed order: runs of kSumRun terms become one partial sum each, level by level, until one is left. The
+// order, and so the rounding, depends only on the number of terms.
 
-constexpr size_t kSumRun = 64;  // measure.comp and sum_impulses.comp know the same number
+constexpr size_t kSumRun = 64;  // measure.comp and sum_impulses.comp use the same number
 
 constexpr size_t sumRuns(size_t terms) {
   return (terms + kSumRun - 1) / kSumRun;
 }
 
-/// Partial sums of all levels together.
+/// Returns the number of partial sums of all levels.
 inline size_t sumTreeSize(size_t terms) {
   size_t total = 0;
   for (size_t level = sumRuns(terms);; level = sumRuns(level)) {
@@ -24,7 +24,8 @@ inline size_t sumTreeSize(size_t terms) {
   }
 }
 
-/// Calls visit(inputs, input_first, output_first, last) per level; terms lie at 0, partial sums of level 1 behind.
+/// Calls visit(inputs, input_first, output_first, last) for each level. Terms begin at 0; the partial sums of level 1
+/// follow them.
 template <class Visit>
 void forEachSumLevel(size_t terms, Visit visit) {
   size_t inputs = terms, input_first = 0, output_first = terms;

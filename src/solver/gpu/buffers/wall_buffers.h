@@ -11,7 +11,7 @@
 
 namespace viscera {
 
-/// Second derivatives by rows of nodes, of cells in thin walls (physics.md 1, Thin walls); feature walls.
+/// Second derivatives from rows of nodes for cells in thin walls (physics.md 1, Thin walls); feature walls.
 struct WallBuffers {
   WallBuffers() = default;
   WallBuffers(const Model& model, const JoinedMoments& moments);

@@ -8,8 +8,8 @@
 #include "gpu/archive.h"
 #include "gpu/gl.h"
 #include "layout/bindings.h"
+#include "solver/contact/environment.h"
 #include "solver/contact/node_pairs.h"
-#include "solver/contact/surroundings.h"
 #include "viscera/model/scene/scene.h"
 
 namespace viscera {
@@ -47,7 +47,7 @@ CollisionPass::CollisionPass(const Model& model, const Scene& scene, const Featu
     push_ = stage("collision_push.comp");
     pairs_ = stage("collision_pairs.comp");
   }
-  bind();  // what is too large for the driver is said now
+  bind();  // reports buffers that are too large for the driver at once
 }
 
 void CollisionPass::bind() const {

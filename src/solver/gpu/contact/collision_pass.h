@@ -17,29 +17,30 @@ struct Scene;
 
 class Archive;
 
-/// Contacts between nodes: finds pairs and says what they do to either node (collision.h).
+/// Contacts between nodes: finds pairs and computes their impulses on both nodes (collision.h).
 /// Owner of shaders/solver/collision/*.comp.
 class CollisionPass {
  public:
   /// @param ahead  within an implicit substep: note() instead of run()
   CollisionPass(const Model& model, const Scene& scene, const FeatureSet& features, const LatticeBuffers& buffers,
                 bool ahead = false);
-  /// Pairs of the current state and their impulses, into `corrections`. The other state is that before the substep.
+  /// Finds the pairs of the current state and writes their impulses into `corrections`. The other state is that before
+  /// the substep.
   void run(const LatticeBuffers& buffers, const Substep& step) const;
-  /// Pairs that the increments lead to, for shaders/solver/implicit/implicit_pairs.glsl. @param also  what kernels are
-  /// told too
   using Tell = std::function<void(const gpu::Program&)>;
+  /// Finds the pairs at the positions after the increments, for shaders/solver/implicit/implicit_pairs.glsl.
+  /// @param also  sets further uniforms of the kernels
   void note(const LatticeBuffers& buffers, const Substep& step, const Tell& also) const;
   void bind() const;
-  /// The state was written from outside: see CpuSurroundings::restart().
+  /// Clears the effects of contacts after an external write to the state; see CpuEnvironment::restart().
   void restart();
   void persist(Archive& archive);
 
-  /// Copies how many nodes the last search passed over, as they lie in crowds, to `crowded` of the measurements; 0
-  /// where it saw everybody. Does not wait.
+  /// Copies the number of nodes that the last search skipped as crowded into `crowded` of the measurements; 0 if it
+  /// skipped none. Does not wait.
   void noteCrowded(const gpu::Buffer<layout::TickStats>& stats) const;
 
-  /// For tests: slots a < b of all pairs found in the current state, ascending, 64 per node at most. Waits.
+  /// Returns the slots a < b of all pairs found in the current state, ascending, at most 64 per node. For tests. Waits.
   std::vector<CollisionPair> findPairs(const LatticeBuffers& buffers) const;
 
  private:
@@ -48,12 +49,12 @@ class CollisionPass {
   void search(const LatticeBuffers& buffers, const Substep& step) const;
 
   CollisionConfig config_;
-  float widened_;  ///< of D_ij: how near two touch
+  float widened_;  ///< factor of D_ij at which two nodes touch
   float cell_m_;
   gpu::Program count_, place_, scatter_, order_;
   gpu::Program meet_, push_, pairs_, note_;
   gpu::Buffer<float> touch_depths_;        ///< touchDepths()
-  mutable gpu::Buffer<uint32_t> buckets_;  ///< see layout::kBindBuckets, and so on
+  mutable gpu::Buffer<uint32_t> buckets_;  ///< see layout::kBindBuckets and the bindings after it
   gpu::Buffer<uint32_t> unsorted_;
   gpu::Buffer<layout::uvec4> entries_;
   gpu::Buffer<layout::vec4> before_, contacts_, corrections_;

@@ -13,13 +13,15 @@
 
 namespace viscera {
 
-/// Erases the springs that the swept blade crosses, or all springs of the nodes near it. Owner of
-/// shaders/solver/tools/cut.comp (implicit connections) and cut_links.comp (explicit ones).
+/// Kernels that remove the springs that the swept blade crosses, or all springs of the nodes near it.
+/// Owner of shaders/solver/tools/cut.comp (implicit connections) and cut_links.comp (explicit ones).
 class CutPass {
  public:
   explicit CutPass(const FeatureSet& features);
+  /// Cuts springs.
   /// @param stylus  row of the bound tool motions
-  /// @param particles  erase nodes instead of single springs   @param spared  bodies that are not cut, a bit each
+  /// @param particles  removes nodes instead of single springs
+  /// @param spared  bodies that are not cut, a bit each
   void run(const LatticeBuffers& buffers, uint32_t stylus, bool particles, uint32_t spared = 0) const;
 
  private:

@@ -8,7 +8,8 @@ namespace viscera {
 
 namespace {
 
-/// As edges.comp has it: the count and the slots, then two vectors of each, which begin at a multiple of their size.
+/// Returns the size of the list in edges.comp: the count and the slots, then two vectors per slot, aligned to their
+/// size.
 size_t listBytes() {
   constexpr size_t kVector = sizeof(layout::vec4);
   const size_t slots = (1 + size_t{layout::kMostEdgeNodes}) * sizeof(uint32_t);

@@ -11,13 +11,13 @@
 
 namespace viscera {
 
-/// What probes do to springs on the skin that they touch between their ends. Owner of shaders/solver/tools/edges.comp.
+/// Contacts of probes with springs on the surface, between their ends. Owner of shaders/solver/tools/edges.comp.
 class EdgesPass {
  public:
   explicit EdgesPass(const FeatureSet& features);
-  /// Before leapfrog.comp, which lists the nodes.
+  /// Binds the list of nodes. Call it before leapfrog.comp, which writes the list.
   void bind() const { nodes_.bindStorage(layout::kBindEdgeNodes); }
-  /// After it. The buffers must be bound.
+  /// Pushes the listed springs. Call it after leapfrog.comp; the buffers must be bound.
   void run(const LatticeBuffers& buffers, const Substep& step) const;
 
  private:

@@ -3,19 +3,23 @@
 #pragma once
 
 #include "gpu/program.h"
-#include "solver/contact/tool_target.h"
+#include "solver/contact/tool_port.h"
 #include "solver/gpu/buffers/lattice_buffers.h"
 #include "solver/tissue/features.h"
 
 namespace viscera {
 
-/// Takes hold of nodes around a stylus tip and lets them go (VR05 2.7.2). Owner of shaders/solver/tools/grab.comp.
+/// Kernel that grips nodes around a stylus tip and releases them (VR05 2.7.2).
+/// Owner of shaders/solver/tools/grab.comp.
 class GrabPass {
  public:
   explicit GrabPass(const FeatureSet& features);
-  /// @param stylus  index, < kMaxStyluses   @param pose  its own, tissue frame   @param radius_m  the grip's reach
+  /// Grips nodes.
+  /// @param stylus  index, < kMaxStyluses
+  /// @param pose  of the stylus, tissue frame
+  /// @param radius_m  reach of the grip
   void takeHold(const LatticeBuffers& buffers, uint32_t stylus, const Pose& pose, double radius_m) const;
-  /// What the stylus gave in the tick is read from the stats, where they are bound.
+  /// Releases nodes. The impulse of the stylus in the tick is read from the stats, which must be bound.
   void letGo(const LatticeBuffers& buffers, uint32_t stylus, const Release& release) const;
 
  private:

@@ -14,7 +14,7 @@ NodePairs::NodePairs(const Model& model, const Scene& scene, const FeatureSet& f
       words_(1 + 2 * buffers.store.slot_count + mostPairEnds(buffers.store.active_count), "pairs"),
       rows_(2 * mostPairEnds(buffers.store.active_count), "contacts of pairs"),
       nodes_(3 * buffers.store.slot_count, "nodes with pairs") {
-  bind();  // what is too large for the driver is said now
+  bind();  // reports buffers that are too large for the driver at once
 }
 
 void NodePairs::bind() const {

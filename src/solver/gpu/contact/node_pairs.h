@@ -9,25 +9,25 @@ namespace viscera {
 
 struct Scene;
 
-/// Contacts between nodes within an implicit substep (shaders/solver/implicit/implicit_pairs.glsl): who may touch whom,
-/// found where the first iterate leads, and their memory. What they do is in ImplicitSubstep.
+/// Contacts between nodes within an implicit substep (shaders/solver/implicit/implicit_pairs.glsl): pairs that may
+/// touch, found at the positions of the first iterate, and their storage. ImplicitSubstep applies their forces.
 class NodePairs {
  public:
   NodePairs(const Model& model, const Scene& scene, const FeatureSet& features, const LatticeBuffers& buffers);
 
   void bind() const;
-  /// Finds the pairs, and marks nodes that have some. The increments must be bound.
+  /// Finds the pairs, and marks nodes with pairs. The increments must be bound.
   void find(const LatticeBuffers& buffers, const Substep& step) const;
-  /// The state was written from outside: the last forces of contacts are forgotten.
+  /// Clears the last forces of contacts after an external write to the state.
   void restart() { nodes_.clear(); }
   void persist(Archive& archive);
-  /// Tells a kernel where they are, and how contacts rub and bounce.
+  /// Binds the pairs to a kernel, and sets the friction and restitution of contacts.
   void tell(const gpu::Program& program, const Substep& step) const;
 
  private:
   CollisionPass search_;
   CollisionConfig config_;
-  mutable gpu::Buffer<uint32_t> words_;     ///< see layout::kBindPairWords, and so on
+  mutable gpu::Buffer<uint32_t> words_;     ///< see layout::kBindPairWords and the bindings after it
   gpu::Buffer<layout::vec4> rows_, nodes_;  ///< [2 * ends], [3 * slots]
 };
 

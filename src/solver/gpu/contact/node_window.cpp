@@ -20,7 +20,7 @@ NodeWindow::NodeWindow(const FeatureSet& features, size_t most, AwakeBricks* awa
   gather_ = gpu::Program::compute("node_window.comp", defines);
 }
 
-/// Slots are sent where they have changed only.
+/// Uploads slots only if they have changed.
 void NodeWindow::show(const std::vector<uint32_t>& slots) {
   slots_.bindStorage(layout::kBindWindowSlots);
   ways_.bindStorage(layout::kBindWindow);

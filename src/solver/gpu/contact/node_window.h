@@ -12,17 +12,21 @@
 
 namespace viscera {
 
-/// A few nodes as the host sees them within a tick, for what acts on them there: it waits for the GPU in every
-/// substep. Owner of shaders/solver/tools/node_window.comp.
+/// Access of the host to a few nodes within a tick, for models that run there. It waits for the GPU in every substep.
+/// Owner of shaders/solver/tools/node_window.comp.
 class NodeWindow {
  public:
-  /// @param most  slots in a call   @param awake  null where nothing sleeps; must outlive the window
+  /// @param most  largest number of slots in a call
+  /// @param awake  null if nothing sleeps; must outlive the window
   NodeWindow(const FeatureSet& features, size_t most, AwakeBricks* awake);
-  /// Displacements and velocities as they are now; waits. @param slots  of nodes, none twice   @param u_m, v_m_per_s as
-  /// long as slots
+  /// Reads current displacements and velocities; waits.
+  /// @param slots  of nodes, each at most once
+  /// @param u_m, v_m_per_s  as long as slots
   void read(const std::vector<uint32_t>& slots, std::vector<Vector3f>& u_m, std::vector<Vector3f>& v_m_per_s);
-  /// Changes velocities, and displacements by what they make of it in a substep; the momentum goes to the reaction of a
-  /// stylus. The buffers must be bound. @param slots  as above   @param dv_m_per_s  as long as slots
+  /// Changes velocities, and displacements by the effect in one substep. The momentum is added to the reaction of a
+  /// stylus. The buffers must be bound.
+  /// @param slots  as above
+  /// @param dv_m_per_s  as long as slots
   void push(const LatticeBuffers& buffers, uint32_t stylus, float dt_s, const std::vector<uint32_t>& slots,
             const std::vector<Vector3f>& dv_m_per_s);
 
@@ -33,8 +37,8 @@ class NodeWindow {
   gpu::Program gather_, scatter_;
   AwakeBricks* awake_;
   uint32_t group_size_;
-  std::vector<uint32_t> shown_;     ///< in slots_
-  bool wakes_ = true;               ///< some of these may be asleep
+  std::vector<uint32_t> shown_;     ///< content of slots_
+  bool wakes_ = true;               ///< some of these nodes may be asleep
   gpu::Buffer<uint32_t> slots_;     ///< [most]
   gpu::Buffer<layout::vec4> ways_;  ///< [2 * most]
   std::vector<layout::vec4> host_;

@@ -12,13 +12,13 @@
 
 namespace viscera {
 
-/// Computes what cells that obey a law do to their corners, for the integrators to gather (physics.md 1). Owner of
-/// shaders/solver/tissue/cell_forces.comp. Exists only where some body has a law.
+/// Kernel that computes the forces of cells with a law on their corners, which the integrators gather (physics.md 1).
+/// Owner of shaders/solver/tissue/cell_forces.comp. Exists only if some body has a law.
 class CellPass {
  public:
-  /// @param awake  of cells beside these bricks only; null: of all
+  /// @param awake  only for cells next to these bricks; null: for all
   explicit CellPass(const FeatureSet& features, const AwakeBricks* awake = nullptr);
-  /// Leaves the forces of every cell in buffers.cell_forces, and those of rows of nodes in thin walls.
+  /// Writes the forces of every cell into buffers.cell_forces, including those of rows of nodes in thin walls.
   void run(const LatticeBuffers& buffers) const;
 
  private:
@@ -30,8 +30,7 @@ class CellPass {
   uint32_t group_size_;
 };
 
-/// Marks cells that have lost a spring: they are no longer whole. Owner of shaders/solver/tissue/cell_forces.comp
-/// (feature CUT).
+/// Kernel that marks cells that have lost a spring. Owner of shaders/solver/tissue/cell_forces.comp (feature CUT).
 class TornCellsPass {
  public:
   explicit TornCellsPass(const FeatureSet& features);

@@ -23,7 +23,8 @@ void ReactionPass::runObstacles(const LatticeBuffers& buffers, const std::vector
   }
 }
 
-/// Of two at a time. @param giver  the first of the two
+/// Sums the impulses of two givers at a time.
+/// @param giver  the first of the two
 void ReactionPass::sum(const LatticeBuffers& buffers, const Places& tips, uint32_t giver) const {
   partials_.bindStorage(layout::kBindPartials);
   size_t inputs = buffers.store.active_count, input_first = 0, output_first = 0;

@@ -11,18 +11,20 @@
 
 namespace viscera {
 
-/// Sums the momentum that each stylus, or each obstacle, gave over a tick, in a fixed order.
+/// Kernel that sums the momentum that each stylus, or each obstacle, gave in a tick, in a fixed order.
 /// Owner of shaders/solver/step/sum_impulses.comp.
 class ReactionPass {
  public:
-  /// @param obstacles  of obstacles instead of styluses
+  /// @param obstacles  for obstacles instead of styluses
   ReactionPass(const FeatureSet& features, size_t active_count, bool obstacles = false);
-  /// Leaves impulse, angular and touched in the stats; clears the impulses. @param tips  [styluses] tissue frame
+  /// Writes impulse, angular and touched into the stats, and clears the impulses.
+  /// @param tips  [styluses] tissue frame [m]
   void run(const LatticeBuffers& buffers, const std::array<Vector3f, layout::kMaxStyluses>& tips) const {
     sum(buffers, tips, 0);
   }
 
-  /// Leaves obstacle_impulse and obstacle_angular there. @param places  [obstacles] tissue frame
+  /// Writes obstacle_impulse and obstacle_angular into the stats.
+  /// @param places  [obstacles] positions, tissue frame [m]
   void runObstacles(const LatticeBuffers& buffers, const std::vector<Vector3f>& places) const;
 
  private:

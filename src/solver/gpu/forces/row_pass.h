@@ -12,10 +12,11 @@ namespace viscera {
 /// row_forces.comp. Exists only with feature walls.
 class RowPass {
  public:
-  /// Leaves the second differences that cells read. @param awake  only where cells beside bricks that are awake do, as
-  /// these are listed
+  /// Returns the pass that writes the second differences which cells read.
+  /// @param awake  only for cells next to awake bricks, as listed
   static RowPass differences(const FeatureSet& features, bool awake);
-  /// Gathers what cells have done to these, for their nodes. @param awake  the same
+  /// Returns the pass that gathers the forces of cells on these differences for the nodes.
+  /// @param awake  likewise
   static RowPass forces(const FeatureSet& features, bool awake);
   void run(const LatticeBuffers& buffers) const;
 

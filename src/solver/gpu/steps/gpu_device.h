@@ -21,7 +21,7 @@ class GpuDevice {
 
   template <class T>
   struct Field : gpu::Buffer<T> {
-    /// @param gathered  seen through texel fetches too
+    /// @param gathered  also readable through texel fetches
     explicit Field(size_t count, const char* name = "guard", bool gathered = false) : gpu::Buffer<T>(count, name) {
       if (gathered) texels = gpu::TexelView(this->raw(), gpu::TexelFormat::kRgba32f);
     }
@@ -33,7 +33,8 @@ class GpuDevice {
     uint32_t told = 0;
   };
 
-  /// All of them must outlive the device. @param contacts  between nodes, part of the solution; null: none
+  /// All arguments must outlive the device.
+  /// @param contacts  between nodes, part of the solution; null: none
   GpuDevice(const FeatureSet& features, const LatticeBuffers& lattice, const NodePairs* contacts = nullptr);
 
   size_t slots() const { return lattice_.store.slot_count; }
@@ -49,7 +50,7 @@ class GpuDevice {
     if (binding == layout::kBindIncrement) field.texels.bind(layout::kUnitIncrement);
   }
   void run(const Pass& pass, const Substep& step, Over over, std::initializer_list<Uniform> uniforms = {}) const;
-  /// The best share of what implicit_guess.comp found, into the guard (implicit_fold.comp).
+  /// Writes the best share found by implicit_guess.comp into the guard (implicit_fold.comp).
   void chooseShare(bool bound_energy) const;
   void findPairs(const Substep& step) const {
     if (pairs) pairs->find(lattice_, step);

@@ -14,8 +14,8 @@ namespace viscera {
 /// Leapfrog on (u, v) with symmetric drag (physics.md 2). Owner of shaders/solver/step/leapfrog.comp.
 class LeapfrogPass : public Stepper {
  public:
-  /// Compiles the kernel, with tools too where there are any.
-  /// @param awake  steps only these, and says when they were; null: steps all. Must outlive the pass
+  /// Compiles the kernel, and one with tools if there are any.
+  /// @param awake  steps and reports only these bricks; null: steps all. Must outlive the pass
   explicit LeapfrogPass(const FeatureSet& features, AwakeBricks* awake = nullptr);
   void run(LatticeBuffers& buffers, const Substep& step) override;
 

@@ -18,27 +18,28 @@ class Archive;
 class AwakeBricks;
 class NodePairs;
 
-/// An integrator: one substep of every active node (physics.md 2).
+/// An integrator on the GPU. It makes one substep of every active node (physics.md 2).
 class Stepper {
  public:
   virtual ~Stepper() = default;
-  /// state -> other state; the caller swaps. buffers must be bound.
+  /// Steps from the current state to the other one; the caller swaps. The buffers must be bound.
   virtual void run(LatticeBuffers& buffers, const Substep& step) = 0;
-  /// The state was written from outside.
+  /// Restarts after an external write to the state.
   virtual void restart() {}
-  /// What substeps to come depend on beside the lattice's buffers (Solver::persist()).
+  /// Saves or loads what later substeps depend on, apart from the lattice's buffers (Solver::persist()).
   virtual void persist(Archive& /*archive*/) {}
 };
 
-/// The kernels of an integrator, compiled. @param iterations  of pd
+/// Compiles the kernels of an integrator.
+/// @param iterations  of pd
 /// @param pairs  contacts between nodes within an implicit substep; null: none
-/// @param awake  of leapfrog: steps only these, and says when they were; null: steps all. Must outlive the stepper
+/// @param awake  leapfrog steps and reports only these bricks; null: steps all. Must outlive the stepper
 /// @throws GpuError with file, line and the driver's log
 std::unique_ptr<Stepper> makeStepper(Integrator integrator, int iterations, const FeatureSet& features,
                                      const LatticeBuffers& buffers, const NodePairs* pairs = nullptr,
                                      AwakeBricks* awake = nullptr);
 
-/// pd without acceleration, so that every sweep lowers the energy, for the governor's recoveries.
+/// Creates pd without acceleration, so that every sweep lowers the energy, for recoveries of the stability monitor.
 std::unique_ptr<Stepper> makeRecoveryStepper(int iterations, const FeatureSet& features, const LatticeBuffers& buffers);
 
 /// Sets the uniforms of shaders/solver/tissue/step.glsl.

@@ -25,12 +25,12 @@ VerletPaperPass::VerletPaperPass(const FeatureSet& features, const LatticeBuffer
   }
 }
 
-/// x_prev is a whole substep behind x: another length of it makes another x_prev.
+/// x_prev is one substep before x: a substep of another length needs another x_prev.
 void VerletPaperPass::rebuild(const LatticeBuffers& buffers, const Substep& step) const {
   positions_[current_].bindStorage(layout::kBindPositions);
   rebuild_.use();
   Substep plain = step;
-  plain.tools = false;  // this kernel knows of none
+  plain.tools = false;  // this kernel does not support tools
   setSubstep(rebuild_, buffers, plain);
   gpu::Program::dispatch(buffers.store.active_count, group_size_);
   gpu::Program::storageBarrier();

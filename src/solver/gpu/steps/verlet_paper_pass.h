@@ -9,9 +9,10 @@
 
 namespace viscera {
 
-/// Position Verlet with backward-difference drag on absolute float32 positions, as VR05 and GW print it, with the true
-/// spring constant: x+ = 2 x - x_prev + dt^2 (F/m + g - gamma (x - x_prev)/dt) (physics.md 2). It exists to show what
-/// that costs; dashpots are unknown to it. Owner of shaders/solver/step/verlet_paper.comp.
+/// Position Verlet with backward-difference drag on absolute float32 positions, as printed in VR05 and GW, with the
+/// true spring constant: x+ = 2 x - x_prev + dt^2 (F/m + g - gamma (x - x_prev)/dt) (physics.md 2). It exists to show
+/// the cost of that scheme; it has no dashpots.
+/// Owner of shaders/solver/step/verlet_paper.comp.
 class VerletPaperPass : public Stepper {
  public:
   VerletPaperPass(const FeatureSet& features, const LatticeBuffers& buffers);

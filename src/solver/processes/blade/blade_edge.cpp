@@ -14,23 +14,23 @@ namespace viscera {
 
 namespace {
 
-constexpr double kSampleStep = 0.3;  // of the kernel: between samples
-constexpr double kStale = 0.05;      // of the spacing: a front that far from its kernel's middle gets a new one
-constexpr double kGathered = 0.5;    // of the spacing: a front that far from where its nodes were gathered has strayed
-constexpr double kClosed = 0.2;      // of a gap, in a substep
-constexpr double kFlats = 3;         // times the limit: what the flats of a blade bear sideways
-constexpr int kSweeps = 8;           // over the samples: what they want of the nodes that they share
-constexpr double kSettled = 1e-4;    // of the largest impulse: a sweep that changes none by more is the last
-constexpr double kLeft = 2;          // of the spacing: a front that far ahead of the edge has been left
-constexpr double kOffWay = 0.9;      // cosine: what an edge meets that far off the hand's way it meets from elsewhere
-constexpr double kOfTissue = 0.55;   // of how much a blade is drawn: by the edge's way in the tissue, not the hand's
-constexpr double kMostStep = 0.5;    // of the spacing, of a front in a substep
-constexpr double kAhead = 0.9;       // of the spacing: where it is looked for a wound; beyond the half cell it is in
-constexpr double kAside = 0.5;       // of the spacing: beside that, as a wound sways
-constexpr double kCutStep = 0.125;   // of the spacing: so far fronts go before springs are cut
-constexpr double kWayMemory = 0.25;  // of the spacing: over which a hand's direction is taken, as hands tremble
+constexpr double kSampleStep = 0.3;  // of the kernel: distance of samples
+constexpr double kStale = 0.05;      // of the spacing: a front that far from its kernel's centre gets a new one
+constexpr double kGathered = 0.5;  // of the spacing: nodes are gathered again for a front that far from where they were
+constexpr double kClosed = 0.2;    // share of a gap that is closed per substep
+constexpr double kFlats = 3;       // times the limit: sideways force that the flats of a blade bear
+constexpr int kSweeps = 8;         // largest number of sweeps over the samples, which share nodes
+constexpr double kSettled = 1e-4;  // of the largest impulse: sweeps stop when no impulse changes by more
+constexpr double kLeft = 2;        // of the spacing: a front that far ahead of the edge becomes free
+constexpr double kOffWay = 0.9;    // cosine to the tool's direction below which an impulse keeps its own direction
+constexpr double kOfTissue = 0.55;  // weight of the slicing ratio in the tissue, relative to that of the tool's motion
+constexpr double kMostStep = 0.5;   // of the spacing: largest step of a front in a substep
+constexpr double kAhead = 0.9;      // of the spacing: distance ahead of the search for wounds; beyond its own half cell
+constexpr double kAside = 0.5;      // of the spacing: sideways distance of that search, as a wound moves
+constexpr double kCutStep = 0.125;  // of the spacing: advance of fronts after which springs are cut
+constexpr double kWayMemory = 0.25;  // of the spacing: length over which a tool's direction is averaged, against tremor
 
-constexpr double kHalfKernel = 0.27;  // of the kernel: the mean of one with tissue on one side only, from its middle
+constexpr double kHalfKernel = 0.27;  // of the kernel: distance of its mean from its centre, if tissue is on one side
 
 Vector3d unit(const Vector3d& v) {
   const double size = v.norm();
@@ -64,7 +64,7 @@ void BladeEdge::act(TissuePort& target, uint32_t stylus, const layout::ToolMotio
   stickAgain();
 }
 
-/// A blade that appears in tissue is as if it had always been there.
+/// Places the fronts at the edge. A blade that appears in tissue is treated as if it had always been there.
 void BladeEdge::place(const layout::ToolMotion& blade) {
   const Vector3d first = xyz(blade.from), span = xyz(blade.blade_from) - first;
   const size_t segments = std::max<size_t>(1, static_cast<size_t>(std::ceil(span.norm() / (kSampleStep * kernel_m_))));
@@ -115,7 +115,7 @@ void BladeEdge::renewKernels() {
   }
 }
 
-/// Nodes for kernels that will be made until a front has strayed.
+/// Gathers the nodes for all kernels that are made until a front leaves the gathered region.
 void BladeEdge::gather() {
   std::vector<Vector3d> centres_m;
   for (const Front& front : fronts_) centres_m.push_back(front.gathered);
@@ -133,7 +133,7 @@ void BladeEdge::findMobilities() {
   }
 }
 
-/// Where the tissue is and goes without the blade. The substep has been made: what it moved is taken off again.
+/// Finds the position and velocity of the tissue without the blade. The displacement of the last substep is subtracted.
 void BladeEdge::look(double dt_s) {
   for (size_t i = 0; i < fronts_.size(); ++i) {
     Push& push = pushes_[i];
@@ -145,26 +145,27 @@ void BladeEdge::look(double dt_s) {
   }
 }
 
-/// 1 / sqrt(1 + xi^2), xi a way along the edge over that across it.
+/// Returns 1 / sqrt(1 + xi^2), with xi the displacement along the edge over that across it.
 double BladeEdge::drawnBy(const Vector3d& way) const {
   const double all2 = way.squaredNorm(), along = way.dot(along_);
   return all2 > 0 ? std::sqrt(std::max(0.0, 1 - along * along / all2)) : 1;
 }
 
-/// 1 at a surface that the edge comes in by, 0 where there is as much tissue behind the front as ahead: less is
-/// carried.
+/// Returns 1 at a surface through which the edge enters, 0 where there is as much tissue behind the front as ahead. The
+/// toughness that is carried is smaller at a surface.
 double BladeEdge::ahead(size_t i) const {
   return std::clamp(kernels_[i].lean.dot(fronts_[i].forward) / (kHalfKernel * kernel_m_), 0.0, 1.0);
 }
 
-/// Mean over the length that sample i stands for [J/m2].
+/// Returns the mean over the length that sample i represents [J/m2].
 double BladeEdge::toughness(size_t i) const {
   const Push& push = pushes_[i];
   return push.length_m > 0 ? push.over_length.with(ahead(i)) / push.length_m : 0;
 }
 
-/// How much a blade is drawn is told by the hand's way, and somewhat by that of the edge in the tissue, which it takes
-/// along: by the first alone force is as the law has it, by the second work is.
+/// Sets the limit of a drawn blade. The slicing ratio is a mean of that of the tool's motion and that of the edge's
+/// motion in the tissue, which moves along. With the first alone the force follows the law; with the second alone the
+/// work does.
 void BladeEdge::limit(size_t i) {
   const Front& front = fronts_[i];
   Push& push = pushes_[i];
@@ -180,7 +181,7 @@ void BladeEdge::solve(double dt_s) {
     Push& push = pushes_[i];
     const bool parts = fronts_[i].stuck && push.length_m > 0;
     push.cap_n_s = parts ? toughness(i) * partedPerSwept(i) * push.length_m * dt_s : 0;
-    push.slips = parts && !(push.cap_n_s > 0);  // a part without a toughness
+    push.slips = parts && !(push.cap_n_s > 0);  // tissue without toughness
     if (parts) limit(i);
     done_.limit_n += push.gives_way_n_s / dt_s + friction_n_per_m_ * push.length_m;
   }
@@ -207,7 +208,8 @@ void BladeEdge::solveOne(size_t i, double dt_s) {
   give(i, limited(i, push.impulse - push.rub + missing / mobility) + push.rub);
 }
 
-/// An edge does not pull; across its way the flats of the blade push, up to a limit; in its plane the tissue gives way.
+/// Limits an impulse: an edge does not pull. Across its plane the flats of the blade push, up to a limit; in its plane
+/// the tissue yields.
 Vector3d BladeEdge::limited(size_t i, const Vector3d& impulse) {
   Push& push = pushes_[i];
   push.slips = push.aside = false;
@@ -221,7 +223,8 @@ Vector3d BladeEdge::limited(size_t i, const Vector3d& impulse) {
   return held + std::clamp(sideways, -bears, bears) * push.side;
 }
 
-/// Tissue that parts resists against the hand's way, unless it is met from quite another side.
+/// Returns the direction of the resistance of tissue that is being cut: opposite to the tool's motion, unless the
+/// impulse is at a large angle to it.
 Vector3d BladeEdge::alongWay(const Vector3d& of_hand, const Vector3d& in_plane) {
   const double near = std::clamp((of_hand.dot(in_plane) - kOffWay) / (1 - kOffWay), 0.0, 1.0);
   return unit(in_plane + near * (of_hand - in_plane));
@@ -239,7 +242,7 @@ void BladeEdge::give(TissuePort& target, uint32_t stylus, double dt_s) {
   target.pushRuns(stylus, static_cast<float>(dt_s), near_.runs, momenta_);
 }
 
-/// A way in the tissue as it is, at rest: by the inverse of F.
+/// Maps a vector in the current tissue to rest, by the inverse of F.
 Vector3d BladeEdge::toRest(size_t i, const Vector3d& gap) const {
   return atMost(fronts_[i].to_rest * gap, kMostStep * h_);
 }
@@ -251,7 +254,7 @@ void BladeEdge::advance(double dt_s) {
     front.forward = unit(front.forward - front.forward.dot(along_) * along_);
     const Vector3d gap = push.gap + dt_s * (push.edge_velocity - push.velocity);
     if (front.stuck && gap.dot(front.forward) < -kLeft * h_) front.stuck = 0;
-    if (!(push.length_m > 0)) front.stuck = 0;  // out on the other side
+    if (!(push.length_m > 0)) front.stuck = 0;  // it left the tissue on the other side
     const Vector3d from = front.at;
     if (front.stuck) {
       moveFront(i, gap);
@@ -262,7 +265,7 @@ void BladeEdge::advance(double dt_s) {
   }
 }
 
-/// Within the blade's plane, unless its flats give way.
+/// Moves a front within the blade's plane, unless the flats yield.
 void BladeEdge::moveFront(size_t i, const Vector3d& gap) {
   Front& front = fronts_[i];
   const Push& push = pushes_[i];
@@ -274,7 +277,7 @@ void BladeEdge::moveFront(size_t i, const Vector3d& gap) {
   front.forward = unit(front.forward + across / (kMostStep * h_));
 }
 
-/// Samples outside of the tissue go on as the nearest one that cuts does, so that it is cut up to its surface.
+/// Moves samples outside the tissue with the nearest one that cuts, so the tissue is cut up to its surface.
 void BladeEdge::followThroughAir() {
   const auto count = static_cast<int>(fronts_.size());
   for (int i = 0; i < count; ++i) {
@@ -290,7 +293,7 @@ void BladeEdge::followThroughAir() {
   }
 }
 
-/// Cuts what fronts have swept since the last time, where it is worth it. @param all  whatever it is
+/// Cuts the area that fronts have swept since the last call, if it is large enough. @param all  regardless of size
 void BladeEdge::cutBehind(TissuePort& target, bool all) {
   bool due = all;
   for (const Front& front : fronts_)
@@ -318,7 +321,8 @@ void BladeEdge::cutBehind(TissuePort& target, bool all) {
   }
 }
 
-/// Around a place ahead: as a wound sways, what lies beside one, or just below its end, is it too.
+/// Returns whether tissue around a position ahead is whole. It samples an area, as wounds move: near a wound, or just
+/// below its end, it is not.
 bool BladeEdge::isWhole(const Vector3d& ahead, const Vector3d& side) const {
   bool whole = true;
   for (const double aside : {-kAside, 0.0, kAside}) {
@@ -328,8 +332,8 @@ bool BladeEdge::isWhole(const Vector3d& ahead, const Vector3d& side) const {
   return whole;
 }
 
-/// Where the edge goes into tissue that is whole a new front begins. It is whole where the blade was not before, at
-/// rest: in its own wound a blade feels nothing.
+/// Starts a new front where the edge enters whole tissue: tissue at rest that this blade has not cut. In its own wound
+/// a blade feels nothing.
 void BladeEdge::stickAgain() {
   for (size_t i = 0; i < fronts_.size(); ++i) {
     Front& front = fronts_[i];
@@ -358,7 +362,7 @@ void BladeEdge::reset() {
   done_ = {};
 }
 
-/// Kernels follow from the fronts.
+/// Saves or restores. Kernels are derived from the fronts.
 void BladeEdge::persist(Archive& archive) {
   archive.list(fronts_);
   archive.value(done_);

@@ -15,63 +15,64 @@
 
 namespace viscera {
 
-/// The edge of one blade in one body, a contact line with a plastic limit (docs/cutting.md). Its samples have fronts,
-/// places in the tissue at rest: below the limit a front is stuck, and the edge pushes the tissue before it; at the
-/// limit it is moved on through the tissue, and what the fronts sweep at rest is cut. The work is toughness times area
-/// whatever the spacing.
+/// The edge of one blade in one body: a contact line with a plastic limit (docs/cutting.md). Each of its samples has a
+/// front, a position in the tissue at rest. Below the limit a front sticks, and the edge pushes the tissue ahead of it.
+/// At the limit the front advances through the tissue, and what the fronts sweep at rest is cut. The work is toughness
+/// times area at any spacing.
 class BladeEdge {
  public:
-  /// @param tissue  that it cuts; must outlive it   @param friction_n_per_m  CutConfig
+  /// @param tissue  tissue to cut; must outlive it   @param friction_n_per_m  CutConfig
   BladeEdge(RestTissue& tissue, double friction_n_per_m);
 
-  /// After a substep. @param blade  its motion in the substep
+  /// Acts after a substep. @param blade  its motion in the substep
   void act(TissuePort& target, uint32_t stylus, const layout::ToolMotion& blade, double dt_s);
-  /// The blade is not there, or the state was put back: fronts begin again. @returns whether there were any
+  /// Ends the contact when the blade is gone or the state was restored: fronts start over. @returns whether there were
+  /// any
   bool leave(TissuePort& target);
   void reset();
-  /// What the point of the same blade has stored in the tissue: a hand may get it back from the edge too. @param more_j
-  /// below 0: it was spent
+  /// Adds energy that the point of the same blade has stored in the tissue: the edge may return it to the user too.
+  /// @param more_j  negative: it was spent
   void addStored(double more_j) { stored_j_ = std::max(0.0, stored_j_ + more_j); }
   const BladeWork& done() const { return done_; }
   void persist(Archive& archive);
 
  private:
-  /// Of a sample of the edge, what is kept from substep to substep. Places are in the tissue frame, those of fronts at
-  /// rest [m].
+  /// State of a sample of the edge that persists between substeps. Positions are in the tissue frame, those of fronts
+  /// at rest [m].
   struct Front {
-    Vector3d at = Vector3d::Zero();                         ///< the front
-    Vector3d centre = Vector3d::Zero();                     ///< where its kernel was made
-    Vector3d gathered = Vector3d::Zero();                   ///< where it was when nodes were gathered
-    Vector3d cut = Vector3d::Zero();                        ///< up to where springs are cut
-    Vector3d edge = Vector3d::Zero();                       ///< where the sample is
-    Vector3d forward = Vector3d::Zero();                    ///< into the tissue ahead, across the edge
-    Vector3d way = Vector3d::Zero();                        ///< of the sample, lately
-    Eigen::Matrix3d to_rest = Eigen::Matrix3d::Identity();  ///< the inverse of F, when the kernel was new
-    uint32_t stuck = 0;  ///< in tissue that is whole ahead; else it is in the air or in a wound
-    uint32_t cuts = 0;   ///< was stuck since springs were cut last
+    Vector3d at = Vector3d::Zero();                         ///< position of the front
+    Vector3d centre = Vector3d::Zero();                     ///< centre of its kernel
+    Vector3d gathered = Vector3d::Zero();                   ///< position of the front when nodes were gathered
+    Vector3d cut = Vector3d::Zero();                        ///< position up to which springs are cut
+    Vector3d edge = Vector3d::Zero();                       ///< position of the sample
+    Vector3d forward = Vector3d::Zero();                    ///< direction into the tissue ahead, across the edge
+    Vector3d way = Vector3d::Zero();                        ///< recent displacement of the sample
+    Eigen::Matrix3d to_rest = Eigen::Matrix3d::Identity();  ///< inverse of F at the last update of the kernel
+    uint32_t stuck = 0;  ///< 1: in tissue that is whole ahead; 0: in air or in a wound
+    uint32_t cuts = 0;   ///< was stuck at some time since springs were last cut
   };
-  /// Of the edge between two samples, what one of them stands for.
+  /// Share of the edge between two samples that one of them represents.
   struct Share {
-    double fill = 0;                 ///< as tissue
-    RestToughness::Carried carried;  ///< times that
+    double fill = 0;                 ///< share that is tissue
+    RestToughness::Carried carried;  ///< carried toughness times that
     void add(double more, const RestToughness::Carried& there) {
       fill += more;
       carried.inside_j_per_m2 += more * there.inside_j_per_m2;
       carried.at_surface_j_per_m2 += more * there.at_surface_j_per_m2;
     }
   };
-  /// Of a substep.
+  /// Data of a substep.
   struct Push {
     Vector3d edge_velocity = Vector3d::Zero();
-    Vector3d gap = Vector3d::Zero();       ///< from the front to the edge as they are, before the substep
-    Vector3d velocity = Vector3d::Zero();  ///< of the tissue
-    Vector3d impulse = Vector3d::Zero();   ///< on the tissue [N s], rub among it
-    Vector3d rub = Vector3d::Zero();       ///< of the blade's walls
-    Vector3d side = Vector3d::Zero();      ///< across the blade's plane
-    Vector3d of_hand = Vector3d::Zero();   ///< the hand's way in it
+    Vector3d gap = Vector3d::Zero();  ///< vector from the front to the edge before the substep, in the current tissue
+    Vector3d velocity = Vector3d::Zero();  ///< velocity of the tissue
+    Vector3d impulse = Vector3d::Zero();   ///< impulse on the tissue [N s], including rub
+    Vector3d rub = Vector3d::Zero();       ///< friction of the blade's sides
+    Vector3d side = Vector3d::Zero();      ///< normal of the blade's plane
+    Vector3d of_hand = Vector3d::Zero();   ///< direction of the tool's motion in the plane
     double length_m = 0, cap_n_s = 0;
-    double gives_way_n_s = 0;            ///< in the plane: the limit of a blade that is drawn
-    RestToughness::Carried over_length;  ///< times length [N]
+    double gives_way_n_s = 0;            ///< limit in the plane, reduced for a drawn blade
+    RestToughness::Carried over_length;  ///< toughness times length [N]
     bool slips = false, aside = false;
     void stand(double all_m, const Share& share) {
       length_m += all_m * share.fill;
@@ -117,18 +118,18 @@ class BladeEdge {
 
   RestTissue& tissue_;
   double friction_n_per_m_, kernel_m_, h_;
-  std::vector<Front> fronts_;  ///< from the near end of the blade to the far one; empty: the blade is not there
+  std::vector<Front> fronts_;  ///< samples from the near end of the blade to the far one; empty: there is no blade
   BladeWork done_;
-  double stored_j_ = 0;  ///< in the tissue by this edge since it came, at most: what it may give back
+  double stored_j_ = 0;  ///< bound on the energy that this edge stored in the tissue in this stroke, and may return
   std::vector<BladeKernel> kernels_;
-  std::vector<std::array<Share, 2>> shares_;  ///< between a sample and the next: of either, as kernels were made
+  std::vector<std::array<Share, 2>> shares_;  ///< shares of a sample and the next between them
   std::vector<Push> pushes_;
-  std::vector<double> mobilities_;  ///< [samples^2] what an impulse of one changes another's velocity by [1/kg]
+  std::vector<double> mobilities_;  ///< [samples^2] change of one's velocity per impulse of another [1/kg]
   BladeNodes near_;
-  RunPlanes momenta_;  ///< of those; then what they change velocities by
+  RunPlanes momenta_;  ///< momenta of near_; then changes of velocities
   std::vector<float> spread_;
-  Vector3d near_along_ = Vector3d::Zero();  ///< the edge's direction when they were gathered
-  Vector3d along_ = Vector3d::Zero();       ///< the edge's direction
+  Vector3d near_along_ = Vector3d::Zero();  ///< direction of the edge when near_ was gathered
+  Vector3d along_ = Vector3d::Zero();       ///< direction of the edge
 };
 
 }  // namespace viscera

@@ -13,7 +13,7 @@ namespace viscera {
 
 namespace {
 
-constexpr double kFolded = 0.1;  // determinant of F below which a front goes as if the tissue were rigid
+constexpr double kFolded = 0.1;  // determinant of F below which tissue counts as folded, and the identity is used
 constexpr size_t kLanes = BladeNodes::kLanes;
 
 using Lanes = Eigen::Array<float, kLanes, 1>;
@@ -143,7 +143,7 @@ void BladeKernel::give(const Vector3f& impulse, RunPlanes& momenta) const {
             {momenta[0].data(), momenta[1].data(), momenta[2].data()});
 }
 
-/// The gradient of a mean: of weights that are shares over a sum which changes too.
+/// Computes F as the gradient of a weighted mean; the sum of the weights varies too.
 Eigen::Matrix3d BladeKernel::toRest(const BladeNodes& nodes) {
   is_new = false;
   if (weights.empty()) return Eigen::Matrix3d::Identity();

@@ -13,12 +13,12 @@ namespace viscera {
 
 namespace {
 
-constexpr double kPointStale = 0.05;    // of the spacing: a front that far from its kernel's middle gets a new one
-constexpr double kPointClosed = 0.2;    // of a gap, in a substep
-constexpr double kMostPointStep = 0.5;  // of the spacing, of the front in a substep
-constexpr double kPart = 0.02;          // of the spacing: of a way through thin layers
-constexpr double kPointLeft = 2;        // of the spacing: a front that far ahead of the point has been left
-constexpr double kPointAhead = 0.9;     // of the spacing: where tissue is looked for that is whole
+constexpr double kPointStale = 0.05;    // of the spacing: a front that far from its kernel's centre gets a new one
+constexpr double kPointClosed = 0.2;    // share of a gap that is closed per substep
+constexpr double kMostPointStep = 0.5;  // of the spacing: largest step of the front in a substep
+constexpr double kPart = 0.02;          // of the spacing: step of the path through thin layers
+constexpr double kPointLeft = 2;        // of the spacing: a front that far ahead of the point becomes free
+constexpr double kPointAhead = 0.9;     // of the spacing: distance ahead at which whole tissue is searched for
 
 }  // namespace
 
@@ -84,7 +84,7 @@ void BladePoint::makeKernel() {
   kernel_.make(near_, tip_.centre, kernel_m_);
 }
 
-/// @param gap  from the front to the point, as they are
+/// Moves the front. @param gap  from the front to the point, in the current tissue
 void BladePoint::advance(const Vector3d& gap, const Vector3d& into, bool slips) {
   if (tip_.stuck && (gap.dot(into) < -kPointLeft * h_ || !isInTissue())) tip_.stuck = 0;
   const Vector3d way = tip_.stuck ? Vector3d(gap.dot(into) * into) : gap;
@@ -104,7 +104,7 @@ void BladePoint::advance(const Vector3d& gap, const Vector3d& into, bool slips) 
   }
 }
 
-/// Within the surface, which a point crosses at once; of a sheet's thickness as much as is there.
+/// Returns 1 inside the surface, which a point crosses at once; of a sheet the share of its thickness.
 double BladePoint::fill(const Vector3d& at_m) const {
   const double share = tissue_.fill(at_m);
   return tissue_.isSheet() ? share : share >= 0.5;
@@ -120,7 +120,7 @@ void BladePoint::reset() {
   done_ = {};
 }
 
-/// The kernel follows from the front.
+/// Saves or restores. The kernel is derived from the front.
 void BladePoint::persist(Archive& archive) {
   archive.value(tip_);
   archive.value(done_);

@@ -12,15 +12,15 @@ namespace viscera {
 
 class TissuePort;
 
-/// The point of a blade or needle that is pushed along itself, a contact with a plastic limit (docs/cutting.md, 7):
-/// what it parts is its width times its way. It cuts no springs: they are farther apart than it is wide.
+/// The point of a blade or needle that is pushed along its axis: a contact with a plastic limit (docs/physics.md 10.4).
+/// The area that it cuts is its width times its path. It cuts no springs: they are farther apart than it is wide.
 class BladePoint {
  public:
-  /// @param tissue  that it parts; must outlive it   @param width_m  CutConfig::point_width_m
+  /// @param tissue  tissue to cut; must outlive it   @param width_m  CutConfig::point_width_m
   BladePoint(RestTissue& tissue, double width_m);
 
-  /// After a substep. @param blade  its motion in the substep
-  /// @returns what it has stored in the tissue [J]; below 0: what the tissue has spent on it
+  /// Acts after a substep. @param blade  its motion in the substep
+  /// @returns energy that it has stored in the tissue [J]; negative: energy that the tissue has spent on it
   double act(TissuePort& target, uint32_t stylus, const layout::ToolMotion& blade, double dt_s);
   void leave();
   void reset();
@@ -28,7 +28,7 @@ class BladePoint {
   void persist(Archive& archive);
 
  private:
-  /// Kept from substep to substep, as BladeEdge::Front is.
+  /// State that persists between substeps, as BladeEdge::Front.
   struct Tip {
     Vector3d at = Vector3d::Zero(), centre = Vector3d::Zero(), edge = Vector3d::Zero();
     Eigen::Matrix3d to_rest = Eigen::Matrix3d::Identity();

@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What the walls of a blade do to the tissue that it goes through.
+// Friction of the sides of a blade on the tissue.
 #include "solver/processes/blade/blade_edge.h"
 
 namespace viscera {
 
-/// Friction takes the tissue along, in its wound too and whichever way the blade goes, up to a limit.
+/// Applies friction. It drags tissue along, also in the blade's own wound and in any direction, up to a limit.
 void BladeEdge::rubOne(size_t i, double dt_s) {
   Push& push = pushes_[i];
   const double cap_n_s = friction_n_per_m_ * push.length_m * dt_s, mobility = mobilities_[i * fronts_.size() + i];
@@ -18,7 +18,7 @@ void BladeEdge::rubOne(size_t i, double dt_s) {
   give(i, impulse);
 }
 
-/// In place of what the sample gave; the tissue of the others feels it too.
+/// Replaces the sample's impulse and updates the velocities at the other samples.
 void BladeEdge::give(size_t i, const Vector3d& impulse) {
   const Vector3d more = impulse - pushes_[i].impulse;
   pushes_[i].impulse = impulse;

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What an edge counts: its length in tissue, the area that it parts, the energy that it may give back; how fronts lie.
+// Sums over an edge: its length in tissue, the area that it cuts, the energy that it may return; geometry of its
+// fronts.
 #include <algorithm>
 #include <cmath>
 
@@ -10,13 +11,13 @@ namespace viscera {
 
 namespace {
 
-constexpr double kStrip = 0.125;       // of the spacing, at most: parts of the edge that are in tissue or not
-constexpr double kMostStrips = 1000;   // whatever a fold makes of them
-constexpr double kMostStretch = 1.5;   // of areas: whatever a fold makes of them
-constexpr double kMostOfSheet = 1.03;  // the same of sheets: with more, triangles folded in cuts at 45 degrees
-constexpr double kStraight = 0.01;     // of the spacing: fronts that far off a straight line are cut as if on it
-constexpr double kOverlap = 0.02;      // of the spacing, of two sweeps: between lines no spring is left
-constexpr double kGivenBack = 0.25;    // of what the tissue has of the edge, at most, in a substep: it ends smoothly
+constexpr double kStrip = 0.125;       // of the spacing: largest length of the strips that are inside tissue or not
+constexpr double kMostStrips = 1000;   // bound for folded tissue
+constexpr double kMostStretch = 1.5;   // bound on the ratio of areas in folded tissue
+constexpr double kMostOfSheet = 1.03;  // the same for sheets: it is exceeded as triangles fold in cuts at 45 degrees
+constexpr double kStraight = 0.01;     // of the spacing: fronts that close to a straight line are cut as if on it
+constexpr double kOverlap = 0.02;      // of the spacing: overlap of two sweeps, so no spring between them remains
+constexpr double kGivenBack = 0.25;    // largest share of the stored energy that a substep returns: a smooth end
 
 }  // namespace
 
@@ -24,7 +25,7 @@ int BladeEdge::stripsOf(double length_m) const {
   return std::max(1, static_cast<int>(std::ceil(std::min(length_m / (kStrip * h_), kMostStrips))));
 }
 
-/// How much of the edge between sample i and the next, where it lies in the tissue at rest, each of them stands for.
+/// Computes how much of the edge between sample i and the next, in the tissue at rest, each of them represents.
 void BladeEdge::findShares(size_t i) {
   const Vector3d from = fronts_[i].centre, span = fronts_[i + 1].centre - from;
   const int strips = stripsOf(span.norm());
@@ -47,8 +48,8 @@ void BladeEdge::findLengths() {
   }
 }
 
-/// Is what lies ahead whole tissue? That of the nearest place where there is some, of the edge that sample i stands
-/// for: where there is none nothing is parted. @param ahead  from its front, at rest
+/// Returns whether the tissue ahead is whole, at the nearest position with tissue on the part of the edge that sample i
+/// represents. Without tissue nothing is cut. @param ahead  from its front, at rest
 bool BladeEdge::goesIntoWhole(size_t i, const Vector3d& ahead, const Vector3d& side) const {
   const Vector3d& from = fronts_[i].at;
   const Vector3d ways[2] = {fronts_[i > 0 ? i - 1 : i].at - from,
@@ -63,8 +64,8 @@ bool BladeEdge::goesIntoWhole(size_t i, const Vector3d& ahead, const Vector3d& s
   return false;
 }
 
-/// The area that a sample parts at rest over that which its edge sweeps in the tissue as it is: toughness is work per
-/// area at rest.
+/// Returns the area that a sample cuts at rest over the area that its edge sweeps in the current tissue: toughness is
+/// work per area at rest.
 double BladeEdge::partedPerSwept(size_t i) const {
   const Front &a = fronts_[i > 0 ? i - 1 : 0], &b = fronts_[std::min(i + 1, fronts_.size() - 1)];
   const double swept = (b.edge - a.edge).norm();
@@ -73,8 +74,8 @@ double BladeEdge::partedPerSwept(size_t i) const {
   return swept > 0 ? std::clamp(parted / swept, 1 / most, most) : 1;
 }
 
-/// A hand gets back at most what this edge has stored in the tissue since it came: what swings there of others' work,
-/// or of strokes before, pushes no hand. Forces fall with what is left.
+/// Limits the energy returned to the user to what this edge has stored in the tissue in this stroke. Oscillations from
+/// other work, or from previous strokes, do not push the tool. Forces decrease with the remaining energy.
 void BladeEdge::giveBackAtMost() {
   const size_t n = fronts_.size();
   double work_j = 0, given_j = 0;
@@ -96,7 +97,7 @@ void BladeEdge::giveBackAtMost() {
   done_.work_j += work_j;
 }
 
-/// Have the fronts of a row of samples swept what those at its ends say?
+/// Returns whether the fronts between two samples are close to the line between them.
 bool BladeEdge::isStraight(size_t first, size_t last) const {
   const Front &a = fronts_[first], &b = fronts_[last];
   for (size_t i = first + 1; i < last; ++i) {
@@ -107,13 +108,13 @@ bool BladeEdge::isStraight(size_t first, size_t last) const {
   return true;
 }
 
-/// Where a sweep begins that cuts what a front has swept.
+/// Returns the start of the next sweep that cuts behind a front.
 Vector3d BladeEdge::startOf(const Front& front) const {
   const Vector3d way = front.at - front.cut;
   return way.isZero(0) ? front.cut : Vector3d(front.cut - kOverlap * h_ * way.normalized());
 }
 
-/// @param step  of a front, at rest
+/// Counts the area of a step. @param step  of a front, at rest
 void BladeEdge::countArea(size_t i, const Vector3d& step) {
   const Front &a = fronts_[i > 0 ? i - 1 : 0], &b = fronts_[std::min(i + 1, fronts_.size() - 1)];
   const double length_m = (b.edge - a.edge).norm();

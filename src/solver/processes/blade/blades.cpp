@@ -57,7 +57,7 @@ bool Blades::endTick(TissuePort& port, const ProcessTick& tick, const TissueProc
   return (!tick.cuts || tick.recovering) && restart(port);
 }
 
-/// Blades leave the tissue. @returns  whether there were any in it, which may have cut until now
+/// Ends the contact of all blades. @returns  whether there were any, which may have cut
 bool Blades::restart(TissuePort& port) {
   bool any = false;
   for (Cut& cut : cuts_) {
@@ -99,7 +99,7 @@ FactGroup Blades::facts() const {
     styluses.push_back(
         {{"area_m2", work.area_m2}, {"work_j", work.work_j}, {"parting_j", work.parting_j}, {"limit_n", work.limit_n}});
   }
-  out.summary = numberText(1e6 * area_m2) + " mm2 parted";
+  out.summary = numberText(1e6 * area_m2) + " mm2 cut";
   out.facts = {{"styluses", std::move(styluses)}};
   return out;
 }

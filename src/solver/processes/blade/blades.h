@@ -15,8 +15,7 @@ namespace viscera {
 
 struct StylusConfig;
 
-/// The edges and points of all styluses in all bodies that resist blades, with what they have parted
-/// (docs/cutting.md).
+/// The edges and points of all styluses in all bodies that resist blades, with what they have cut (docs/cutting.md).
 class Blades : public TissueProcess {
  public:
   /// @param model  must outlive them
@@ -38,13 +37,13 @@ class Blades : public TissueProcess {
     size_t body;
     std::unique_ptr<RestTissue> tissue;
     std::vector<BladeEdge> edges;                   ///< [kMaxStyluses]
-    std::vector<std::optional<BladePoint>> points;  ///< [kMaxStyluses] of those that part by their points too
+    std::vector<std::optional<BladePoint>> points;  ///< points [kMaxStyluses] of blades that cut with them too
   };
-  std::vector<Cut> cuts_;  ///< of bodies that resist blades
+  std::vector<Cut> cuts_;  ///< one per body that resists blades
   size_t styluses_;
 };
 
-/// @returns  what a stylus's blade did to tissue that resists it; zeros where none does. @param stylus  < kMaxStyluses
+/// Returns the work of a stylus's blade on tissue that resists it; zeros if none does. @param stylus  < kMaxStyluses
 BladeWork bladeWork(const Solver& solver, uint32_t stylus);
 
 }  // namespace viscera

@@ -15,10 +15,10 @@ namespace viscera {
 
 namespace {
 
-constexpr double kFillSide = 0.5;    // of the spacing: of the cube within which tissue begins smoothly
+constexpr double kFillSide = 0.5;    // of the spacing: side of the cube over which the border of tissue is smoothed
 constexpr double kSheetReach = 0.5;  // of the spacing: to both sides of a sheet
 
-/// The part of a cube of that side around x that is above 0, in cells.
+/// Returns the share above 0 of an interval of length `side` around x, in cells.
 double above(double x, double side) {
   return std::clamp(0.5 + x / side, 0.0, 1.0);
 }
@@ -27,7 +27,7 @@ Vector3i wholeNumbers(const Vector3d& v, double (*how)(double)) {
   return {static_cast<int>(how(v.x())), static_cast<int>(how(v.y())), static_cast<int>(how(v.z()))};
 }
 
-/// Of a sheet, by its mass.
+/// Returns the thickness of a sheet, from its mass [m].
 double thicknessOf(const SpringNetwork& network, double density_kg_per_m3) {
   double mass_kg = 0, area_m2 = 0;
   for (const double node_kg : network.masses_kg) mass_kg += node_kg;
@@ -38,7 +38,7 @@ double thicknessOf(const SpringNetwork& network, double density_kg_per_m3) {
   return mass_kg / (density_kg_per_m3 * area_m2);
 }
 
-/// Calls visit(place) for the places of a grid from low to high [m].
+/// Calls visit(place) for the grid positions within a box [m].
 template <class Visit>
 void forEachWithin(const RestGrid& grid, const Vector3d& low_m, const Vector3d& high_m, const Visit& visit) {
   const Vector3i low = wholeNumbers((low_m - grid.origin_m) / grid.spacing_m, std::ceil).cwiseMax(0);
@@ -118,7 +118,8 @@ double RestFill::ofCells(const Vector3d& at_m) const {
   return std::min(sum, 1.0);
 }
 
-/// Its thickness, spread to both sides: across it a straight way has that of it.
+/// Returns the share of a sheet, its thickness spread to both sides: the integral along a line across it is its
+/// thickness.
 double RestFill::ofSheet(const Vector3d& at_m) const {
   const Vector3i cube = cells_.nearest(at_m);
   if (!cells_.has(cube)) return 0;
@@ -128,7 +129,7 @@ double RestFill::ofSheet(const Vector3d& at_m) const {
   return thickness_m_ / reach_m_ * (1 - away_m / reach_m_);
 }
 
-/// How far a place is from a triangle; infinitely beyond a border of the sheet.
+/// Returns the distance from a triangle [m]; infinite beyond a border of the sheet.
 double RestFill::awayFrom(size_t triangle, const Vector3d& at_m) const {
   const std::array<Vector3d, 3>& p = triangles_[triangle];
   const Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]).normalized();

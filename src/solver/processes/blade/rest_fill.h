@@ -11,7 +11,8 @@
 
 namespace viscera {
 
-/// How much of a place at rest is tissue, 0 to 1, smoothly: an edge has the length of its mean along it.
+/// Share of tissue at a rest position, 0 to 1, smooth. The effective length of an edge is its length times the mean of
+/// this along it.
 class RestFill {
  public:
   RestFill(const Body& body, const RestGrid& nodes);
@@ -26,12 +27,12 @@ class RestFill {
   double awayFrom(size_t triangle, const Vector3d& at_m) const;
 
   RestGrid cells_;             ///< a node of it is the lowest corner of a cell
-  double side_;                ///< of cells: of the cube within which tissue begins smoothly
-  std::vector<float> shares_;  ///< [cells] that are tissue
-  double thickness_m_ = 0;     ///< of a sheet
-  double reach_m_ = 0;         ///< to both sides of a sheet, within which its thickness is spread
+  double side_;                ///< side of the cube over which the border of the cells is smoothed
+  std::vector<float> shares_;  ///< [cells] share of tissue
+  double thickness_m_ = 0;     ///< thickness of a sheet
+  double reach_m_ = 0;         ///< distance to both sides of a sheet over which its thickness is spread
   std::vector<std::array<Vector3d, 3>> triangles_;
-  std::vector<std::array<uint8_t, 3>> borders_;  ///< is the side from corner i to the next one of one triangle only?
+  std::vector<std::array<uint8_t, 3>> borders_;  ///< 1: the side from corner i to the next belongs to one triangle only
   std::vector<uint32_t> starts_, listed_;        ///< triangles within reach of each cube around a node of the grid
 };
 

@@ -15,8 +15,8 @@ namespace viscera {
 
 namespace {
 
-constexpr double kPartedStep = 0.25;  // of the spacing: places of a parted surface that are noted
-constexpr int kAround = 3;            // places of the grid around what is no lattice: edges stand out of sheets
+constexpr double kPartedStep = 0.25;  // of the spacing: distance of the recorded points of a cut surface
+constexpr int kAround = 3;  // grid positions around structures other than lattices: edges extend beyond sheets
 
 RestGrid gridOf(const Body& body) {
   const Lattice& lattice = body.lattice;
@@ -51,7 +51,7 @@ RestTissue::RestTissue(const Model& model, size_t body)
   sortIntoGrid();
 }
 
-/// @param whole_kg  of one inside of the tissue
+/// @param whole_kg  mass of a node inside the tissue
 void RestTissue::addNode(const Model& model, size_t body, uint32_t slot, double mass_kg, double whole_kg) {
   const Body& of = model.bodies[body];
   if (!(mass_kg > 0)) return;
@@ -77,7 +77,7 @@ Vector3i RestTissue::halfCell(const Vector3d& at_m) const {
           static_cast<int>(std::floor(half.z()))};
 }
 
-/// Beyond the end where there is none.
+/// Returns an index beyond the end outside the grid.
 size_t RestTissue::halfAt(const Vector3i& half) const {
   if ((half.array() < 0).any() || (half.array() >= 2 * grid_.count.array()).any()) return parted_.size();
   const size_t corner = grid_.at({half.x() / 2, half.y() / 2, half.z() / 2});

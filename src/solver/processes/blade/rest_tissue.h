@@ -14,37 +14,37 @@ namespace viscera {
 
 class Archive;
 
-/// A body at rest, as a blade meets it that the tissue resists (docs/cutting.md): nodes by the places of a grid, how
-/// much of a place is tissue, and where it has been parted. The grid is that of a lattice; of other structures one as
-/// wide as their springs are long.
+/// A body at rest, as seen by a blade that it resists (docs/cutting.md): nodes by grid position, the share of tissue at
+/// a position, and where it has been cut. The grid is that of a lattice; of other structures one with the mean spring
+/// length as its spacing.
 class RestTissue {
  public:
-  /// Where no node is.
+  /// Index where there is no node.
   static constexpr uint32_t kNone = 0xffffffffu;
   struct Node {
-    uint32_t slot;  ///< in the solver's buffers
+    uint32_t slot;  ///< slot in the solver's buffers
     float mass_kg;
-    float inverse_mass;  ///< 1/kg, 0 where it is fixed
-    float share;         ///< of a whole cell's mass, or of the mean: nodes at the surface stand for less tissue
-    Vector3d rest_m;     ///< tissue frame
+    float inverse_mass;  ///< 1/kg, 0 if it is fixed
+    float share;      ///< mass over that of a whole cell, or over the mean: nodes at the surface represent less tissue
+    Vector3d rest_m;  ///< rest position, tissue frame
   };
 
   RestTissue(const Model& model, size_t body);
 
   const std::vector<Node>& nodes() const { return nodes_; }
-  /// visit(index into nodes()) of all within a radius.
+  /// Calls visit(index into nodes()) for all nodes within a radius.
   template <class Visit>
   void forEachNear(const Vector3d& at_m, double radius_m, const Visit& visit) const;
-  /// How much of a cube of half a spacing around a place is tissue, 0 to 1; a sheet's thickness is spread to both
-  /// sides.
+  /// Returns the share of tissue in a cube of half a spacing around a position, 0 to 1. A sheet's thickness is spread
+  /// to both sides.
   double fill(const Vector3d& at_m) const { return fill_.at(at_m); }
-  /// Is any there, and would it be noted that it has been parted?
+  /// Returns whether there is tissue, at a position where cuts are recorded.
   bool isTissue(const Vector3d& at_m) const { return fill(at_m) > 0 && halfAt(halfCell(at_m)) < parted_.size(); }
   bool isSheet() const { return fill_.isSheet(); }
   const RestToughness& toughness() const { return toughness_; }
-  /// Notes that a quadrilateral p q r s of tissue at rest has been parted.
+  /// Records that a quadrilateral p q r s of tissue at rest has been cut.
   void part(const Vector3d& p, const Vector3d& q, const Vector3d& r, const Vector3d& s);
-  /// Has tissue been parted in the cube of half a spacing in which a place lies?
+  /// Returns whether tissue has been cut in the cube of half a spacing around a position.
   bool isParted(const Vector3d& at_m) const;
   void reset();
   void persist(Archive& archive);
@@ -59,8 +59,8 @@ class RestTissue {
   RestFill fill_;
   RestToughness toughness_;
   std::vector<Node> nodes_;
-  std::vector<uint32_t> starts_, sorted_;  ///< nodes whose nearest place of the grid is that
-  std::vector<uint8_t> parted_;            ///< [8 * places] by cubes of half a spacing
+  std::vector<uint32_t> starts_, sorted_;  ///< nodes with that nearest position of the grid
+  std::vector<uint8_t> parted_;            ///< 1 where cut, [8 * positions] by cubes of half a spacing
 };
 
 template <class Visit>

@@ -10,7 +10,7 @@ namespace viscera {
 
 namespace {
 
-/// In the order of RestGrid::at().
+/// Calls visit in the order of RestGrid::at().
 template <class Visit>
 void forEachPlace(const RestGrid& grid, const Visit& visit) {
   for (int z = 0; z < grid.count.z(); ++z) {
@@ -39,7 +39,8 @@ RestToughness::RestToughness(const Body& body, const RestGrid& nodes)
   if (any) findDepths(body.skin);
 }
 
-/// Cells without tissue have the label of one beside them: an edge that leaves the tissue has some of it in these.
+/// Finds the labels of cells. Cells without tissue get the label of a neighbour: an edge that leaves the tissue still
+/// has some tissue in them.
 void RestToughness::findLabels(const Lattice& lattice) {
   labels_.assign(cells_.places(), 0);
   for (const uint32_t slot : lattice.active_slots) labels_[cells_.at(lattice.nodeAt(slot))] = lattice.cell_labels[slot];

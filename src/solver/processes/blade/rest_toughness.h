@@ -11,23 +11,23 @@
 
 namespace viscera {
 
-/// What a body carries of the toughness at a place at rest: of its part, or of a layer below its skin.
+/// Toughness that a body can carry at a rest position: that of its part, or of a layer below its surface.
 class RestToughness {
  public:
   struct Carried {
     double inside_j_per_m2 = 0, at_surface_j_per_m2 = 0;
-    /// @param ahead  1 at a surface that the edge comes in by, 0 inside
+    /// Returns the carried toughness. @param ahead  1 at a surface through which the edge enters, 0 inside
     double with(double ahead) const { return inside_j_per_m2 + ahead * (at_surface_j_per_m2 - inside_j_per_m2); }
   };
   RestToughness(const Body& body, const RestGrid& nodes);
   const Carried& at(const Vector3d& at_m) const;
-  /// Within it nodes share the force of an edge, and its friction.
+  /// Returns the radius within which nodes share the force of an edge, and its friction [m].
   double kernel_m(double friction_n_per_m) const { return kernelOf(by_place_, friction_n_per_m); }
-  /// What is carried of it, everywhere.
+  /// Returns the friction that is carried everywhere.
   double carriedFriction_n_per_m(double friction_n_per_m) const;
-  /// The same of a point, the largest.
+  /// Returns the largest radius of the kernel of a point.
   double pointKernel_m(double width_m) const;
-  /// Force of a point there at which it goes on.
+  /// Returns the force of a point there at which it advances.
   double ofPoint_n(const Vector3d& at_m, double width_m, double kernel_m) const;
   double spacing_m() const { return spacing_m_; }  ///< Toughness::spacing_m
 
@@ -42,10 +42,10 @@ class RestToughness {
 
   RestGrid cells_;                                ///< a node of it is the lowest corner of a cell
   std::vector<std::vector<Toughness>> by_place_;  ///< toughnesses() of the body
-  std::vector<std::vector<Carried>> carried_;     ///< of it
-  std::vector<double> layers_m_;                  ///< where they end
+  std::vector<std::vector<Carried>> carried_;     ///< carried part of by_place_
+  std::vector<double> layers_m_;                  ///< depths at which layers end
   std::vector<uint16_t> labels_;                  ///< [cells]; empty: there are no parts
-  std::vector<float> depths_m_;  ///< [nodes] below the skin, less than 0 outside; empty: no layer counts
+  std::vector<float> depths_m_;  ///< [nodes] depth below the surface, negative outside; empty: no layer matters
   double spacing_m_;
 };
 

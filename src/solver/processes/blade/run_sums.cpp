@@ -14,7 +14,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using RunTag = hn::CappedTag<float, 8>;
 using RunVector = hn::Vec<RunTag>;
 
-/// No fused sums: processors without them round otherwise.
+/// Without fused multiply-add: processors without it round differently.
 HWY_INLINE RunVector plusTimes(RunVector sum, RunVector a, RunVector b) {
   return hn::Add(sum, hn::Mul(a, b));
 }

@@ -14,9 +14,9 @@ namespace viscera {
 
 namespace {
 
-constexpr double kSqueezed = 0.75;    // spacings from a line that a clip squeezes, at rest: so its lines close a layer
-constexpr double kOpaque_m = 3.5e-5;  // of blood, 150 g/l of haemoglobin: 1/e of green light comes through
-constexpr double kSeen = 1.0 / 128;   // a share that changed by less looks the same
+constexpr double kSqueezed = 0.75;    // spacings at rest from a clip's line that are squeezed: its lines close a layer
+constexpr double kOpaque_m = 3.5e-5;  // depth at which blood with 150 g/l of haemoglobin transmits 1/e of green light
+constexpr double kSeen = 1.0 / 128;   // smallest change of a share that is drawn
 constexpr double kMlPerM3 = 1e6;
 constexpr double kSecondsPerMinute = 60;
 
@@ -96,8 +96,8 @@ void Bleeding::noteLooks() {
   if (changed) paint_ = std::make_shared<const NodePaint>(NodePaint{PaintKind::kBlood, std::move(shares)});
 }
 
-SeenBlood Bleeding::seen() const {
-  SeenBlood out;
+BloodReport Bleeding::seen() const {
+  BloodReport out;
   out.bled_ml = kMlPerM3 * bled_m3_;
   out.on_tissue_ml = kMlPerM3 * film_.onTissue_m3();
   out.dripped_ml = kMlPerM3 * film_.dripped_m3();
@@ -106,7 +106,7 @@ SeenBlood Bleeding::seen() const {
   return out;
 }
 
-/// All looks clean again, also where it has to be drawn so.
+/// Resets the look too, including what must be drawn clean again.
 void Bleeding::reset() {
   film_.reset();
   std::fill(is_closed_.begin(), is_closed_.end(), uint8_t{0});
@@ -134,7 +134,7 @@ bool Bleeding::addTo(StateHash& hash) const {
 }
 
 FactGroup Bleeding::facts() const {
-  const SeenBlood blood = seen();
+  const BloodReport blood = seen();
   FactGroup out{"bleeding", fixedText(blood.bled_ml, 1) + " ml, " + fixedText(blood.flow_ml_per_min, 0) + " ml/min"};
   out.facts = {{"bled_ml", blood.bled_ml},
                {"on_tissue_ml", blood.on_tissue_ml},
@@ -144,7 +144,7 @@ FactGroup Bleeding::facts() const {
   return out;
 }
 
-void Bleeding::draw(ProcessLook& look) const {
+void Bleeding::draw(ProcessVisuals& look) const {
   if (paint_) look.paints.push_back(paint_);
 }
 

@@ -13,29 +13,29 @@
 #include "solver/processes/clip/clips.h"
 #include "solver/processes/process.h"
 #include "viscera/model/model.h"
-#include "viscera/solver/seen_blood.h"
+#include "viscera/solver/blood_report.h"
 
 namespace viscera {
 
-/// Blood that runs out of cut vessels, down the tissue and off it, until clips or burns stop it
-/// (docs/lessons/bleeding.md). It pushes nothing. Only where some part bleeds.
+/// Blood that flows out of cut vessels, down the tissue and off it, until clips or burns stop it
+/// (docs/lessons/bleeding.md). It exerts no forces. Exists only if some part bleeds.
 class Bleeding : public TissueProcess {
  public:
-  /// @param model  must outlive it   @param gravity_m_per_s2  tissue frame   @param tick_s  length of a tick
+  /// @param model  must outlive it   @param gravity_m_per_s2  tissue frame   @param tick_s  length of a tick [s]
   Bleeding(const Model& model, const Vector3d& gravity_m_per_s2, double tick_s);
 
   RollBack rollBack() const override { return RollBack::kKeep; }
   bool readsCuts() const override { return true; }
   void cutsChanged(const CutSprings& cuts) override;
-  /// Blood runs out of vessels that are cut and neither clipped nor burnt, and down the tissue.
+  /// Lets blood flow out of vessels that are cut and neither clipped nor burnt, and down the tissue.
   bool endTick(TissuePort& port, const ProcessTick& tick, const TissueProcesses& all) override;
   void reset() override;
   void persist(Archive& archive) override;
   bool addTo(StateHash& hash) const override;
   FactGroup facts() const override;
-  void draw(ProcessLook& look) const override;
+  void draw(ProcessVisuals& look) const override;
 
-  SeenBlood seen() const;
+  BloodReport seen() const;
 
  private:
   void lookWhatCloses(const Clips* clips, const HeatField* heat);
@@ -50,7 +50,7 @@ class Bleeding : public TissueProcess {
   std::vector<uint8_t> is_closed_;  ///< [slots]
   std::vector<std::array<Vector3d, 2>> squeezed_m_;
   size_t coagulated_ = 0;
-  bool is_stale_ = true;  ///< something was cut or closed since leaks were looked for
+  bool is_stale_ = true;  ///< something was cut or closed since the last search for leaks
   Vessels::Leaks leaks_;
   double bled_m3_ = 0;
   std::shared_ptr<const NodePaint> paint_;  ///< null before any blood

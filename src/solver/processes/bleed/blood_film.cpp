@@ -13,14 +13,14 @@ namespace viscera {
 
 namespace {
 
-constexpr double kViscosity_m2_per_s = 3.3e-6;  // of whole blood that flows fast, 3.5 mPa s over 1060 kg/m3
-constexpr double kClings_m = 1e-5;              // a film no thicker than a red cell is wide does not run
-constexpr int kSubsteps = 4;                    // of a tick, and
-constexpr double kMostLeaves = 0.5;   // of what a node has leaves it in one: so it runs two spacings in a tick at most
-constexpr double kFacesDown = 0.3;    // cosine: edges of what lies flat do, walls do not
-constexpr double kOverAnEdge = -0.1;  // cosine: of a sheet that lies flat, its edges
-constexpr double kOneSided = 0.5;     // sum of unit vectors to a node's neighbours: what is less has no outside
-constexpr double kLower = 0.01;       // spacings: what is lower by less lies as high
+constexpr double kViscosity_m2_per_s = 3.3e-6;  // whole blood at a high shear rate, 3.5 mPa s over 1060 kg/m3
+constexpr double kClings_m = 1e-5;              // a film no thicker than the width of a red cell does not flow
+constexpr int kSubsteps = 4;                    // per tick
+constexpr double kMostLeaves = 0.5;   // of a node's blood leaves it per substep, at most: two spacings in a tick
+constexpr double kFacesDown = 0.3;    // cosine: exceeded by edges of flat tissue, not by walls
+constexpr double kOverAnEdge = -0.1;  // cosine: the same of the edges of a flat sheet
+constexpr double kOneSided = 0.5;     // sum of unit vectors to a node's neighbours below which it has no outside
+constexpr double kLower = 0.01;       // in spacings: smaller differences of height are ignored
 
 bool isSheet(const Body& body) {
   return hasOwnNetwork(body);
@@ -51,7 +51,7 @@ BloodFilm::BloodFilm(const Model& model, const HeatGraph& graph, const Vector3d&
   setCuts(is_cut_);
 }
 
-/// @param visit  (link, slot at its other end, length)
+/// Calls visit for each link of a node. @param visit  (link, slot at its other end, length)
 template <class Visit>
 void BloodFilm::forEachLink(uint32_t slot, const Visit& visit) const {
   for (uint32_t i = graph_.starts[slot]; i < graph_.starts[slot + 1]; ++i) {
@@ -73,7 +73,7 @@ void BloodFilm::setCuts(const std::vector<uint8_t>& is_cut) {
     if (surface_[slot].area_m2 > 0) lookAround(slot);
 }
 
-/// Of what a node has of the surface, sums of width times length to its neighbours are four times the area.
+/// Finds a node's share of the surface: the sum of width times length to its neighbours is four times the area.
 void BloodFilm::lookAround(uint32_t slot) {
   Vector3d inward = Vector3d::Zero();
   int along = 0;
@@ -119,7 +119,7 @@ void BloodFilm::substep(double dt_s) {
   for (const uint32_t slot : wet_) volume_m3_[slot] += std::exchange(gain_m3_[slot], 0);
 }
 
-/// What leaves a node in a substep: Nusselt's film, g d^3 / (3 nu) per width along a slope, which is that of the
+/// Moves blood out of a node in a substep: Nusselt's film, g d^3 / (3 nu) per width along a slope, which is that of the
 /// film's own surface.
 void BloodFilm::run(uint32_t slot, double dt_s) {
   const Surface& it = surface_[slot];
@@ -167,7 +167,7 @@ void BloodFilm::persist(Archive& archive) {
   archive.list(slots);
   archive.value(dripped_m3_);
   for (const uint32_t slot : slots) {
-    if (slot >= volume_m3_.size()) throw Error("the saved state has blood on a node that the scene has not");
+    if (slot >= volume_m3_.size()) throw Error("the saved state has blood on a node that the scene does not have");
     archive.value(volume_m3_[slot]);
     wetten(slot);
   }

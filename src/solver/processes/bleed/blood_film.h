@@ -12,14 +12,14 @@
 
 namespace viscera {
 
-/// Blood on the surface of tissue at rest, as a film that runs down it (docs/lessons/bleeding.md 2). What is given is
-/// on the tissue or has dripped off.
+/// Blood on the surface of tissue at rest, as a film that flows down it (docs/lessons/bleeding.md 2). All blood given
+/// is on the tissue or has dripped off.
 class BloodFilm {
  public:
-  /// @param model, graph  as Vessels have them; must outlive it   @param gravity_m_per_s2  tissue frame
+  /// @param model, graph  as of Vessels; must outlive it   @param gravity_m_per_s2  tissue frame
   BloodFilm(const Model& model, const HeatGraph& graph, const Vector3d& gravity_m_per_s2);
 
-  /// @param is_cut  [links of the graph] their ends lie bare
+  /// Sets the cut links. @param is_cut  [links of the graph] their ends are exposed
   void setCuts(const std::vector<uint8_t>& is_cut);
   void give(uint32_t slot, double m3);
   void step(double dt_s);
@@ -28,7 +28,7 @@ class BloodFilm {
   double onTissue_m3() const;
   double dripped_m3() const { return dripped_m3_; }
   double thickness_m(uint32_t slot) const;
-  /// Slots that ever had blood, in the order of that.
+  /// Returns slots that ever had blood, in that order.
   const std::vector<uint32_t>& wet() const { return wet_; }
 
   void reset();
@@ -37,9 +37,9 @@ class BloodFilm {
 
  private:
   struct Surface {
-    double area_m2 = 0;  ///< 0: inside of tissue
-    double width_m = 0;  ///< times length, of what leads to another node
-    bool drips = false;  ///< it faces down, and nothing is lower
+    double area_m2 = 0;  ///< 0: inside tissue
+    double width_m = 0;  ///< sum of width times length of the links to neighbours
+    bool drips = false;  ///< whether it faces down and no neighbour is lower
   };
   void lookAround(uint32_t slot);
   void substep(double dt_s);
@@ -49,17 +49,17 @@ class BloodFilm {
   void forEachLink(uint32_t slot, const Visit& visit) const;
 
   const HeatGraph& graph_;
-  double speed_per_m2_s_;         ///< of a film that hangs, over the square of its thickness
+  double speed_per_m2_s_;         ///< speed of a vertical film over the square of its thickness
   std::vector<Vector3d> rest_m_;  ///< [slots]
   std::vector<double> height_m_;  ///< [slots]
-  std::vector<double> drip_cos_;  ///< [slots] what faces down by more than that lets blood fall
+  std::vector<double> drip_cos_;  ///< [slots] blood drips from surfaces that face down by more than this cosine
   Vector3d down_;
   std::vector<uint8_t> is_cut_;              ///< [links]
   std::vector<Surface> surface_;             ///< [slots]
   std::vector<double> volume_m3_, gain_m3_;  ///< [slots]
   std::vector<uint8_t> is_wet_;              ///< [slots]
   std::vector<uint32_t> wet_;
-  std::vector<std::pair<uint32_t, double>> ways_;  ///< of a node: to which, how much
+  std::vector<std::pair<uint32_t, double>> ways_;  ///< flows from a node: target, amount
   double dripped_m3_ = 0;
 };
 

@@ -16,7 +16,7 @@ constexpr double kVesselPi = 3.14159265358979323846;
 constexpr double kM3PerMl = 1e-6;
 constexpr double kMinute_s = 60;
 
-/// [labels] what each part bleeds; 0 is no part.
+/// Returns [labels] the bleeding of each part; 0 is no part.
 std::vector<BleedingConfig> bleedingByLabel(const Body& body) {
   std::vector<BleedingConfig> out(1 + body.lattice.part_names.size(), body.material.bleeding);
   for (const PartConfig& part : body.parts) {
@@ -27,7 +27,7 @@ std::vector<BleedingConfig> bleedingByLabel(const Body& body) {
   return out;
 }
 
-/// How far the two of these places are apart that are farthest.
+/// Returns the largest distance between two of these positions.
 double lengthOf_m(const std::vector<Vector3d>& rest_m, const std::vector<uint32_t>& slots, uint32_t offset) {
   Vector3d end = rest_m[offset + slots.front()];
   double out = 0;
@@ -67,7 +67,7 @@ Vessels::Vessels(const Model& model, const HeatGraph& graph)
   }
 }
 
-/// @param visit  (link, slot at its other end)
+/// Calls visit for each link of a node. @param visit  (link, slot at its other end)
 template <class Visit>
 void Vessels::forEachLink(uint32_t slot, const Visit& visit) const {
   for (uint32_t i = graph_.starts[slot]; i < graph_.starts[slot + 1]; ++i) {
@@ -92,7 +92,7 @@ void Vessels::addPart(const Body& body, uint32_t offset, const std::vector<uint3
   }
 }
 
-/// A cell gives each of its edges a quarter of its faces.
+/// Adds the sections of cells: a cell gives each of its edges a quarter of its faces.
 void Vessels::addCells(const Body& body, uint32_t offset) {
   const Lattice& lattice = body.lattice;
   const std::vector<BleedingConfig> by_label = bleedingByLabel(body);
@@ -121,7 +121,8 @@ void Vessels::addCells(const Body& body, uint32_t offset) {
     addPart(body, offset, slots[label], volumes_m3[label], by_label[label]);
 }
 
-/// Links to an isotropic conduction: their sum of area times direction across a plane is that of the plane.
+/// Adds the sections of a network, scaled for isotropic conduction: their sum of area times direction across a plane
+/// equals that of the plane.
 void Vessels::addNetwork(const Body& body, uint32_t offset) {
   if (body.material.bleeding.flow_ml_per_min == 0) return;
   std::vector<uint32_t> slots;
@@ -136,7 +137,7 @@ void Vessels::addNetwork(const Body& body, uint32_t offset) {
   addPart(body, offset, slots, volume_m3, body.material.bleeding);
 }
 
-/// What hangs together by whole links of vessels, without what is closed.
+/// Returns the connected components of the vessels by whole links, without closed nodes.
 std::vector<Vessels::Piece> Vessels::pieces(const std::vector<uint8_t>& is_cut,
                                             const std::vector<uint8_t>& is_closed) const {
   std::vector<uint8_t> is_found = is_closed;
@@ -159,7 +160,7 @@ std::vector<Vessels::Piece> Vessels::pieces(const std::vector<uint8_t>& is_cut,
   return out;
 }
 
-/// What is open of a vessel at a node, as a vector out of it.
+/// Returns the open cross-section of a vessel at a node, as an outward vector.
 Vector3d Vessels::open_m2(uint32_t slot, const std::vector<uint8_t>& is_cut) const {
   Vector3d out = Vector3d::Zero();
   forEachLink(slot, [&](uint32_t link, uint32_t other) {
@@ -168,8 +169,8 @@ Vector3d Vessels::open_m2(uint32_t slot, const std::vector<uint8_t>& is_cut) con
   return out;
 }
 
-/// Blood comes from where a vessel is held, as it goes on there beyond the scene; of one that is held nowhere, the
-/// largest piece has it.
+/// Finds the leaks. Blood comes from where a vessel is fixed, as it continues there beyond the scene. Of a vessel that
+/// is fixed nowhere, the largest piece has the blood.
 Vessels::Leaks Vessels::find(const std::vector<uint8_t>& is_cut, const std::vector<uint8_t>& is_closed) const {
   const std::vector<Piece> all = pieces(is_cut, is_closed);
   std::vector<const Piece*> largest(group_is_held_.size(), nullptr);

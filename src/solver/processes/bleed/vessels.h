@@ -13,30 +13,30 @@ namespace viscera {
 /// Parts of bodies that bleed where they are cut, as graphs of their nodes (docs/lessons/bleeding.md 1).
 class Vessels {
  public:
-  /// @param model, graph  must outlive them; the graph for a conductivity of 1: what a link conducts is its area over
-  /// its length
+  /// @param model, graph  must outlive them; the graph is for a conductivity of 1, so the conductance of a link is its
+  /// area over its length
   Vessels(const Model& model, const HeatGraph& graph);
 
   const std::vector<uint32_t>& nodes() const { return nodes_; }          ///< slots in the solver's buffers
   const Vector3d& rest_m(uint32_t slot) const { return rest_m_[slot]; }  ///< tissue frame
 
-  /// What runs out of a node.
+  /// Flow out of a node.
   struct Leak {
     uint32_t slot = 0;
     double m3_per_s = 0;
   };
   struct Leaks {
     std::vector<Leak> of_nodes;
-    uint64_t stumps = 0;  ///< pieces that they belong to
+    uint64_t stumps = 0;  ///< number of pieces that they belong to
   };
-  /// @param is_cut  [links of the graph]   @param is_closed  [slots] blood does not come through these
+  /// Finds the leaks. @param is_cut  [links of the graph]   @param is_closed  [slots] blood does not pass these
   Leaks find(const std::vector<uint8_t>& is_cut, const std::vector<uint8_t>& is_closed) const;
 
  private:
   struct Node {
-    double flow_m3_per_s = 0;  ///< out of a stump of its part; 0: not of a vessel
-    double section_m2 = 0;     ///< of that stump
-    uint32_t group = 0;        ///< what hangs together as long as nothing is cut
+    double flow_m3_per_s = 0;  ///< out of a stump of its part; 0: not in a vessel
+    double section_m2 = 0;     ///< cross-section of that stump
+    uint32_t group = 0;        ///< connected component while nothing is cut
     bool is_held = false;
   };
   struct Piece {
@@ -55,7 +55,7 @@ class Vessels {
   const HeatGraph& graph_;
   std::vector<Vector3d> rest_m_;  ///< [slots]
   std::vector<Node> of_slots_;    ///< [slots]
-  std::vector<double> area_m2_;   ///< [links] of the vessel, across the link; 0: not of one
+  std::vector<double> area_m2_;   ///< [links] cross-section of the vessel at the link; 0: not in a vessel
   std::vector<uint32_t> nodes_;
   std::vector<uint8_t> group_is_held_;
 };

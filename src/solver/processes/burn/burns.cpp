@@ -15,12 +15,12 @@ namespace viscera {
 
 namespace {
 
-constexpr size_t kLookedAt = 4;      // nodes next to a tip, towards which it may touch tissue
-constexpr double kSpark_m = 0.0005;  // from a tip to tissue: as far as sparks of coagulation go
-constexpr double kKerf_m = 0.0005;   // boiled dry across a node's tissue when it parts: a cut by a fine electrode
-constexpr double kNearby = 1.5;      // spacings from a tip: no tissue that it touches has all its nodes farther away
-constexpr double kErased = 0.1;      // spacings around a node that parts: none beside it
-constexpr double kBurnSeen = 1.0 / 128;  // a share that changed by less looks the same
+constexpr size_t kLookedAt = 4;          // nodes nearest to a tip, in the directions of which it may touch tissue
+constexpr double kSpark_m = 0.0005;      // distance from a tip to tissue that sparks of coagulation reach
+constexpr double kKerf_m = 0.0005;       // width boiled dry at which a node's tissue separates: a fine electrode's cut
+constexpr double kNearby = 1.5;          // spacings from a tip: tissue that it touches has a node within that distance
+constexpr double kErased = 0.1;          // spacings around a node that separates: none of its neighbours is that near
+constexpr double kBurnSeen = 1.0 / 128;  // smallest change of a share that is drawn
 
 layout::vec4 vec4Of(const Vector3d& v, double w = 0) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), static_cast<float>(w)};
@@ -69,8 +69,8 @@ bool Burns::act(TissuePort& port, const ProcessTick& tick, const ProcessSubstep&
   return cut;
 }
 
-/// The nodes next to the tip that are within a spark of it; towards others, and towards all of them, what lies that
-/// far.
+/// Returns the points that a tip touches: the nearest nodes within spark distance, and the tissue at that distance in
+/// the directions of the nearest nodes and of their mean.
 std::vector<TissuePoint> Burns::touchedBy(TissuePort& port, const StylusMotion& motion, double radius_m) const {
   const Vector3d tip_m = motion.to.position_m;
   std::vector<Vector3f> u(nodes_.size()), v(nodes_.size());
@@ -118,7 +118,7 @@ void Burns::heatWhatTipsTouch(TissuePort& port, const ToolMotions& motions) {
     if (!motion.present || !kindOf(motion.mode).burns || config.power_w <= 0) continue;
     const std::vector<TissuePoint> points = touchedBy(port, motion, config.radius_m);
     for (const TissuePoint& point : points) {
-      double sum = 0;  // beside a cut weights may be below 0
+      double sum = 0;  // weights may be negative next to a cut
       for (uint32_t c = 0; c < point.count; ++c) sum += std::max(0.0, static_cast<double>(point.weights[c]));
       for (uint32_t c = 0; c < point.count; ++c) {
         const double share = std::max(0.0, static_cast<double>(point.weights[c])) / sum;
@@ -129,7 +129,7 @@ void Burns::heatWhatTipsTouch(TissuePort& port, const ToolMotions& motions) {
   }
 }
 
-/// Of a node's water, what a kerf across its tissue is of that.
+/// Returns the share of a node's water at which a kerf's width of its tissue is boiled dry.
 double Burns::boiledToPart(uint32_t body) const {
   return std::min(1.0, kKerf_m / heat_.graph().spacing_m[body]);
 }
@@ -141,7 +141,8 @@ bool Burns::partWhatBoiled(TissuePort& port) {
     if (is_parted_[slot] || heat_.boiled(slot) < boiledToPart(b)) continue;
     const Lattice& lattice = model_.bodies[b].lattice;
     Vector3d at_m = tissue_.rest_m(slot);
-    if (!lattice.way_to_surface_m.empty()) at_m += lattice.way_to_surface_m[slot - model_.slotOffset(b)].cast<double>();
+    if (!lattice.offset_to_surface_m.empty())
+      at_m += lattice.offset_to_surface_m[slot - model_.slotOffset(b)].cast<double>();
     layout::ToolMotion sweep{};
     sweep.from = sweep.to = sweep.blade_to = vec4Of(at_m);
     sweep.blade_from = vec4Of(at_m, kErased * heat_.graph().spacing_m[b]);
@@ -165,8 +166,8 @@ void Burns::noteLooks() {
   if (changed) paint_ = std::make_shared<const NodePaint>(NodePaint{PaintKind::kBurn, std::move(shares)});
 }
 
-SeenBurns Burns::seen() const {
-  SeenBurns out = heat_.seen();
+BurnReport Burns::seen() const {
+  BurnReport out = heat_.seen();
   out.parted = parted_.size();
   return out;
 }
@@ -187,7 +188,7 @@ void Burns::persist(Archive& archive) {
   archive.list(parted_);
   if (!archive.reads()) return;
   for (const uint32_t slot : parted_) {
-    if (slot >= is_parted_.size()) throw Error("the saved state has a burn on a node that the scene has not");
+    if (slot >= is_parted_.size()) throw Error("the saved state has a burn on a node that the scene does not have");
     is_parted_[slot] = 1;
   }
   if (!heat_.touched().empty()) noteLooks();
@@ -199,7 +200,7 @@ bool Burns::addTo(StateHash& hash) const {
 }
 
 FactGroup Burns::facts() const {
-  const SeenBurns burns = seen();
+  const BurnReport burns = seen();
   FactGroup out{"burns", "hottest node " + numberText(std::round(burns.hottest_c)) + " C"};
   out.facts = {{"given_j", burns.given_j},
                {"stored_j", burns.stored_j},
@@ -212,7 +213,7 @@ FactGroup Burns::facts() const {
   return out;
 }
 
-void Burns::draw(ProcessLook& look) const {
+void Burns::draw(ProcessVisuals& look) const {
   if (paint_) look.paints.push_back(paint_);
 }
 

@@ -12,15 +12,16 @@
 #include "solver/processes/tissue_points.h"
 #include "viscera/model/model.h"
 #include "viscera/model/scene/stylus_config.h"
-#include "viscera/solver/seen_burns.h"
+#include "viscera/solver/burn_report.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {
 
 struct Scene;
 
-/// What hot tips do to tissue (docs/lessons/cautery.md): heat where they touch it; coagulated tissue shrinks and
-/// stiffens, by impulses after each substep; what boils dry parts. Only where a stylus has mode cautery.
+/// Effects of hot tips on tissue (docs/lessons/cautery.md). Tips heat tissue where they touch it. Coagulated tissue
+/// shrinks and stiffens, by impulses after each substep. Tissue that boils dry separates. Exists only if a stylus has
+/// mode cautery.
 class Burns : public TissueProcess {
  public:
   /// @param model  must outlive them
@@ -36,10 +37,10 @@ class Burns : public TissueProcess {
   void persist(Archive& archive) override;
   bool addTo(StateHash& hash) const override;
   FactGroup facts() const override;
-  void draw(ProcessLook& look) const override;
+  void draw(ProcessVisuals& look) const override;
 
   const HeatField& heat() const { return heat_; }
-  SeenBurns seen() const;
+  BurnReport seen() const;
 
  private:
   std::vector<TissuePoint> touchedBy(TissuePort& port, const StylusMotion& motion, double radius_m) const;
@@ -59,7 +60,7 @@ class Burns : public TissueProcess {
   std::vector<uint8_t> is_parted_;  ///< [slots]
   std::vector<uint32_t> parted_;
   CutSprings cuts_;
-  double work_j_ = 0;                       ///< of shrinking tissue on the rest, in the tick
+  double work_j_ = 0;                       ///< work of shrinking tissue on the rest in the tick
   std::shared_ptr<const NodePaint> paint_;  ///< null before the first burn
 };
 

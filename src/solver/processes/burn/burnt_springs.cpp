@@ -12,11 +12,10 @@ namespace viscera {
 
 namespace {
 
-constexpr double kFelt = 0.01;  // share that is coagulated, of a spring that is looked after
-constexpr int kMostSweeps =
-    12;  // of conjugate gradients: a dozen leave less than kLeftOfSpring where tissue is three times as stiff
-constexpr double kLeftOfSpring = 1e-4;  // of the impulses, as a root of their squares
-constexpr double kCollapsed = 1e-6;     // of a length: such a spring has no direction
+constexpr double kFelt = 0.01;          // smallest coagulated share of a spring that is handled
+constexpr int kMostSweeps = 12;         // of conjugate gradients: leave less than kLeftOfSpring in threefold stiffness
+constexpr double kLeftOfSpring = 1e-4;  // tolerance over the impulses, root mean square
+constexpr double kCollapsed = 1e-6;     // of a length: a shorter spring has no direction
 
 }  // namespace
 
@@ -34,9 +33,9 @@ BurntSprings::BurntSprings(const Model& model)
   }
 }
 
-/// A spring that is coagulated by a share c should have k (1 + (kStiffened - 1) c) and be kShrunk c shorter at rest.
-/// Its own k and length are left: what is missing is a stiffness, and a tension, which also makes up for what the
-/// volumes of the cells around resist of a shrinkage.
+/// Finds the coagulated springs. A spring coagulated by a share c should have k (1 + (kStiffened - 1) c) and be kShrunk
+/// c shorter at rest. Its own k and length are kept. The difference is a stiffness, and a tension, which also
+/// compensates the resistance of the surrounding cells' volumes to shrinkage.
 void BurntSprings::find(const HeatField& heat, const CutSprings& cuts) {
   springs_.clear();
   slots_.clear();
@@ -72,7 +71,8 @@ void BurntSprings::find(const HeatField& heat, const CutSprings& cuts) {
   for (const uint32_t slot : slots_) place_[slot] = 0;
 }
 
-/// (1 + dt^2 K / m) by a velocity: K along each spring its stiffness, across it what its tension holds.
+/// Multiplies a velocity by (1 + dt^2 K / m), with K the stiffness along each spring and the effect of its tension
+/// across.
 void BurntSprings::multiply(double dt_s, const std::vector<Vector3d>& by, std::vector<Vector3d>& out) const {
   for (size_t i = 0; i < slots_.size(); ++i) {
     const double w = inverse_mass_[slots_[i]];

@@ -12,12 +12,12 @@ namespace viscera {
 
 namespace {
 
-constexpr double kWarm_k = 0.002;        // nodes that are warmer heat those around them
-constexpr double kForgotten_k = 0.0005;  // those that are cooler, without such beside them, are at body temperature
-constexpr double kStable = 0.5;          // of what an explicit step bears at most: no node passes its neighbours
+constexpr double kWarm_k = 0.002;        // warmer nodes heat their neighbours
+constexpr double kForgotten_k = 0.0005;  // cooler nodes without such a neighbour are set to body temperature
+constexpr double kStable = 0.5;  // of the stability limit of an explicit step: no node overshoots its neighbours
 constexpr double kGas_j_per_mol_k = 8.314462;
 constexpr double kZero_c = -273.15;
-constexpr double kMostDose = 30;  // coagulated through, whatever comes
+constexpr double kMostDose = 30;  // fully coagulated; the dose is clamped here
 
 }  // namespace
 
@@ -91,7 +91,8 @@ void HeatField::widen() {
   }
 }
 
-/// What cool nodes still have counts as taken away by blood. Those that have parted keep theirs, and no one feels it.
+/// Deactivates cool nodes. Their remaining heat counts as carried away by blood. Isolated nodes keep theirs, with no
+/// effect.
 void HeatField::narrow() {
   const auto hasWarmNeighbor = [&](uint32_t slot) {
     bool warm = false;
@@ -119,7 +120,7 @@ void HeatField::narrow() {
                 active_.end());
 }
 
-/// Blood goes through what is not coagulated. @returns  what it takes along
+/// Returns the cooling by blood, which perfuses tissue that is not coagulated.
 double HeatField::lossRate_w_per_k(uint32_t slot) const {
   return constants_.perfusion_per_s * constants_.blood_j_per_m3_k * graph_.volume_m3[slot] *
          std::exp(-nodes_[slot].dose);
@@ -138,7 +139,7 @@ double HeatField::fastest_per_s() const {
 void HeatField::substep(double dt_s) {
   for (const uint32_t slot : active_) rise_k_[slot] = rise_k(slot);
   for (const uint32_t slot : active_) {
-    double gain_w = 0, away_w = 0;  // to those that stay at body temperature
+    double gain_w = 0, away_w = 0;  // loss to nodes that stay at body temperature
     forEachNeighbor(slot, [&](uint32_t other, double w_per_k) {
       if (is_active_[other]) {
         gain_w += w_per_k * (rise_k_[other] - rise_k_[slot]);
@@ -152,7 +153,7 @@ void HeatField::substep(double dt_s) {
   for (const uint32_t slot : active_) {
     Node& node = nodes_[slot];
     const double perfused_j = dt_s * lossRate_w_per_k(slot) * rise_k_[slot];
-    // Skin at body temperature gives what blood brings it all the time: only what is warmer counts.
+    // The loss of a surface at body temperature is balanced by blood: only the excess counts.
     const double surface_j = dt_s * constants_.air_w_per_m2_k * graph_.exposed_m2[slot] * rise_k_[slot];
     node.heat_j += gain_j_[slot] - perfused_j - surface_j;
     sums_.perfused_j += perfused_j;
@@ -167,7 +168,7 @@ void HeatField::substep(double dt_s) {
   }
 }
 
-/// What is above the boiling point makes steam, as long as there is water: that leaves with its own heat.
+/// Turns heat above the boiling point into steam while there is water; steam leaves with its heat.
 void HeatField::boil(uint32_t slot) {
   Node& node = nodes_[slot];
   const double span_k = constants_.boiling_c - constants_.body_c;
@@ -181,8 +182,8 @@ void HeatField::boil(uint32_t slot) {
   sums_.steam_j += steam_j;
 }
 
-SeenBurns HeatField::seen() const {
-  SeenBurns out = sums_;
+BurnReport HeatField::seen() const {
+  BurnReport out = sums_;
   out.hottest_c = constants_.body_c;
   for (const uint32_t slot : touched_) {
     out.stored_j += nodes_[slot].heat_j;
@@ -211,7 +212,7 @@ void HeatField::persist(Archive& archive) {
   for (const std::vector<uint32_t>* slots : {&touched, &active}) {
     for (const uint32_t slot : *slots) {
       if (slot >= nodes_.size() || graph_.mass_kg[slot] <= 0)
-        throw Error("the saved state has a burn on a node that the scene has not");
+        throw Error("the saved state has a burn on a node that the scene does not have");
     }
   }
   if (archive.reads()) {

@@ -8,7 +8,7 @@
 #include "math/archive.h"
 #include "solver/processes/burn/heat_graph.h"
 #include "viscera/math/state_hash.h"
-#include "viscera/solver/seen_burns.h"
+#include "viscera/solver/burn_report.h"
 
 namespace viscera {
 
@@ -17,37 +17,36 @@ struct HeatConstants {
   double body_c = 37;
   double conductivity_w_per_m_k = 0.52;
   double heat_j_per_kg_k = 3540;
-  double water_share = 0.74;  ///< of the mass
+  double water_share = 0.74;  ///< share of the mass that is water
   double water_j_per_kg_k = 4180;
   double boiling_c = 100;
   double boiling_j_per_kg = 2.257e6;
-  double perfusion_per_s = 6.4e-3;  ///< blood per tissue, by volume
+  double perfusion_per_s = 6.4e-3;  ///< volume of blood per volume of tissue
   double blood_j_per_m3_k = 3.8e6;
-  double air_w_per_m2_k = 15;   ///< of skin that is warmer than the body
-  double dose_per_s = 7.39e39;  ///< Arrhenius: factor
+  double air_w_per_m2_k = 15;   ///< heat transfer to air, of surfaces warmer than the body
+  double dose_per_s = 7.39e39;  ///< Arrhenius factor
   double dose_j_per_mol = 2.577e5;
-  double dose_above_c = 43;  ///< below it the fit of the two would coagulate tissue that lives
+  double dose_above_c = 43;  ///< below it the fit of the two would coagulate living tissue
 };
 
-/// Heat, boiled water and dose of every node: the equation of Pennes, stepped explicitly, of the nodes near burns
-/// alone.
+/// Heat, boiled water and dose of every node: Pennes' equation, stepped explicitly, for the nodes near burns only.
 class HeatField {
  public:
   explicit HeatField(const Model& model, const HeatConstants& constants = {});
 
-  /// Links along springs that are cut carry no heat.
+  /// Sets the cut springs: links along them carry no heat.
   void setCuts(const CutSprings& cuts);
   void give(uint32_t slot, double joule);
   void step(double dt_s);
 
   double temperature_c(uint32_t slot) const;
-  double coagulated(uint32_t slot) const;                                   ///< share, by the dose
+  double coagulated(uint32_t slot) const;                                   ///< coagulated share, by the dose
   bool isCoagulated(uint32_t slot) const { return nodes_[slot].dose > 1; }  ///< more than 63 % of it
-  double boiled(uint32_t slot) const;                                       ///< share of the water
-  /// Slots that were ever heated, in the order of that.
+  double boiled(uint32_t slot) const;                                       ///< share of the water that has boiled
+  /// Returns slots that were ever heated, in that order.
   const std::vector<uint32_t>& touched() const { return touched_; }
   bool isWarm() const { return !active_.empty(); }  ///< some node is warmer than the body
-  SeenBurns seen() const;                           ///< but for what parted
+  BurnReport seen() const;                          ///< state without the separated tissue
   const HeatGraph& graph() const { return graph_; }
   const HeatConstants& constants() const { return constants_; }
 
@@ -57,8 +56,8 @@ class HeatField {
 
  private:
   struct Node {
-    double heat_j = 0;     ///< above body temperature, without what steam took
-    double boiled_kg = 0;  ///< of its water
+    double heat_j = 0;     ///< heat above body temperature, without that of steam
+    double boiled_kg = 0;  ///< boiled part of its water
     double dose = 0;       ///< Arrhenius' integral
   };
   double capacity_j_per_k(uint32_t slot) const;
@@ -76,12 +75,12 @@ class HeatField {
 
   HeatConstants constants_;
   HeatGraph graph_;
-  std::vector<uint8_t> closed_;                  ///< [springs] cut; empty: none is
+  std::vector<uint8_t> closed_;                  ///< [springs] cut; empty: no spring is
   std::vector<Node> nodes_;                      ///< [slots]
   std::vector<uint8_t> is_touched_, is_active_;  ///< [slots]
-  std::vector<uint32_t> touched_, active_;       ///< those near burns that are warm
-  std::vector<double> rise_k_, gain_j_;          ///< [slots] of a substep
-  SeenBurns sums_;
+  std::vector<uint32_t> touched_, active_;       ///< all heated ones; the warm ones and those near them
+  std::vector<double> rise_k_, gain_j_;          ///< [slots] data of a substep
+  BurnReport sums_;
 };
 
 }  // namespace viscera

@@ -15,7 +15,8 @@ namespace {
 
 constexpr uint32_t kAxes = 3;
 
-/// Springs resist an isotropic strain with 5 mu h^3, volumes with 3 (lambda - mu) h^3.
+/// Returns BurntSpring::volume_ratio: springs resist an isotropic strain with 5 mu h^3, volumes with 3 (lambda - mu)
+/// h^3.
 double volumeRatio(const Elasticity& e) {
   return 0.6 * e.bulk_j / e.rigidity_j;
 }
@@ -49,7 +50,7 @@ void addNetworkSprings(const Body& body, uint32_t offset, uint32_t first, std::v
   }
 }
 
-/// Of a lattice, what its cells conduct along their edges, and where they are bare.
+/// Conductances of a lattice: of its cells along their edges, and exposed areas.
 class CellHeat {
  public:
   CellHeat(const Lattice& lattice, double conductivity) : lattice_(lattice), w_per_k_(kAxes * lattice.nodes.size(), 0) {
@@ -62,7 +63,7 @@ class CellHeat {
       });
     }
   }
-  /// Between two nodes that a spring joins: along edges alone.
+  /// Returns the conductance between two nodes that a spring connects: only along edges.
   double along(uint32_t a, uint32_t b) const {
     const int spring = springIndex(lattice_.nodeAt(b) - lattice_.nodeAt(a));
     if (spring < 0 || !isAxial(static_cast<uint32_t>(spring))) return 0;
@@ -87,7 +88,7 @@ class CellHeat {
   std::vector<double> w_per_k_;
 };
 
-/// @param pairs  with ends a and b   @param starts, of  where those of a slot begin in `of`, which holds their numbers
+/// Lists pairs by slot. @param pairs  with ends a and b   @param starts, of  out: start of each slot's indices in `of`
 template <class Pair>
 void listBySlot(const std::vector<Pair>& pairs, size_t slots, std::vector<uint32_t>& starts,
                 std::vector<uint32_t>& of) {
@@ -164,7 +165,8 @@ void HeatGraph::addCells(const Lattice& lattice, uint32_t offset, size_t first, 
   }
 }
 
-/// Springs are to an isotropic conduction what they are to stiffness: their sum of k l^2 n n^T over a sheet is 3/2 E.
+/// Adds a network. Springs represent isotropic conduction as they do stiffness: their sum of k l^2 n n^T over a sheet
+/// is 3/2 E.
 void HeatGraph::addNetwork(const SpringNetwork& network, double young_modulus_pa, uint32_t offset, size_t first,
                            size_t end, double conductivity) {
   spacing_m.push_back(network.meanLength());

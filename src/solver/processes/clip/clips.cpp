@@ -18,17 +18,17 @@ namespace viscera {
 namespace {
 
 constexpr int kClipSweeps = 2;            // over the pairs: nodes are in several
-constexpr double kCloses = 0.2;           // of what is missing, in a substep
-constexpr double kCloses_m_per_s = 0.05;  // at most: as fast as a hand closes jaws
-constexpr double kOpens_m_per_s = 0.02;   // of sides that are too near: slow, as nothing takes that speed back
-constexpr double kClosedBelow_rad = 0.1;  // jaws that are so far open press a clip shut: as grippers, which stop there
+constexpr double kCloses = 0.2;           // share of the gap that is closed per substep
+constexpr double kCloses_m_per_s = 0.05;  // largest closing speed: about that of jaws closed by hand
+constexpr double kOpens_m_per_s = 0.02;   // opening speed of sides that are too near: slow, as this speed remains
+constexpr double kClosedBelow_rad = 0.1;  // opening angle below which jaws close a clip; grippers stop there
 constexpr double kNearest_m = 1e-7;       // sides that are nearer have no direction
-constexpr double kColumn = 0.5;           // spacings, across the jaws' way: what is so near hides what is behind it
-constexpr double kFacing = 0.75;          // spacings, the same: nodes so near are of a column, also of turned lattices
-constexpr double kSlab = 0.5001;          // spacings on either side of a clip's middle, so that a layer is in it
-constexpr double kLeg_m = 0.0005;         // by which a clip reaches beyond what it holds, and lies outside of it
+constexpr double kColumn = 0.5;           // spacings across the jaws' direction: nodes that near hide those behind them
+constexpr double kFacing = 0.75;   // spacings, the same: nodes that near are in one column, also in rotated lattices
+constexpr double kSlab = 0.5001;   // spacings on either side of a clip's middle, wide enough to contain a layer
+constexpr double kLeg_m = 0.0005;  // length by which a clip extends beyond the held tissue, and distance outside it
 
-/// Of two places as seen along x.
+/// Returns the distance of two positions projected along x.
 double apartAcross_m(const Vector3d& a, const Vector3d& b) {
   return std::hypot(a.y() - b.y(), a.z() - b.z());
 }
@@ -38,7 +38,7 @@ double apartAcross_m(const Vector3d& a, const Vector3d& b) {
 Clips::Clips(const std::vector<StylusConfig>& styluses, const Model& model)
     : styluses_(styluses), model_(model), spacing_m_(longestSpacing(model)), points_(model), blades_(styluses) {}
 
-/// Finds which jaws close in this tick, and keeps where clips are, for blades.
+/// Finds the jaws that close in this tick, and records the positions of clips, for blades.
 void Clips::beginTick(const ProcessTick& tick) {
   for (size_t s = 0; s < styluses_.size(); ++s) {
     const StylusMotion& motion = tick.motions[s];
@@ -67,7 +67,7 @@ bool Clips::act(TissuePort& port, const ProcessTick&, const ProcessSubstep& subs
   return false;
 }
 
-/// Takes off the clips that blades have met: those that were there when the tick began.
+/// Removes the clips that blades have met, of those that were there when the tick began.
 bool Clips::endTick(TissuePort&, const ProcessTick&, const TissueProcesses&) {
   for (size_t c = blades_.kept(); c-- > 0;) {
     if (blades_.met(c, places_m(c)).empty()) continue;
@@ -103,7 +103,7 @@ std::vector<Clips::Near> Clips::nodesIn(const TissuePort& port, const Pose& jaws
   return out;
 }
 
-/// Sets the clips of jaws that close, where nodes are now.
+/// Sets the clips of jaws that close, at the current positions of nodes.
 void Clips::set(const TissuePort& port) {
   for (uint32_t s = 0; s < styluses_.size(); ++s) {
     const ClipConfig& config = styluses_[s].clip;
@@ -113,8 +113,8 @@ void Clips::set(const TissuePort& port) {
   }
 }
 
-/// A column is what lies behind each other along the jaws' way. Its nodes move together in pairs, the outermost two,
-/// the next two and so on: were only the outermost pressed, they would pass what is between them.
+/// Adds a clip. A column is the nodes behind each other along the jaws' direction. Its nodes are paired from the
+/// outside in: with the outermost two alone, these would pass through the nodes between them.
 bool Clips::add(uint32_t stylus, const Pose& jaws, const ClipConfig& config, const std::vector<Near>& nodes) {
   const auto isOutermost = [&](const Near& node) {
     return std::none_of(nodes.begin(), nodes.end(), [&](const Near& other) {
@@ -165,7 +165,7 @@ void Clips::findPoints(Clip& clip) const {
     clip.points.push_back({nodePoint(model_, pair.body_a, pair.a), nodePoint(model_, pair.body_b, pair.b)});
 }
 
-/// The pairs of a clip share its force; what would close or open it farther than that yields.
+/// Holds the pairs of a clip together. They share its force and yield beyond it.
 void Clips::hold(double dt_s) {
   for (Clip& clip : clips_) {
     const double most_ns = styluses_[clip.stylus].clip.force_n * dt_s / static_cast<double>(clip.pairs.size());
@@ -197,8 +197,8 @@ void Clips::hold(double dt_s) {
   }
 }
 
-/// Returns both legs and what joins them, tissue frame. They are carried along as a stiff body would be by the nodes
-/// that it holds, its legs as far apart as their sides are.
+/// Returns both legs and the part that joins them, tissue frame. They move as a rigid body with the held nodes, with
+/// the legs as far apart as the sides.
 std::vector<Vector3d> Clips::places_m(size_t at) const {
   const Clip& clip = clips_[at];
   const auto count = static_cast<Eigen::Index>(2 * clip.pairs.size());
@@ -214,7 +214,7 @@ std::vector<Vector3d> Clips::places_m(size_t at) const {
   }
   const Vector3d from = set.rowwise().mean(), to = now.rowwise().mean();
   Eigen::Matrix3d turn = rigidMotion(set, now).topLeftCorner<3, 3>();
-  // Those of one line do not tell how it is turned about that.
+  // A single pair does not determine the rotation about its line.
   if (clip.pairs.size() < 2)
     turn = rotationBetween(set.col(0) - set.col(1), now.col(0) - now.col(1)).toRotationMatrix();
   const Vector3d side = (0.5 * apart_m + kLeg_m) * (turn * clip.across);
@@ -230,10 +230,10 @@ std::vector<std::array<Vector3d, 2>> Clips::squeezed_m() const {
   return out;
 }
 
-SeenClips Clips::seen() const {
-  SeenClips out{{}, empty_, taken_off_};
+ClipStates Clips::seen() const {
+  ClipStates out{{}, empty_, taken_off_};
   for (const Clip& clip : clips_) {
-    SeenClip& seen = out.on.emplace_back();
+    ClipState& seen = out.on.emplace_back();
     seen.stylus = clip.stylus;
     seen.force_n = clip.force_n;
     const double share = 1 / static_cast<double>(clip.pairs.size());
@@ -269,12 +269,13 @@ void Clips::persist(Archive& archive) {
     archive.value(clip.force_n);
     archive.list(clip.pairs);
     if (!archive.reads()) continue;
-    if (clip.stylus >= styluses_.size()) throw Error("the saved state has a clip of a stylus that the scene has not");
+    if (clip.stylus >= styluses_.size())
+      throw Error("the saved state has a clip of a stylus that the scene does not have");
     for (const Pair& pair : clip.pairs) {
       for (const auto& [body, slot] : {std::pair(pair.body_a, pair.a), std::pair(pair.body_b, pair.b)}) {
         if (body >= model_.bodies.size() ||
             slot >= model_.bodies[body].lattice.bricks.size() * size_t{layout::kBrickSlots})
-          throw Error("the saved state has a clip on a node that the scene has not");
+          throw Error("the saved state has a clip on a node that the scene does not have");
       }
     }
     findPoints(clip);
@@ -292,9 +293,9 @@ bool Clips::addTo(StateHash& hash) const {
 }
 
 FactGroup Clips::facts() const {
-  const SeenClips all = seen();
+  const ClipStates all = seen();
   std::vector<Fact::Facts> on;
-  for (const SeenClip& clip : all.on) {
+  for (const ClipState& clip : all.on) {
     on.push_back({{"stylus", uint64_t{clip.stylus}},
                   {"rest_m", std::vector<double>{clip.rest_m.x(), clip.rest_m.y(), clip.rest_m.z()}},
                   {"opening_m", clip.opening_m},
@@ -305,8 +306,8 @@ FactGroup Clips::facts() const {
   return out;
 }
 
-void Clips::draw(ProcessLook& look) const {
-  for (size_t c = 0; c < clips_.size(); ++c) look.threads.push_back({0, ThreadPart::kClip, places_m(c)});
+void Clips::draw(ProcessVisuals& look) const {
+  for (size_t c = 0; c < clips_.size(); ++c) look.sutures.push_back({0, TubeKind::kClip, places_m(c)});
 }
 
 }  // namespace viscera

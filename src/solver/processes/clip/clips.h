@@ -7,20 +7,20 @@
 #include <vector>
 
 #include "solver/processes/process.h"
-#include "solver/processes/suture/thread_blades.h"
+#include "solver/processes/suture/suture_blades.h"
 #include "solver/processes/tissue_points.h"
 #include "viscera/model/model.h"
 #include "viscera/model/scene/stylus_config.h"
-#include "viscera/solver/seen_clip.h"
+#include "viscera/solver/clip_state.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {
 
 /// Clips (docs/lessons/clips.md): each holds two sides of tissue together, node by node, with impulses after each
-/// substep that take no linear and no angular momentum. Blades that meet one take it off.
+/// substep that conserve linear and angular momentum. Blades that touch one remove it.
 class Clips : public TissueProcess {
  public:
-  static constexpr double kMostSqueezed = 0.4;  ///< of what two nodes of one body are apart at rest
+  static constexpr double kMostSqueezed = 0.4;  ///< least share of the rest distance of two nodes of one body
 
   /// @param model  must outlive them
   Clips(const std::vector<StylusConfig>& styluses, const Model& model);
@@ -34,11 +34,12 @@ class Clips : public TissueProcess {
   void persist(Archive& archive) override;
   bool addTo(StateHash& hash) const override;
   FactGroup facts() const override;
-  void draw(ProcessLook& look) const override;
+  void draw(ProcessVisuals& look) const override;
 
-  /// From side to side at rest, each in the frame of its body's rest, of all that clips hold together [m].
+  /// Returns the vectors from side to side at rest, each in the rest frame of its body, of everything that clips hold
+  /// together [m].
   std::vector<std::array<Vector3d, 2>> squeezed_m() const;
-  SeenClips seen() const;
+  ClipStates seen() const;
 
  private:
   void set(const TissuePort& port);
@@ -46,18 +47,18 @@ class Clips : public TissueProcess {
   std::vector<Vector3d> places_m(size_t clip) const;
   /// A node on each side.
   struct Pair {
-    uint32_t body_a, a, body_b, b;  ///< slots of the bodies
-    double least_m;                 ///< they come no nearer
-    Vector3d set_a_m, set_b_m;      ///< where they were when it was set, and
-    Vector3d now_a_m, now_b_m;      ///< are
+    uint32_t body_a, a, body_b, b;  ///< slots in the bodies
+    double least_m;                 ///< least distance
+    Vector3d set_a_m, set_b_m;      ///< positions when it was set, and
+    Vector3d now_a_m, now_b_m;      ///< now
   };
   struct Clip {
     uint32_t stylus = 0;
     std::array<Vector3d, 2> leg_m;        ///< both ends of its middle line when it was set, tissue frame
-    Vector3d across = Vector3d::UnitX();  ///< from side to side, then
-    double force_n = 0;                   ///< of the last substep
+    Vector3d across = Vector3d::UnitX();  ///< direction from side to side when it was set
+    double force_n = 0;                   ///< force of the last substep
     std::vector<Pair> pairs;
-    std::vector<std::array<TissuePoint, 2>> points;  ///< [pairs], follow from them
+    std::vector<std::array<TissuePoint, 2>> points;  ///< [pairs], derived from them
   };
   /// A node near jaws.
   struct Near {
@@ -73,13 +74,13 @@ class Clips : public TissueProcess {
   const Model& model_;
   double spacing_m_;
   TissuePoints points_;
-  ThreadBlades blades_;
+  SutureBlades blades_;
   std::array<Pose, layout::kMaxStyluses> jaws_;
-  std::array<bool, layout::kMaxStyluses> closed_{}, closes_{};  ///< before this tick; in it
+  std::array<bool, layout::kMaxStyluses> closed_{}, closes_{};  ///< jaws closed before this tick; jaws that close in it
   std::array<int, layout::kMaxStyluses> used_{};
   std::vector<Clip> clips_;
   uint64_t empty_ = 0, taken_off_ = 0;
-  double work_j_ = 0;  ///< on the tissue, in the tick
+  double work_j_ = 0;  ///< work on the tissue in the tick
 };
 
 }  // namespace viscera

@@ -15,20 +15,20 @@ namespace {
 
 constexpr double kPunctureArea_m2 = 5e-6;  // puncture force over E
 constexpr double kCuttingShare = 1.0 / 3;  // of the puncture force
-constexpr double kFrictionDepth_m = 1e-4;  // friction of a length of shaft over E
-constexpr double kAroundShaft = 20;        // stiffness of what is around it, over E and the spacing of nodes
+constexpr double kFrictionDepth_m = 1e-4;  // friction per length of shaft over E
+constexpr double kAroundShaft = 20;        // stiffness of the tissue around the shaft, over E and the spacing of nodes
 constexpr double kCrossingsApart_m = 1.5e-3;
-constexpr double kPassedApart_m = 2.2e-3;  // of those that the thread gets
-constexpr double kSkinApart_m = 1.2e-3;    // and of those of a skin from what is inside
+constexpr double kPassedApart_m = 2.2e-3;  // distance of the points that the suture gets
+constexpr double kSkinApart_m = 1.2e-3;    // and distance of surface points from those inside
 constexpr int kNeedleSweeps = 4;
-constexpr uint32_t kLooksApart = 16;    // substeps after which a tip outside looks for tissue again
-constexpr double kLooksApart_m = 1e-4;  // or a way of it: looking is slow
-constexpr double kTipOff_m = 2e-4;      // a tip drawn back so far from the skin has left it
-constexpr double kOffTip_m = 5e-4;      // and tissue so far ahead of the tip the needle
-constexpr double kLipsApart_m = 3e-4;   // farther from the tip than that is what is across a wound
-constexpr double kAtLimit = 0.9999;     // of a force
-constexpr double kSidelong = 0.5;       // of the puncture force: pressed more across than along by that, it slides off
-constexpr double kFastestLed_m_per_s = 3;  // faster, as after a rollback, it lags behind its hand
+constexpr uint32_t kLooksApart = 16;       // substeps after which a tip outside searches for tissue again
+constexpr double kLooksApart_m = 1e-4;     // or displacement of the tip: the search is slow
+constexpr double kTipOff_m = 2e-4;         // a tip retracted that far from the surface has left it
+constexpr double kOffTip_m = 5e-4;         // tissue that far ahead of the tip has left the needle
+constexpr double kLipsApart_m = 3e-4;      // points farther from the tip than this are across a wound
+constexpr double kAtLimit = 0.9999;        // share of a force limit that counts as reached
+constexpr double kSidelong = 0.5;          // of the puncture force, as an excess across over along: the tip slides off
+constexpr double kFastestLed_m_per_s = 3;  // if moved faster, as after a roll-back, it lags behind its stylus
 constexpr double kAirDrag_per_s = 4;
 
 constexpr double kNoPlace = std::numeric_limits<double>::infinity();
@@ -80,7 +80,7 @@ void Needle::reset() {
   hold_ = {};
 }
 
-/// Where there is no tissue any more, the needle holds none.
+/// Finds the held points again. Where there is no tissue any more, the needle releases them.
 void Needle::embedAgain(const TissuePoints& tissue) {
   const auto gone = [&](TissuePoint& point) {
     const auto again = tissue.embed(point.body, point.rest_m);
@@ -136,7 +136,7 @@ void Needle::lead(const Pose& to, double dt_s) {
 void Needle::fall(const Vector3d& gravity_m_per_s2, double dt_s) {
   from_ = end_;
   dt_s_ = dt_s;
-  if (led_) {  // what the hand bore would throw it
+  if (led_) {  // the force that the stylus carried would throw it
     tip_.impulse_ns.setZero();
     for (Crossing& crossing : crossings_) crossing.impulse_ns.setZero();
   }
@@ -146,7 +146,7 @@ void Needle::fall(const Vector3d& gravity_m_per_s2, double dt_s) {
   move();
 }
 
-/// By its velocities.
+/// Moves the needle by its velocities.
 void Needle::move() {
   const Vector3d middle_m = from_ * shape_.middle() + dt_s_ * velocity_;
   end_.orientation = (turned(dt_s_ * turning_) * from_.orientation).normalized();
@@ -164,7 +164,7 @@ Vector3d Needle::velocityAt(const Vector3d& place_m) const {
   return velocity_ + turning_.cross(place_m - end_ * shape_.middle());
 }
 
-/// No less than in any direction.
+/// Returns an upper bound on the mobility in any direction.
 double Needle::mobilityAt(const Vector3d& place_m) const {
   if (led_) return 0;
   return 1 / shape_.mass_kg() + (place_m - end_ * shape_.middle()).squaredNorm() / shape_.inertia_kg_m2();
@@ -205,7 +205,7 @@ void Needle::act(TissuePort& target, TissuePoints& tissue, std::vector<NeedlePas
   tissue.write(target, layout::kMaxStyluses, dt_s_);
 }
 
-/// A needle that no hand leads does not begin to pierce anything.
+/// Starts a contact with tissue. A free needle does not start to pierce.
 void Needle::touch(TissuePort& target, const TissuePoints& tissue) {
   if (tip_.state > kBlocked || (tip_.state == kClear && !led_)) return;
   const Vector3d at = end_ * shape_.at(0);
@@ -232,7 +232,7 @@ void Needle::read(TissuePort& target, TissuePoints& tissue) const {
   tissue.read(target, points);
 }
 
-/// Each in turn takes its impulse of the last substep, and then what is missing.
+/// Sweeps over all points: each applies its impulse of the last substep, then the correction.
 void Needle::sweep(TissuePoints& tissue) {
   const auto again = [&](const TissuePoint& point, const Vector3d& impulse_ns) {
     tissue.give(point, impulse_ns, dt_s_);
@@ -305,14 +305,15 @@ void Needle::sum(const TissuePoints& tissue) {
   hold_.along.normalize();
 }
 
-/// Tissue around a length of shaft is as stiff as E times the length; before a tip as a cell is, E times its size.
+/// Adds a point to the hold. The stiffness of tissue around a length of shaft is E times the length; ahead of a tip it
+/// is that of a cell, E times its size.
 void Needle::addToHold(const TissuePoint& point, const NeedleLaw& law, double length_m, double behind_m) {
   const double cell_m = model_.bodies[point.body].lattice.spacing_m;
   hold_.stiffness_n_per_m += law.stiffness_n_per_m / kAroundShaft * length_m / cell_m;
   hold_.along += length_m * (end_.orientation * shape_.forward(behind_m));
 }
 
-/// What becomes of the tip.
+/// Updates the state of the tip.
 void Needle::settle(TissuePort& target, const TissuePoints& tissue) {
   if (tip_.state < kTouches) return;
   const Vector3d along = end_.orientation * shape_.forward(0);
@@ -334,8 +335,8 @@ void Needle::settle(TissuePort& target, const TissuePoints& tissue) {
   }
 }
 
-/// The tip's point goes on by what it slipped, in the tissue at rest. Where that is across a wound, the tip may not be
-/// there yet: while it is in no tissue, the point stays where it is.
+/// Advances the tip's point by its slip, in the tissue at rest. If the new point is across a wound, the tip may not be
+/// there yet: the point stays while the tip is outside tissue.
 void Needle::goOn(TissuePort& target, const TissuePoints& tissue, double slip_m) {
   const Vector3d tip_m = end_ * shape_.at(0), along = end_.orientation * shape_.forward(0);
   Vector3d step = tissue.toRest(tip_.point, slip_m * along);
@@ -376,7 +377,7 @@ void Needle::leaveCrossing(bool skin) {
   crossings_.push_back(crossing);
 }
 
-/// Tissue that is no longer on the shaft: the tip was drawn back behind it, or the tail has passed it.
+/// Removes points that are no longer on the shaft: the tip was retracted past them, or the tail has passed them.
 void Needle::sortOut(const TissuePoints& tissue, std::vector<NeedlePassed>& passed) {
   const auto gone = [&](const Crossing& crossing) {
     const double behind_m = shape_.nearest_m(end_.inverse() * tissue.place_m(crossing.point));

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/processes/suture/thread_touches.h"
+#include "solver/processes/suture/suture_contacts.h"
 
 namespace viscera {
 
@@ -13,12 +13,12 @@ namespace {
 
 constexpr double kFullTurn = 2 * 3.14159265358979323846;
 constexpr double kSteel_kg_per_m3 = 7900;
-constexpr double kProbed = 4;         // radii of the wire: apart on it, where it may touch obstacles
-constexpr int kMostNeedleSteps = 16;  // in a substep: what is farther away is gone to later
-constexpr int kOuts = 8;              // of a step, each out of what is deepest
-constexpr double kInObstacle = 0.1;   // radii: deeper than that after all of them, the step is not taken
+constexpr double kProbed = 4;         // in wire radii: distance of the points that may touch obstacles
+constexpr int kMostNeedleSteps = 16;  // per substep: the rest of a longer motion follows in later ones
+constexpr int kOuts = 8;              // corrections of a step, each by the deepest point
+constexpr double kInObstacle = 0.1;   // in wire radii: a step with a larger remaining depth is rejected
 
-/// The shortest way out of obstacles of what is deepest in them.
+/// Returns the shortest displacement that moves the deepest point out of its obstacle [m].
 Vector3d wayOut_m(const NeedleShape& shape, const Pose& pose, const layout::ObstacleMotion* obstacles, uint32_t count) {
   Vector3d out = Vector3d::Zero();
   double deepest_m = 0;

@@ -12,14 +12,14 @@ namespace viscera {
 
 namespace {
 
-/// Of a place from an arc.
+/// Returns the distance of a position from an arc.
 double distanceTo_m(const Needle& needle, const Vector3d& place_m) {
   const NeedleShape& shape = needle.shape();
   const double behind_m = shape.nearest_m(needle.pose().inverse() * place_m);
   return (needle.pose() * shape.at(std::clamp(behind_m, 0.0, shape.length_m())) - place_m).norm();
 }
 
-/// @param share  of the tick
+/// Adds a hold to the mean of the tick. @param share  of the tick
 void add(const NeedleHold& hold, double share, NeedleHold& tick) {
   const NeedleHold before = tick;
   tick = hold;
@@ -31,27 +31,27 @@ void add(const NeedleHold& hold, double share, NeedleHold& tick) {
 
 Needles::Needles(const Scene& scene, const Model& model)
     : styluses_(scene.styluses),
-      threads_(scene.threads),
+      sutures_(scene.sutures),
       model_(model),
       gravity_(scene.environment.gravity_m_per_s2),
       tick_s_(1 / scene.solver.tick_hz) {
-  for (uint32_t t = 0; t < scene.threads.size(); ++t) {
-    const ThreadConfig& thread = scene.threads[t];
-    if (thread.needle.arc == NeedleArc::kNone) continue;
-    needles_.push_back({t, Needle(thread.needle, model, thread.position_m), {}});
+  for (uint32_t t = 0; t < scene.sutures.size(); ++t) {
+    const SutureConfig& suture = scene.sutures[t];
+    if (suture.needle.arc == NeedleArc::kNone) continue;
+    needles_.push_back({t, Needle(suture.needle, model, suture.position_m), {}});
   }
 }
 
-const Needle* Needles::find(size_t thread) const {
+const Needle* Needles::find(size_t suture) const {
   for (const OnThread& one : needles_) {
-    if (one.thread == thread) return &one.needle;
+    if (one.suture == suture) return &one.needle;
   }
   return nullptr;
 }
 
-size_t Needles::holderOf(size_t thread) const {
+size_t Needles::holderOf(size_t suture) const {
   for (const OnThread& one : needles_) {
-    if (one.thread == thread) return one.held.stylus;
+    if (one.suture == suture) return one.held.stylus;
   }
   return layout::kMaxStyluses;
 }
@@ -98,7 +98,7 @@ void Needles::act(TissuePort& target, TissuePoints& tissue, double at, double dt
     passed_.clear();
     one.needle.act(target, tissue, passed_);
     for (const NeedlePassed& passed : passed_)
-      passes(one.thread, passed, channelLawOf(threads_[one.thread], model_.bodies[passed.point.body]));
+      passes(one.suture, passed, channelLawOf(sutures_[one.suture], model_.bodies[passed.point.body]));
     work_j_ += one.needle.work_j();
     if (!led) continue;
     const Vector3d& tip = motions_[stylus].to.position_m;
@@ -108,15 +108,15 @@ void Needles::act(TissuePort& target, TissuePoints& tissue, double at, double dt
   }
 }
 
-void Needles::lay(uint32_t thread, double share, ChainHold& hold) const {
-  const Needle& needle = *find(thread);
+void Needles::lay(uint32_t suture, double share, ChainHold& hold) const {
+  const Needle& needle = *find(suture);
   hold.to_m = needle.tailAt_m(share);
   hold.mass_kg = hold.stiffness_kg = needle.tailMass_kg();
 }
 
-void Needles::takeOver(uint32_t thread, const ChainHold& hold) {
+void Needles::takeOver(uint32_t suture, const ChainHold& hold) {
   for (OnThread& one : needles_) {
-    if (one.thread != thread) continue;
+    if (one.suture != suture) continue;
     one.needle.pull(hold.impulse_ns);
     if (one.held.stylus >= layout::kMaxStyluses) continue;
     StylusPull& pull = pulls_[one.held.stylus];

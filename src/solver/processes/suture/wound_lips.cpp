@@ -9,8 +9,8 @@ namespace viscera {
 namespace {
 
 constexpr int kLipSweeps = 2;               // over the pairs: nodes are in several
-constexpr double kLipsApart = 0.2;          // of what is too near, in a substep
-constexpr double kLipsMost_m_per_s = 0.02;  // at which they part: slow, as nothing takes that speed back
+constexpr double kLipsApart = 0.2;          // share of the overlap that is removed per substep
+constexpr double kLipsMost_m_per_s = 0.02;  // speed of separation: slow, as this speed remains
 constexpr double kLipsMeet = 1e-3;          // of the distance at rest: nearer nodes have no direction
 
 bool holdsNothing(const layout::NodeBits& bits) {
@@ -40,7 +40,7 @@ void WoundLips::add(const Model& model, uint32_t body, uint32_t a, uint32_t b) {
   if (pair.apart_m > 0) pairs_.push_back(pair);
 }
 
-/// By springs along the axes: those across a cut. What an eraser has left of a node touches nothing.
+/// Adds pairs by axial springs across a cut. What an eraser has left of a node touches nothing.
 void WoundLips::addLattice(const Model& model, uint32_t body, const CutSprings& cuts) {
   if (cuts.nodes.empty()) return;
   const Lattice& lattice = model.bodies[body].lattice;

@@ -12,7 +12,7 @@
 int main(int argc, char** argv) {
   ros::init(argc, argv, "watcher");
   viscera::Session session(viscera::loadScene("practice_pad"));
-  session.step(viscera::StylusSamples(), viscera::Wants());
+  session.step(viscera::StylusSamples(), viscera::FrameRequest());
   ros::NodeHandle node;
   viscera_user::Watched watched;
   const ros::Subscriber surface =

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Hands with blades in tissue that resists them; forces and work are measured in test/bench and by `viscera bench
+// Styluses with blades in tissue that resists them; forces and work are measured in test/bench and by `viscera bench
 // blade`.
 #include <gtest/gtest.h>
 
@@ -22,9 +22,9 @@
 namespace viscera {
 namespace {
 
-constexpr double kBack_j = 1e-12;  // to a hand, in a stroke: rounding of sums
+constexpr double kBack_j = 1e-12;  // to the user, in a stroke: rounding of sums
 
-/// A block on a plate, and a hand in it.
+/// A block on a plate, and a blade in it.
 class Hand {
  public:
   explicit Hand(double toughness_j_per_m2) : scene_(sceneOf(toughness_j_per_m2)), model_(buildModel(scene_)) {
@@ -49,7 +49,7 @@ class Hand {
     scene.environment.gravity_m_per_s2.setZero();
     return scene;
   }
-  /// Over a tick; @returns the force on the tissue.
+  /// Moves the blade over a tick. @returns the force on the tissue
   Vector3d to(const Pose& pose) {
     ToolMotions motions;
     motions[0].mode = ToolMode::kCut;
@@ -79,7 +79,7 @@ class Hand {
   uint64_t bad_ = 0;
 };
 
-constexpr double kStep_m = 0.001;  // in a tick
+constexpr double kStep_m = 0.001;  // per tick
 
 TEST(BladeEdge, FeelsNothingInItsOwnWoundAndIsNeverPulled) {
   Hand hand(50);

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Blades in bodies whose toughness differs from place to place, and with friction.
+// Blades in bodies with a toughness that varies with position, and with friction.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,8 +18,8 @@ namespace viscera {
 namespace {
 
 constexpr double kSpeed_m_per_s = 0.1, kWidth_m = 0.012, kAcross_m = 0.02, kCapsule_m = 0.002;
-constexpr double kForce = 0.05;  // of J w, as everywhere
-constexpr double kBack = 0.1;  // of friction: on its way back a blade parts a little where tissue bulged beyond its end
+constexpr double kForce = 0.05;  // of J w, as in other tests
+constexpr double kBack = 0.1;    // of friction: on its return a blade cuts a little where tissue bulged beyond its end
 
 Scene sceneOf(const BodyConfig& body, double blade_m) {
   Scene scene;
@@ -51,12 +51,12 @@ void hold(BodyConfig& body, const Vector3d& side) {
   body.fixed.push_back(fixed);
 }
 
-/// A hand that goes evenly.
+/// A stylus that moves at constant speed.
 class BladePlacesHand {
  public:
   BladePlacesHand(const Model& model, const Scene& scene, const Pose& pose)
       : tick_s_(1 / scene.solver.tick_hz), solver_(model, scene), at_(pose) {}
-  /// @returns the mean force along the way
+  /// @returns the mean force along the path
   double go(const Vector3d& way_m) {
     const Vector3d along = way_m.normalized();
     const int ticks = std::max(1, static_cast<int>(way_m.norm() / (kSpeed_m_per_s * tick_s_)));
@@ -79,7 +79,7 @@ class BladePlacesHand {
   }
   double most_n() const { return most_n_; }
   void put(const BladePlacesHand& other) { at_ = other.at_; }
-  /// Elsewhere, as after a tick without a tool.
+  /// Places it elsewhere, as after a tick without a tool.
   void put(const Pose& pose) {
     solver_.step(ToolMotions{});
     at_ = pose;
@@ -93,7 +93,7 @@ class BladePlacesHand {
   layout::TickStats last_{};
 };
 
-/// Free above and below, the blade through its whole thickness.
+/// A block free above and below, with the blade through its whole thickness.
 struct Cut {
   explicit Cut(double toughness_j_per_m2) : body(blockOf({0.08, 0.048, kWidth_m}, toughness_j_per_m2)) {
     for (const Vector3d& side : {Vector3d(0, 1, 0), Vector3d(0, -1, 0), Vector3d(1, 0, 0)}) hold(body, side);
@@ -106,7 +106,7 @@ struct Cut {
   Model model;
 };
 
-/// In two parts, a before b.
+/// Divides a body into two parts, a before b.
 void divide(Body& body, double toughness_j_per_m2) {
   body.lattice.part_names = {"a", "b"};
   for (const uint32_t slot : body.lattice.active_slots) {
@@ -150,7 +150,7 @@ TEST(BladePlaces, ABodyOfWhichOnlyALayerOrAPartIsToughResists) {
   EXPECT_FALSE(cutsFreely(sceneOf(body, 0.02)));
 }
 
-/// A blade that lies along the surface is pressed through it. Its ends are in the capsule of the sides all the way.
+/// A blade parallel to the surface is pressed through it. Its ends are in the capsule of the sides throughout.
 TEST(BladePlaces, ACapsuleGivesAPeakAndADrop) {
   const auto pressed = [](double capsule_j_per_m2, double& most_n) {
     BodyConfig body = blockOf({0.048, kAcross_m, 0.04}, 40);
@@ -183,7 +183,7 @@ TEST(BladePlaces, WallsRubInTheTissueAndInTheirOwnWound) {
   EXPECT_EQ(hand.solver().health().trips, 0u);
 }
 
-/// Into a block with a capsule from above.
+/// A blade pushed into a block with a capsule from above.
 struct Needle {
   Needle() : body(blockOf({0.048, 0.048, 0.04}, 80)) {
     hold(body, {0, 0, -1});

@@ -22,12 +22,12 @@ namespace viscera {
 namespace {
 
 constexpr double kBladeStructuresStep_m = 0.001, kStart_m = -0.031;
-constexpr double kBeside_m = 0.001;    // off a row of nodes
-constexpr double kOfLaw = 0.05;        // force, area and work
+constexpr double kBeside_m = 0.001;    // offset from a row of nodes
+constexpr double kOfLaw = 0.05;        // of force, area and work
 constexpr double kFront_m = 0.003;     // the front bends at the surface, and the area counts its mean
 constexpr double kShare = 0.15;        // of a spring: a front stays in its plane
 constexpr double kCounted_m = 0.0006;  // area is counted in steps of up to an eighth of a spring
-constexpr double kPulled = 1e-3;       // of the plateau: what sways into the blade as it goes back
+constexpr double kPulled = 1e-3;       // of the plateau: tissue that moves into the blade as it returns
 constexpr double kFelt = 0.02;         // of the plateau: in its own wound a blade feels nothing
 
 struct Kind {
@@ -39,7 +39,7 @@ const std::vector<Kind> kKinds = {
     {"explicit", "source: box, structure: explicit, box_size_m: [0.06, 0.048, 0.012]", 0.012},
     {"sheet", "source: sheet, structure: surface, thickness_m: 0.001, box_size_m: [0.06, 0.048, 0.001]", 0.001}};
 
-/// Held on both flanks. @param cut  what stands in material: ", cut: {...}" or nothing
+/// Returns a body fixed on both flanks. @param cut  text in material: ", cut: {...}" or nothing
 std::string bodyText(const Kind& kind, const std::string& cut, double z_m = 0) {
   return "  - {name: body" + std::to_string(std::lround(1e3 * z_m)) + ", " + kind.keys +
          ", spacing_m: 0.004, position_m: [0, 0, " + std::to_string(z_m) + "], material: {young_modulus_pa: 25000" +
@@ -58,12 +58,12 @@ Scene sceneOf(const std::string& bodies) {
                     "blades.yaml");
 }
 
-/// A hand that pushes an upright blade along x, a step in each tick.
+/// A stylus that pushes an upright blade along x, one step per tick.
 class BladeStructuresHand {
  public:
   explicit BladeStructuresHand(const Scene& scene)
       : scene_(scene), model_(buildModel(scene_)), solver_(model_, scene_) {}
-  /// @returns the force on the tissue.
+  /// Moves to x. @returns the force on the tissue
   Vector3d to(double x_m) {
     ToolMotions motions;
     motions[0].mode = ToolMode::kCut;
@@ -75,7 +75,7 @@ class BladeStructuresHand {
     while (solver_.pollStats(stats_, true)) bad_ += stats_.nonfinite;
     return Vector3d(stats_.impulse[0].x, stats_.impulse[0].y, stats_.impulse[0].z) * scene_.solver.tick_hz;
   }
-  /// A stroke of a blade at any angle, forth and back.
+  /// Makes a stroke of a blade at any angle, forward and back.
   void stroke(Pose pose, const Vector3d& way_m) {
     solver_.step(ToolMotions{});
     for (int tick = 0; tick < 10; ++tick) {
@@ -131,7 +131,7 @@ TEST_P(BladeStructures, ForceAreaAndWorkAreTheLaws) {
   EXPECT_LT((high - low) / law_n, 0.1);
   EXPECT_NEAR((work.area_m2 - before.area_m2) / kind().width_m, 0.016, kOfLaw * 0.016 + kCounted_m);
   EXPECT_NEAR((work.work_j - before.work_j) / (0.016 * law_n), 1, kOfLaw);
-  EXPECT_NEAR(work.parting_j, 50 * work.area_m2, 0.2 * work.parting_j);  // less of it where the edge came in
+  EXPECT_NEAR(work.parting_j, 50 * work.area_m2, 0.2 * work.parting_j);  // less of it where the edge entered
   EXPECT_EQ(hand.bad(), 0u);
   EXPECT_EQ(hand.solver().health().trips, 0u);
 }
@@ -147,7 +147,7 @@ TEST_P(BladeStructures, FeelsNothingInItsOwnWound) {
   EXPECT_NEAR(bladeWork(hand.solver(), 0).area_m2, area_m2, kFelt * area_m2);
 }
 
-/// Places at rest of the springs' ends are what a spring is cut by, so this is asked of networks alone.
+/// The test needs the rest positions of the springs' ends, so it is for networks only.
 TEST_P(BladeStructures, SpringsGoWhereTheFrontHasPassed) {
   BladeStructuresHand hand(scene(50));
   hand.push(0, 40);
@@ -212,7 +212,7 @@ TEST_P(BladeStructures, ZeroIsAsIfThereWereNoKey) {
   EXPECT_EQ(zero.hash(), none.hash());
 }
 
-/// Two bodies one above the other, of which one resists: the blade goes through both.
+/// Two bodies one above the other, one of which resists: the blade passes through both.
 TEST_P(BladeStructures, OneResistsBesideOneThatDoesNot) {
   const std::string above = bodyText(kind(), "", 0.016), resists = bodyText(kind(), toughness(50));
   BladeStructuresHand both(sceneOf(resists + above)), alone(sceneOf(resists)), free(sceneOf(above));

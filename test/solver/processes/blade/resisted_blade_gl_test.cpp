@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A blade that tissue resists on the GPU is the one on the CPU: force, area, work; saved, rolled back, and among what
-// sleeps.
+// A blade that tissue resists is the same on the GPU as on the CPU: force, area, work; saved, rolled back, and in
+// sleeping tissue.
 #include <limits>
 
 #include "math/archive.h"
@@ -14,12 +14,12 @@ using namespace viscera::test;
 
 namespace {
 
-constexpr double kResistedBladeStep_m = 0.001;  // in a tick
+constexpr double kResistedBladeStep_m = 0.001;  // per tick
 constexpr int kTicks = 45;
-/// Of the largest force, and of what was parted and done: some roundings of float32, 6e-8 each.
+/// Of the largest force, of the area and of the work: some roundings of float32, 6e-8 each.
 constexpr double kResistedBladeRounding = 1e-6;
-/// The same where a tick's substeps follow how far the tissue is stretched, which the GPU knows a tick later: in one
-/// tick of a cut it has other substeps than the CPU, and fronts that go on by them.
+/// The same where a tick's substeps follow the stretch of the tissue, which the GPU knows a tick later. In one tick of
+/// a cut it has other substeps than the CPU, with other steps of the fronts.
 constexpr double kOtherSubsteps = 0.01;
 
 Scene blockOnAPlate() {
@@ -41,12 +41,12 @@ Scene blockOnAPlate() {
   return scene;
 }
 
-/// A hand that goes straight through the block.
+/// A stylus that moves straight through the block.
 class PushingHand {
  public:
   explicit PushingHand(const std::string& backend, const Scene& scene = blockOnAPlate())
       : hz_(scene.solver.tick_hz), model_(buildModel(scene)), solver_(makeBackend(backend, model_, scene)) {}
-  /// @returns the force on the tissue in that tick [N]
+  /// Moves by one tick. @returns the force on the tissue in it [N]
   Vector3d tick(int i) {
     solver_->step(tool(ToolMode::kCut, tip(i), tip(i + 1)));
     layout::TickStats stats{};
@@ -56,11 +56,11 @@ class PushingHand {
   void without(int ticks) {
     for (int i = 0; i < ticks; ++i) solver_->step({});
   }
-  /// Far from the block, as it cuts.
+  /// Moves far from the block, in mode cut.
   void hover(int ticks) {
     for (int i = 0; i < ticks; ++i) solver_->step(tool(ToolMode::kCut, {-0.03, 0.001, 0.3}, {-0.03, 0.001, 0.3}));
   }
-  Ticks& solver() { return *solver_; }
+  TissueStepper& solver() { return *solver_; }
   BladeWork done() const { return bladeWork(*solver_, 0); }
   uint64_t hash() const { return stateHash(model_, solver_->readState()); }
   uint64_t bad() const { return bad_; }
@@ -69,7 +69,7 @@ class PushingHand {
  private:
   double hz_;
   Model model_;
-  std::unique_ptr<Ticks> solver_;
+  std::unique_ptr<TissueStepper> solver_;
   uint64_t bad_ = 0;
 };
 
@@ -105,13 +105,13 @@ void expectSameStroke(const Scene& scene, double share = kResistedBladeRounding)
 
 }  // namespace
 
-/// With and without a governor, as it sees to the substeps alone.
+/// With and without a stability monitor, which only adapts the substeps here.
 TEST_F(ResistedBlade, CutsAsOnTheCpu) {
   Scene scene = blockOnAPlate();
   scene.solver.substeps = 46;
   expectSameStroke(scene);
   scene.solver.substeps = 0;
-  scene.solver.governor = false;
+  scene.solver.stability_monitor = false;
   expectSameStroke(scene);
 }
 
@@ -121,7 +121,7 @@ TEST_F(ResistedBlade, CutsWhereSubstepsFollowTheTissue) {
 
 TEST_F(ResistedBlade, CutsTissueThatSleeps) {
   Scene scene = blockOnAPlate();
-  scene.solver.governor = false;
+  scene.solver.stability_monitor = false;
   PushingHand gpu("gpu", scene), cpu(backendKinds()[1], scene);
   for (PushingHand* hand : {&gpu, &cpu}) {
     hand->without(60);
@@ -130,7 +130,7 @@ TEST_F(ResistedBlade, CutsTissueThatSleeps) {
       EXPECT_TRUE(static_cast<GpuSolver&>(gpu.solver()).resting());
     }
     for (int i = 0; i < kTicks; ++i) hand->tick(i);
-    hand->without(10);  // the last of the cut comes when the blade is gone
+    hand->without(10);  // the end of the cut follows when the blade is gone
   }
   expectSameDone(gpu.done(), cpu.done(), kResistedBladeRounding);
 }
@@ -138,7 +138,7 @@ TEST_F(ResistedBlade, CutsTissueThatSleeps) {
 TEST_F(ResistedBlade, CutsEveryStructure) {
   for (const Structure structure : {Structure::kExplicit, Structure::kSurface}) {
     Scene scene = blockOnAPlate();
-    scene.solver.governor = false;
+    scene.solver.stability_monitor = false;
     BodyConfig& body = scene.bodies[0];
     body.structure = structure;
     if (structure == Structure::kSurface) {
@@ -157,7 +157,7 @@ TEST_F(ResistedBlade, CutsEveryStructure) {
 
 TEST_F(ResistedBlade, CutsBesideABodyThatResistsNothing) {
   Scene scene = blockOnAPlate();
-  scene.solver.governor = false;
+  scene.solver.stability_monitor = false;
   scene.bodies[0].spacing_m = 0.005;
   scene.bodies.push_back(scene.bodies[0]);
   scene.bodies[1].material.cut = {};

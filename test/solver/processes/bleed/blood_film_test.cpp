@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Blood that runs down tissue, against the exact film, and where it is.
+// Blood that flows down tissue, against the exact film, and its balance.
 #include "solver/processes/bleed/blood_film.h"
 #include "viscera/model/scene/scene.h"
 
@@ -41,7 +41,7 @@ uint32_t nearest(const Model& model, const HeatGraph& graph, const Vector3d& to_
   return out;
 }
 
-/// What is left on a wall is as thick as sqrt(nu z / (g t)), z below its upper end (Jeffreys 1930).
+/// The film left on a wall has the thickness sqrt(nu z / (g t)), with z below its upper end (Jeffreys 1930).
 TEST(BloodFilm, DrainsFromAWallAsAFilmDoes) {
   const Model model = block("0.01, 0.01, 0.08");
   const HeatGraph graph(model, 1);
@@ -95,7 +95,7 @@ TEST(BloodFilm, StaysWhereNothingWeighs) {
   EXPECT_EQ(film.dripped_m3(), 0);
 }
 
-/// Sides of a cut lie bare, and blood does not pass it.
+/// The sides of a cut are exposed, and blood does not cross it.
 TEST(BloodFilm, RunsDownTheWallOfACutAndNotAcrossIt) {
   const Model model = block("0.02, 0.02, 0.02");
   const HeatGraph graph(model, 1);

@@ -41,7 +41,7 @@ class Vessel : public ::testing::Test {
   }
   Vector3d at(uint32_t slot) const { return restPosition(model_.bodies[0], slot); }
   using IsSo = std::function<bool(const Vector3d&)>;
-  /// With what a cut parts. @param isOnOneSide  of the cut   @param isClosed, isInReach  of nodes; of the blade
+  /// Returns the leaks of a cut. @param isOnOneSide  of the cut   @param isClosed, isInReach  of nodes; of the blade
   Vessels::Leaks cut(const IsSo& isOnOneSide, const IsSo& isClosed = {}, const IsSo& isInReach = {}) const {
     const HeatGraph graph(model_, 1);
     const Vessels vessels(model_, graph);

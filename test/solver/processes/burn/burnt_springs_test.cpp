@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Coagulated springs beside fresh ones, which a target of the test's own steps: how short tissue becomes, and how
+// Coagulated springs together with fresh ones, stepped by a target of the test: how short tissue becomes, and how
 // stiff.
 #include "solver/processes/burn/burnt_springs.h"
 #include "viscera/model/scene/scene.h"
@@ -13,9 +13,9 @@
 namespace viscera {
 namespace {
 
-constexpr double kLength = 2e-3;     // of a length: float32 places, and what still swings
+constexpr double kLength = 2e-3;     // of a length: float32 positions, and remaining oscillation
 constexpr double kStiffness = 1e-2;  // of a stiffness, between stretches of a hundredth: springs are not linear
-constexpr double kDone = 20;         // a dose at which all is coagulated
+constexpr double kDone = 20;         // dose at which tissue is fully coagulated
 
 /// Fresh springs, stepped by leapfrog with drag.
 class Stepped : public TissuePort {
@@ -112,7 +112,7 @@ HeatField coagulated(const Model& model) {
   return heat;
 }
 
-/// Between the outermost nodes.
+/// Returns the length between the outermost nodes.
 double lengthOf(const Model& model, const Stepped& stepped, int axis) {
   double low = 1, high = -1;
   for (uint32_t slot = 0; slot < model.slots(); ++slot) {
@@ -159,7 +159,7 @@ TEST(BurntSprings, TakeNoMomentum) {
   EXPECT_LT(sum.norm(), 1e-6 * size) << "float32";
 }
 
-/// Of a bar that is pulled at both ends.
+/// Returns the length of a bar in tension.
 double lengthUnder(const Model& model, BurntSprings* burnt, double force_n) {
   Stepped stepped(model);
   stepped.pullEnds(force_n);
@@ -187,7 +187,7 @@ TEST(BurntSprings, CutOnesPullNoMore) {
   const HeatField heat = coagulated(model);
   BurntSprings burnt(model);
   CutSprings cuts;
-  cuts.nodes.resize(model.slots());  // none has a spring left
+  cuts.nodes.resize(model.slots());  // no spring is left
   burnt.find(heat, cuts);
   EXPECT_TRUE(burnt.empty());
 }

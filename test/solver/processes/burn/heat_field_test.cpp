@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Heat in tissue against exact solutions, and where all of it goes.
+// Heat in tissue against exact solutions, and its balance.
 #include "solver/processes/burn/heat_field.h"
 
 #include <gtest/gtest.h>
@@ -21,11 +21,10 @@ namespace {
 constexpr double kStep_s = 1.0 / 240;
 constexpr double kHeatFieldBalance = 1e-9;  // of all heat: rounding of sums in float64
 constexpr double kSlab = 0.01;              // of the rise at the surface: steps are of first order, and a third of it
-constexpr double kSlabOfSheet = 0.015;      // the same; at its border triangles are halved, and nodes of two sizes
+constexpr double kSlabOfSheet = 0.015;      // the same; at the border triangles are halved, and nodes differ
 constexpr double kSameDepth_m = 1e-6;
-constexpr double kPoint =
-    0.02;  // of the rise there, four spacings and more from a node that is a source: 1 / (4 n^2) is the lattice's
-constexpr double kRate = 1e-3;  // of a dose: its steps are not exact
+constexpr double kPoint = 0.02;  // of the rise, four spacings and more from a source: the lattice errs by 1 / (4 n^2)
+constexpr double kRate = 1e-3;   // of a dose: its steps are not exact
 
 Scene heatedBlock(const std::string& size, double spacing_m, const std::string& structure = "lattice") {
   return parseScene("bodies: [{source: " + std::string(structure == "surface" ? "sheet" : "box") +
@@ -44,15 +43,15 @@ double diffusivity_m2_per_s(const HeatConstants& c) {
   return c.conductivity_w_per_m_k / (1060 * c.heat_j_per_kg_k);
 }
 
-/// Slots of a model of one body, with where they are.
+/// Visits the slots of a model with one body, with their positions.
 template <class Visit>
 void forEach(const Model& model, const HeatField& field, const Visit& visit) {
   for (uint32_t slot = 0; slot < model.slots(); ++slot)
     if (field.graph().mass_kg[slot] > 0) visit(slot, restPosition(model.bodies[0], slot));
 }
 
-/// A bar whose end at -x takes a flux: the rise at depth x is 2 q sqrt(a t / pi) / k exp(-x^2 / 4 a t) - q x / k erfc(x
-/// / sqrt(4 a t)), Carslaw and Jaeger 2.9.
+/// Expects the solution of a bar with a constant flux into its end at -x: the rise at depth x is 2 q sqrt(a t / pi) / k
+/// exp(-x^2 / 4 a t) - q x / k erfc(x / sqrt(4 a t)), Carslaw and Jaeger 2.9.
 void expectSlab(const Scene& scene, double tolerance) {
   const Model model = buildModel(scene);
   const HeatConstants constants = conducting();
@@ -101,7 +100,7 @@ TEST(HeatField, SlabOfAConstantFluxIsAsCarslawAndJaegerHaveIt) {
   expectSlab(heatedBlock("0.016, 0.008, 0.001", 0.00025, "surface"), kSlabOfSheet);
 }
 
-/// P / (4 pi k r) erfc(r / sqrt(4 a t)), as above 10.4.
+/// Expects the solution of a point source, P / (4 pi k r) erfc(r / sqrt(4 a t)), from the same book, 10.4.
 void expectPoint(const Scene& scene, double tolerance) {
   const Model model = buildModel(scene);
   const HeatConstants constants = conducting();
@@ -151,11 +150,11 @@ TEST(HeatField, AllHeatIsStoredOrHasGoneWhereItIsSaidToHaveGone) {
       field.give(some, given_j / 480);
       field.step(kStep_s);
     }
-    SeenBurns seen = field.seen();
+    BurnReport seen = field.seen();
     EXPECT_GT(seen.steam_j, 0.1 * given_j);
     EXPECT_GT(seen.hottest_c, 60);
     for (int t = 0; t < 4000 && field.isWarm(); ++t) field.step(1);
-    for (const SeenBurns& then : {seen, field.seen()}) {
+    for (const BurnReport& then : {seen, field.seen()}) {
       EXPECT_NEAR(then.given_j, given_j, kHeatFieldBalance * given_j);
       EXPECT_NEAR(then.stored_j + then.steam_j + then.perfused_j + then.surface_j, given_j,
                   kHeatFieldBalance * given_j);

@@ -16,12 +16,12 @@ constexpr double kForce = 0.06;      // of a friction: iterations end within 5 %
 ChainMaterial limp() {
   ChainMaterial out;
   out.bending_nm2 = 4e-10;
-  out.drag_per_s = 20;
+  out.mass_damping_per_s = 20;
   return out;
 }
 
-/// A tail of 15 mm, a loop of 4 x sqrt(2) x 5 mm that comes back to where it began, a tail of 15 mm; in the loop's
-/// middle it lies over a peg.
+/// A tail of 15 mm, a loop of 4 x sqrt(2) x 5 mm that returns to its start, a tail of 15 mm. In the middle of the loop
+/// it rests on a peg.
 struct Loop {
   explicit Loop(const ChainMaterial& material = limp()) : chain(material, places()) {
     ChainKnot knot;
@@ -47,9 +47,9 @@ struct Loop {
       for (; ahead_m < side.norm(); ahead_m += kLink_m) out.push_back(corners[k] + ahead_m * side.normalized());
       ahead_m -= side.norm();
     }
-    return out;  // links over corners are too short: the first substep mends that
+    return out;  // links over corners are too short: the first substep corrects that
   }
-  /// Of the tail that is pulled with a force that rises.
+  /// Pulls a tail with an increasing force.
   void pull(double force_n, int substeps) {
     for (int k = 0; k < substeps; ++k) {
       around.loads = {{last, Vector3d(force_n * std::min(1.0, k / 200.0), 0, 0)}};
@@ -118,7 +118,7 @@ TEST(ChainKnots, TiedTheyHoldWhatTheyHoldAndSlipAboveThat) {
   Loop loop;
   loop.around.knots[0].tied = true;
   loop.around.knots[0].holds_n = kHolds_n;
-  loop.around.holds.pop_back();  // the loop has nothing in it
+  loop.around.holds.pop_back();  // nothing is in the loop
   const double before = loop.loop();
   loop.pull(0.9 * kHolds_n, 400);
   EXPECT_NEAR(loop.loop(), before, 0.05);
@@ -138,9 +138,9 @@ TEST(ChainKnots, TiedTheyHoldWhatTheyHoldAndSlipAboveThat) {
   EXPECT_LT(loop.worst_link, 1e-3);
 }
 
-TEST(ChainKnots, KeepTheMomentumOfAThread) {
+TEST(ChainKnots, KeepTheMomentumOfASuture) {
   ChainMaterial material = limp();
-  material.drag_per_s = 0;
+  material.mass_damping_per_s = 0;
   Loop loop(material);
   loop.around.holds.clear();
   loop.around.knots[0].friction_n = 1e-4;

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Channels; their law of friction is in test/bench/thread_suite_test.cpp.
+// Channels; their law of friction is in test/bench/suture_suite_test.cpp.
 #include "solver/processes/suture/chain/chain_slides.h"
 
 #include <gtest/gtest.h>
@@ -14,12 +14,12 @@ namespace {
 
 constexpr double kChainSlidesSubstep_s = 5e-4, kChainSlidesLink_m = 5e-4;
 constexpr double kLimit = 1.06;                 // of a limit: iterations end 5 % above
-constexpr double kChainSlidesMomentum = 1e-12;  // of the impulses between thread and tissue
+constexpr double kChainSlidesMomentum = 1e-12;  // of the impulses between suture and tissue
 
 ChainMaterial soft() {
   ChainMaterial out;
   out.bending_nm2 = 4e-9;
-  out.drag_per_s = 20;
+  out.mass_damping_per_s = 20;
   return out;
 }
 
@@ -71,9 +71,9 @@ struct FreeMasses {
   std::vector<Vector3d> places, speeds, given;
 };
 
-TEST(ChainSlides, KeepTheMomentumOfThreadAndTissue) {
+TEST(ChainSlides, KeepTheMomentumOfSutureAndTissue) {
   ChainMaterial dragless = soft();
-  dragless.drag_per_s = 0;
+  dragless.mass_damping_per_s = 0;
   Chain chain(dragless, alongX(80));
   std::vector<Vector3d> speeds(chain.nodes());
   for (size_t i = 0; i < speeds.size(); ++i) {
@@ -98,7 +98,7 @@ TEST(ChainSlides, KeepTheMomentumOfThreadAndTissue) {
   Vector3d first = Vector3d::Zero();
   double tissue_speed = 0, off_m = 0, exchanged = 0;
   for (int k = 0; k < 1000; ++k) {
-    if (k == 3) first = momentum();  // speeds that its links allow
+    if (k == 3) first = momentum();  // speeds that its links permit
     tissue.begin(around.slides);
     chain.step(kChainSlidesSubstep_s, around);
     tissue.end();
@@ -115,7 +115,7 @@ TEST(ChainSlides, KeepTheMomentumOfThreadAndTissue) {
   EXPECT_LT(off_m, 1e-3);
 }
 
-/// Beside the tail of a needle the chain cannot give way: it is tissue that goes back, on a spring here.
+/// Next to the tail of a needle the chain cannot yield: the tissue moves back, on a spring in this test.
 TEST(ChainSlides, LeaveTheTailOfANeedleThatGoesOn) {
   constexpr double kSpring_n_per_m = 60, kDamping_per_s = 200, kWay_m_per_s = 0.05, kTissue_kg = 6.8e-5;
   constexpr int kSubsteps = 400;
@@ -128,8 +128,8 @@ TEST(ChainSlides, LeaveTheTailOfANeedleThatGoesOn) {
   around.slides[0].through_n = 0.001;
   around.slides[0].most_n = 0.27;
   FreeMasses tissue(around, kTissue_kg);
-  around.slides[0].mass_kg = 0.7 * kTissue_kg;                        // tissue shows less than it has
-  const Vector3d home_m = tissue.places[0] + Vector3d(0, 0, -0.006);  // as if it had clung so far
+  around.slides[0].mass_kg = 0.7 * kTissue_kg;  // effective mass of the tissue below its actual one
+  const Vector3d home_m = tissue.places[0] + Vector3d(0, 0, -0.006);  // as if it had been dragged along so far
   for (int k = 0; k < kSubsteps; ++k) {
     tissue.speeds[0] += kChainSlidesSubstep_s * (kSpring_n_per_m / kTissue_kg * (home_m - tissue.places[0]) -
                                                  kDamping_per_s * tissue.speeds[0]);
@@ -143,7 +143,7 @@ TEST(ChainSlides, LeaveTheTailOfANeedleThatGoesOn) {
   EXPECT_FALSE(around.slides[0].out);
 }
 
-TEST(ChainSlides, HoldAThreadThatIsPulledByLessThanTheirFriction) {
+TEST(ChainSlides, HoldASutureThatIsPulledByLessThanTheirFriction) {
   for (const double pull_n : {0.045, 0.06}) {
     Chain chain(soft(), alongX(80));
     ChainAround around;
@@ -173,7 +173,7 @@ TEST(ChainSlides, TearAtWhatTheirTissueBearsAndSayByHowMuch) {
   const Vector3d way(0, 0, 0.05 * kChainSlidesSubstep_s);
   Vector3d torn = Vector3d::Zero();
   for (int k = 0; k < 200; ++k) {
-    around.slides[0].to_m += way;  // the thread is straight: it cannot follow
+    around.slides[0].to_m += way;  // the suture is straight: it cannot follow
     chain.step(kChainSlidesSubstep_s, around);
     torn += around.slides[0].torn_m;
     around.slides[0].to_m += around.slides[0].torn_m;
@@ -227,14 +227,14 @@ TEST(ChainSlides, KeepTheirOrderAndDistance) {
   around.slides[1].through_n = around.slides[2].through_n = 1;
   around.loads = {{0, Vector3d(-0.01, 0, 0)}};
   for (int k = 0; k < 200; ++k) {
-    around.slides[0].to_m.x() += 0.2 * kChainSlidesSubstep_s;  // slides along the thread, up to the next
+    around.slides[0].to_m.x() += 0.2 * kChainSlidesSubstep_s;  // slides along the suture, up to the next
     chain.step(kChainSlidesSubstep_s, around);
     EXPECT_GT(around.slides[1].s - around.slides[0].s, 0.4 * kRest_m / kChainSlidesLink_m - 1e-2);
     EXPECT_GT(around.slides[2].s - around.slides[1].s, 1 - 1e-2);
   }
 }
 
-/// What was torn is told once: a substep that is not made tears nothing, gives nothing, and leaves all where it was.
+/// A tear is reported once: a rejected substep tears nothing, gives no impulses, and changes nothing.
 TEST(ChainSlides, NothingIsTornOrGivenWhereThereIsNoSolution) {
   Chain chain(soft(), alongX(80));
   ChainAround around;

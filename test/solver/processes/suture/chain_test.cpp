@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// What a chain is made of; its laws are in test/bench/thread_suite_test.cpp.
+// Properties of a chain; its laws are tested in test/bench/suture_suite_test.cpp.
 #include "solver/processes/suture/chain/chain.h"
 
 #include <gtest/gtest.h>
@@ -14,12 +14,12 @@ namespace viscera {
 namespace {
 
 constexpr double kChainSubstep_s = 5e-4, kChainLink_m = 5e-4;
-constexpr double kSolve = 1e-9;  // of the largest unknown: stiffnesses in it span eight decades
+constexpr double kSolve = 1e-9;  // of the largest unknown: its stiffnesses span eight decades
 
 ChainMaterial chainSoft() {
   ChainMaterial out;
   out.bending_nm2 = 4e-8;
-  out.drag_per_s = 20;
+  out.mass_damping_per_s = 20;
   return out;
 }
 
@@ -110,7 +110,7 @@ TEST(Chain, SlipsInAHandThatIsNotStrongEnough) {
   around.holds[1].most_n = 2;
   const Vector3d start = around.holds[1].to_m;
   for (int k = 0; k < 400; ++k) {
-    around.holds[1].to_m.x() = start.x() + 0.1 * kChainSubstep_s * k;  // the thread is straight: it cannot follow
+    around.holds[1].to_m.x() = start.x() + 0.1 * kChainSubstep_s * k;  // the suture is straight: it cannot follow
     chain.step(kChainSubstep_s, around);
   }
   EXPECT_NEAR(around.holds[1].impulse_ns.norm() / kChainSubstep_s, 2, 0.1);  // kSlack
@@ -171,11 +171,11 @@ TEST(Chain, GoesOnFromASavedStateAndResets) {
   ChainAround beside = around(one);
   for (int k = 0; k < 100; ++k) one.step(kChainSubstep_s, beside);
   Archive saved;
-  saved.section("thread");
+  saved.section("suture");
   one.persist(saved);
   Chain two = makeOne();
   Archive read(saved.sections());
-  read.section("thread");
+  read.section("suture");
   two.persist(read);
   for (int k = 0; k < 50; ++k) {
     one.step(k < 25 ? kChainSubstep_s : kChainSubstep_s / 2, beside);
@@ -227,10 +227,10 @@ TEST(Chain, PartsAtANodeWithItsMomentumAndComesBackWhole) {
   }
   EXPECT_LT(chain.places_m().back().z(), -1e-6);  // hangs down beyond its channel
   Archive saved;
-  saved.section("threads");
+  saved.section("sutures");
   behind.persist(saved);
   Archive read(saved.sections());
-  read.section("threads");
+  read.section("sutures");
   Chain again = whole;
   again.persist(read);
   EXPECT_EQ(again.places_m(), behind.places_m());

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// A half circle of radius 8 mm turned about its middle through blocks on a plate, in the reference (docs/thread.md 6).
+// A half circle of radius 8 mm turned about its centre through blocks on a plate, in the reference (docs/physics.md
+// 16).
 #include "solver/processes/suture/needle.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ constexpr double kArcPi = 3.14159265358979323846;
 constexpr double kNeedleArc_m = 0.008, kBlockSkin_m = 0;  // the block's upper side
 constexpr double kPunctureArea_m2 = 5e-6;                 // of the law
 
-/// The reference as what holds the tissue.
+/// The reference as the tissue.
 class NeedleTarget : public TissuePort {
  public:
   NeedleTarget(const Model& model, double dt_s) : solver(model, Vector3d::Zero(), dt_s) {}
@@ -47,12 +48,12 @@ class NeedleTarget : public TissuePort {
   uint32_t by = 99;
 };
 
-/// What a block is made of and how it is held.
+/// Material of a block, and where it is fixed.
 struct NeedleBlock {
   double young_pa = 1e4;
   Vector3d size_m{0.027, 0.015, 0.009};
   bool plate = true, ends = false;  ///< below; at both ends in x
-  double drag_per_s = 4;
+  double mass_damping_per_s = 4;
 };
 
 Scene needleBlockScene(const NeedleBlock& block) {
@@ -63,7 +64,7 @@ Scene needleBlockScene(const NeedleBlock& block) {
   body.position_m = {0, 0, kBlockSkin_m - 0.5 * block.size_m.z()};
   body.spacing_m = 0.003;
   body.material.young_modulus_pa = block.young_pa;
-  body.material.drag_per_s = block.drag_per_s;
+  body.material.mass_damping_per_s = block.mass_damping_per_s;
   // in the body's own frame
   const auto fix = [&](const Vector3d& min_m, const Vector3d& max_m) {
     FixedConfig fixed;
@@ -80,7 +81,7 @@ Scene needleBlockScene(const NeedleBlock& block) {
   return scene;
 }
 
-/// A hand that turns a needle about a place.
+/// A stylus that turns a needle about a point.
 class NeedleDrive {
  public:
   explicit NeedleDrive(const NeedleBlock& block, const NeedleConfig& config = halfCircle())
@@ -95,7 +96,8 @@ class NeedleDrive {
     out.radius_m = kNeedleArc_m;
     return out;
   }
-  /// The tip at an angle from x over z of a circle about a place, heading for more.
+  /// Returns a pose with the tip at an angle from x over z on a circle about a point, and forward for increasing
+  /// angles.
   static Pose at(const Vector3d& middle_m, double angle_rad) {
     return {middle_m, Quaterniond(Eigen::AngleAxisd(-angle_rad, Vector3d::UnitY()))};
   }
@@ -105,7 +107,7 @@ class NeedleDrive {
       needle_.keepOut(nullptr, 0);
     }
   }
-  /// A substep.
+  /// Makes a substep.
   void to(const Pose& pose) {
     target_.solver.substep();
     needle_.lead(pose, dt_s_);
@@ -113,16 +115,16 @@ class NeedleDrive {
     needle_.act(target_, tissue_, passed);
     given_n_s += dt_s_ * needle_.force_n();
   }
-  /// A substep in which it is free.
+  /// Makes a substep in which it is free.
   void fall() {
     target_.solver.substep();
     needle_.fall({0, 0, -9.81}, dt_s_);
     needle_.keepOut(nullptr, 0);
     needle_.act(target_, tissue_, passed);
   }
-  /// By an angle, at a speed of the tip.
-  template <class Look>
-  void turn(const Vector3d& middle_m, double from_rad, double to_rad, double speed_m_per_s, const Look& look) {
+  /// Turns by an angle, at a speed of the tip.
+  template <class RenderRequest>
+  void turn(const Vector3d& middle_m, double from_rad, double to_rad, double speed_m_per_s, const RenderRequest& look) {
     const double step = std::copysign(speed_m_per_s * dt_s_ / kNeedleArc_m, to_rad - from_rad);
     for (double angle = from_rad; (to_rad - angle) * step > 0; angle += step) {
       to(at(middle_m, angle));
@@ -146,8 +148,7 @@ class NeedleDrive {
 };
 
 const Vector3d kArcMiddle(0, 0, kBlockSkin_m + 0.002);
-constexpr double kBiteStart = -kArcPi + 0.1,
-                 kBiteEnd = 0.35 * kArcPi;  // of the tip: over the skin before and after a bite
+constexpr double kBiteStart = -kArcPi + 0.1, kBiteEnd = 0.35 * kArcPi;  // of the tip: outside before and after a bite
 constexpr double kBiteLowest = -0.5 * kArcPi;
 
 struct BiteCase {
@@ -179,7 +180,7 @@ TEST_P(NeedleBite, PuncturesAtItsForceAndIsSteadyInside) {
   };
   drive.turn(kArcMiddle, kBiteStart, bite.whole ? kBiteEnd : kBiteLowest + 0.2, bite.speed_m_per_s, look);
   EXPECT_NEAR(first_n, puncture_n, 0.1 * puncture_n);
-  EXPECT_GT(pressed_m, 1.2e-3);  // however fast
+  EXPECT_GT(pressed_m, 1.2e-3);  // at any speed
   EXPECT_LT(pressed_m, 2.2e-3);
   EXPECT_NEAR(least_n, puncture_n / 3, 0.1 * puncture_n / 3);
   EXPECT_NEAR(most_n, puncture_n / 3, 0.1 * puncture_n / 3);
@@ -201,7 +202,7 @@ INSTANTIATE_TEST_SUITE_P(Tissue, NeedleBite,
                          ::testing::Values(BiteCase{1e4, 0.04, false}, BiteCase{1e4, 0.2, true},
                                            BiteCase{5e4, 0.04, false}, BiteCase{5e4, 0.2, true}));
 
-/// 6 mm thick, held at its ends; down through it.
+/// Downwards through a slab, 6 mm thick, fixed at its ends.
 TEST(Needle, FeelsBothSkinsOfASlab) {
   NeedleBlock block;
   block.size_m = {0.021, 0.015, 0.006};
@@ -214,7 +215,7 @@ TEST(Needle, FeelsBothSkinsOfASlab) {
   drive.appear(NeedleDrive::at(middle, start));
   drive.turn(middle, start, -kArcPi + 2.2, 0.1, [&](double) {
     const Needle& needle = drive.needle();
-    const Vector3d turning_nm = needle.torque_nm() - middle.cross(needle.force_n());  // about the arc's middle
+    const Vector3d turning_nm = needle.torque_nm() - middle.cross(needle.force_n());  // about the arc's centre
     const double along_n = -turning_nm.y() / kNeedleArc_m;
     if (needle.crossings() == 0) first_n = std::max(first_n, along_n);
     if (needle.crossings() == 3) between_n = std::min(between_n, along_n);
@@ -223,14 +224,14 @@ TEST(Needle, FeelsBothSkinsOfASlab) {
   EXPECT_NEAR(first_n, puncture_n, 0.1 * puncture_n);
   EXPECT_LT(between_n, 0.5 * puncture_n);
   EXPECT_GT(second_n, 0.9 * puncture_n);
-  EXPECT_LT(second_n, 1.3 * puncture_n);  // and the shaft's friction
+  EXPECT_LT(second_n, 1.3 * puncture_n);  // plus the shaft's friction
   EXPECT_EQ(drive.needle().alongTip_n(), 0);
 }
 
 TEST(Needle, GivesATissueWhatItFeels) {
   NeedleBlock block;
   block.plate = false;
-  block.drag_per_s = 0;
+  block.mass_damping_per_s = 0;
   NeedleDrive drive(block);
   drive.appear(NeedleDrive::at(kArcMiddle, kBiteStart));
   double most_n_s = 0;

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Hands that take a needle, drive it through tissue and let it go, on the CPU backend.
+// Styluses that take a needle, drive it through tissue and release it, on the CPU backend.
 #include "solver/processes/suture/needles.h"
 
 #include <gtest/gtest.h>
@@ -11,17 +11,18 @@
 
 #include "math/archive.h"
 #include "solver/cpu/cpu_solver.h"
-#include "solver/processes/suture/thread_bodies.h"
+#include "solver/processes/suture/suture_bodies.h"
 #include "viscera/model/scene/scene.h"
 
 namespace viscera {
 namespace {
 
 constexpr double kSewnPi = 3.14159265358979323846;
-constexpr double kSewnArc_m = 0.008, kSewnAbove_m = 0.003;  // the needle's circle: its radius, its middle over the skin
+constexpr double kSewnArc_m = 0.008, kSewnAbove_m = 0.003;  // the needle's circle: radius; height of its centre
 constexpr double kSewnTick_s = 1.0 / 60;
 
-/// A block on a plate, its skin at z = 0, and a needle with its tip over it; a thread upwards from the tail.
+/// Returns a block on a plate, its surface at z = 0, and a needle with its tip above it; a suture upwards from the
+/// tail.
 Scene sewnBlock(int threads) {
   Scene scene;
   BodyConfig body;
@@ -39,13 +40,13 @@ Scene sewnBlock(int threads) {
   stylus.idle = ToolMode::kNone;
   stylus.button1 = ToolMode::kNeedle;
   scene.styluses.push_back(stylus);
-  ThreadConfig thread;
-  thread.position_m = {kSewnArc_m, 0, kSewnAbove_m};
-  thread.path = {{{kSewnArc_m, 0, kSewnAbove_m + 0.09}}};
-  thread.needle.arc = NeedleArc::kHalfCircle;
-  thread.needle.radius_m = kSewnArc_m;
-  thread.needle.rotation_deg = {0, 180, 0};  // the tip at -x, heading down
-  scene.threads.push_back(thread);
+  SutureConfig suture;
+  suture.position_m = {kSewnArc_m, 0, kSewnAbove_m};
+  suture.path = {{{kSewnArc_m, 0, kSewnAbove_m + 0.09}}};
+  suture.needle.arc = NeedleArc::kHalfCircle;
+  suture.needle.radius_m = kSewnArc_m;
+  suture.needle.rotation_deg = {0, 180, 0};  // the tip at -x, pointing down
+  scene.sutures.push_back(suture);
   scene.solver.backend = Backend::kCpu;
   scene.solver.threads = threads;
   return scene;
@@ -57,7 +58,7 @@ class Sewing {
     scene_.solver.threads = threads;
     solver_ = std::make_unique<CpuSolver>(model_, scene_);
   }
-  /// Of the hand: its tip on the needle's middle of wire, turned with it.
+  /// Returns the pose of the stylus: its tip on the centre of the needle's circle, turned with it.
   static Pose handAt(double turn_rad) {
     return {Vector3d(0, 0, kSewnAbove_m), Quaterniond(Eigen::AngleAxisd(-turn_rad, Vector3d::UnitY()))};
   }
@@ -72,7 +73,7 @@ class Sewing {
     solver_->step(motions);
     while (solver_->pollStats(stats, true)) nonfinite += stats.nonfinite;
   }
-  /// By the other stylus, before the hand is there.
+  /// Cuts with the other stylus, before the first one comes.
   void cutFrom(const Vector3d& from_m, const Vector3d& to_m) {
     constexpr int kTicks = 12;
     for (int i = 0; i < kTicks; ++i) {
@@ -85,9 +86,9 @@ class Sewing {
       while (solver_->pollStats(stats, true)) nonfinite += stats.nonfinite;
     }
   }
-  /// About the middle of its circle, with what is around it.
-  template <class Look>
-  void turn(double from_rad, double to_rad, double speed_m_per_s, const Look& look) {
+  /// Turns about the centre of its circle.
+  template <class RenderRequest>
+  void turn(double from_rad, double to_rad, double speed_m_per_s, const RenderRequest& look) {
     const double step = std::copysign(speed_m_per_s * kSewnTick_s / kSewnArc_m, to_rad - from_rad);
     for (double angle = from_rad; (to_rad - angle) * step > 0; angle += step) {
       tick(handAt(angle), ToolMode::kNeedle);
@@ -97,14 +98,14 @@ class Sewing {
   void turn(double from_rad, double to_rad, double speed_m_per_s) {
     turn(from_rad, to_rad, speed_m_per_s, [](double) {});
   }
-  const Needle& needle() const { return *findProcess<ThreadBodies>(*solver_)->needle(0); }
+  const Needle& needle() const { return *findProcess<SutureBodies>(*solver_)->needle(0); }
   CpuSolver& solver() { return *solver_; }
   const Model& model() const { return model_; }
   double force_n() const {
     return Vector3d(stats.impulse[0].x, stats.impulse[0].y, stats.impulse[0].z).norm() / kSewnTick_s;
   }
   uint64_t hash() const {
-    return hashWith(stateHash(model_, solver_->readState()), *findProcess<ThreadBodies>(*solver_));
+    return hashWith(stateHash(model_, solver_->readState()), *findProcess<SutureBodies>(*solver_));
   }
   layout::TickStats stats{};
   uint64_t nonfinite = 0;
@@ -117,7 +118,7 @@ class Sewing {
   bool was_ = false;
 };
 
-/// The hand holds the needle at its tail.
+/// The stylus holds the needle at its tail.
 constexpr double kReachAll_m = 0.02;
 Scene sewnScene() {
   Scene out = sewnBlock(1);
@@ -132,12 +133,12 @@ TEST(Needles, AHandDrivesOneThroughAndLetsItGo) {
   sewing.turn(0, 1.4 * kSewnPi, 0.05, [&](double) {
     most_n = std::max(most_n, sewing.force_n());
     most = std::max(most, sewing.needle().crossings());
-    const Chain& chain = findProcess<ThreadBodies>(sewing.solver())->chain(0);
+    const Chain& chain = findProcess<SutureBodies>(sewing.solver())->chain(0);
     worst = std::max(worst, chain.worstLink());
     ASSERT_LT((chain.places_m()[0] - sewing.needle().tail_m()).norm(), 1e-4);
   });
   EXPECT_GE(most, 5u);
-  EXPECT_GE(findProcess<ThreadBodies>(sewing.solver())->slides(0).size(), 2u);  // channels of the thread
+  EXPECT_GE(findProcess<SutureBodies>(sewing.solver())->slides(0).size(), 2u);  // channels of the suture
   EXPECT_GT(most_n, 0.04);
   EXPECT_LT(most_n, 0.3);
   EXPECT_LT(worst, 1e-3);
@@ -149,8 +150,8 @@ TEST(Needles, AHandDrivesOneThroughAndLetsItGo) {
   EXPECT_EQ(sewing.solver().health().trips, 0u);
 }
 
-/// A blade cuts the block along x = 0 while the needle is still above it, and its thread has no channel; then it is
-/// driven through both lips and turned out.
+/// A blade cuts the block along x = 0 while the needle is still above it, and its suture has no channel. Then the
+/// needle is driven through both lips and turned out.
 TEST(Needles, GoThroughBothLipsOfAWoundAndOutOfThem) {
   Scene scene = sewnScene();
   scene.environment.gravity_m_per_s2.setZero();
@@ -173,7 +174,7 @@ TEST(Needles, GoThroughBothLipsOfAWoundAndOutOfThem) {
   EXPECT_LT(most_n, 0.1);  // no channel clings to the tail
   EXPECT_EQ(sewing.needle().crossings(), 0u);
   size_t left = 0, right = 0;
-  for (const ChainSlide& slide : findProcess<ThreadBodies>(sewing.solver())->slides(0))
+  for (const ChainSlide& slide : findProcess<SutureBodies>(sewing.solver())->slides(0))
     (slide.to_m.x() < 0 ? left : right) += 1;
   EXPECT_GE(left, 2u);
   EXPECT_GE(right, 2u);
@@ -181,18 +182,18 @@ TEST(Needles, GoThroughBothLipsOfAWoundAndOutOfThem) {
   EXPECT_EQ(sewing.solver().health().trips, 0u);
 }
 
-TEST(Needles, OneThatIsFreeHangsOnItsThread) {
+TEST(Needles, OneThatIsFreeHangsOnItsSuture) {
   Scene hanging = sewnScene();
-  ThreadConfig& thread = hanging.threads[0];
-  thread.path = {{{0.06, 0, 0.05}}};
-  thread.position_m = {0.05, 0, 0.05};
-  thread.end = ThreadEnd::kFixed;
+  SutureConfig& suture = hanging.sutures[0];
+  suture.path = {{{0.06, 0, 0.05}}};
+  suture.position_m = {0.05, 0, 0.05};
+  suture.end = SutureEnd::kFixed;
   Sewing sewing(1, hanging);
   for (int i = 0; i < 300; ++i) sewing.tick(Sewing::handAt(0), ToolMode::kNone);
   EXPECT_LT((sewing.needle().tail_m() - Vector3d(0.06, 0, 0.04)).norm(), 1e-3);
   EXPECT_LT((sewing.needle().pose() * sewing.needle().shape().middle()).z(), 0.04);
   const NeedleShape& shape = sewing.needle().shape();
-  EXPECT_NEAR(findProcess<ThreadBodies>(sewing.solver())->chain(0).tension_n(5), shape.mass_kg() * 9.81,
+  EXPECT_NEAR(findProcess<SutureBodies>(sewing.solver())->chain(0).tension_n(5), shape.mass_kg() * 9.81,
               0.1 * shape.mass_kg() * 9.81);
 }
 
@@ -204,7 +205,7 @@ TEST(Needles, AHandTakesOnlyWhatIsInReachAndAgainAtTheTip) {
   const auto move = [&](const Vector3d& from, const Vector3d& to, ToolMode mode) {
     sewing.tick({from, Quaterniond::Identity()}, ToolMode::kNone);
     sewing.tick({from, Quaterniond::Identity()}, mode);
-    for (int i = 0; i < 3; ++i) sewing.tick({to, Quaterniond::Identity()}, mode);  // and stands still
+    for (int i = 0; i < 3; ++i) sewing.tick({to, Quaterniond::Identity()}, mode);  // and does not move
     sewing.tick({to, Quaterniond::Identity()}, ToolMode::kNone);
   };
   const Vector3d tip(-kSewnArc_m, 0, kSewnAbove_m), aside(0, 0.003, 0), up(0, 0, 0.002);

@@ -4,16 +4,16 @@
 
 #include <algorithm>
 
-#include "solver/processes/suture/thread_bodies.h"
+#include "solver/processes/suture/suture_bodies.h"
 #include "support/solver_rig.h"
 #include "viscera/model/scene/scene.h"
 
 namespace viscera::test {
 
 constexpr double kStitchSpacing_m = 0.003;
-constexpr int kSlitLayer = 5;  // of nodes on the one side of the slit; the next one is on the other
+constexpr int kSlitLayer = 5;  // layer of nodes on one side of the slit; the next one is on the other
 
-/// 33 x 30 x 9 mm of tissue, its two ends fixed.
+/// Returns a block of 33 x 30 x 9 mm of tissue, its two ends fixed.
 inline Body stitchBox() {
   Body body = boxBody({11, 10, 3}, kStitchSpacing_m);
   body.material.young_modulus_pa = 1e4;
@@ -25,7 +25,7 @@ inline Body stitchBox() {
   return body;
 }
 
-/// With a slit of 21 mm through it.
+/// Returns the block with a slit of 21 mm through it.
 inline Body slitBox() {
   Body body = stitchBox();
   Lattice& lattice = body.lattice;
@@ -43,17 +43,17 @@ inline Body slitBox() {
   return body;
 }
 
-/// In the plane across the middle of the slit [mm].
+/// Returns a position in the plane across the middle of the slit [mm].
 inline Vector3d inStitch(double x, double z) {
   return 1e-3 * Vector3d(x, 15, z);
 }
 
-/// A stitch through the box: in 4.5 mm beside the slit, 6 mm deep, out on the other side, and up.
-inline ThreadConfig stitch() {
-  ThreadConfig out;
-  out.material = ThreadMaterial::kSilk;
+/// Returns a stitch through the box: in at 4.5 mm from the slit, 6 mm deep, out on the other side, and up.
+inline SutureConfig stitch() {
+  SutureConfig out;
+  out.material = SutureMaterial::kSilk;
   out.position_m = inStitch(16, 13);
-  out.start = ThreadEnd::kFixed;
+  out.start = SutureEnd::kFixed;
   const Vector3d inside[] = {inStitch(12, 8.3), inStitch(12.5, 5.5), inStitch(15, 3.2),
                              inStitch(18, 3.2), inStitch(20.5, 5.5), inStitch(21, 8.3)};
   out.path.push_back({inStitch(12, 9.5)});
@@ -70,12 +70,12 @@ inline Scene stitchScene(double most_n = 0.1) {
   scene.environment.gravity_m_per_s2.setZero();
   scene.styluses.emplace_back();
   scene.styluses[0].max_force_n = most_n;
-  scene.threads = {stitch()};
+  scene.sutures = {stitch()};
   return scene;
 }
 
-/// It is cut as slitBox() is, and its faces are pulled apart by as much on either side.
-inline void pullApart(Ticks& solver, const Body& body, double by_m) {
+/// Pulls the faces of a box with a slit as in slitBox() apart, by the same distance on either side.
+inline void pullApart(TissueStepper& solver, const Body& body, double by_m) {
   HostState state = solver.readState();
   const Body slit = slitBox();
   std::copy(slit.lattice.nodes.begin(), slit.lattice.nodes.end(), state.nodes.begin());
@@ -85,13 +85,13 @@ inline void pullApart(Ticks& solver, const Body& body, double by_m) {
   solver.writeState(state);
 }
 
-/// Takes the thread near its end and pulls it up by 20 mm/s at most so far.
+/// A stylus that takes the suture near its end and pulls it up, at most at 20 mm/s.
 class StitchHand {
  public:
   explicit StitchHand(double way_m) : way_m_(way_m) {}
-  ToolMotions next(const Ticks& solver, double tick_s) {
+  ToolMotions next(const TissueStepper& solver, double tick_s) {
     constexpr size_t kFromEnd = 30;
-    const std::vector<Vector3d>& places = findProcess<ThreadBodies>(solver)->chain(0).places_m();
+    const std::vector<Vector3d>& places = findProcess<SutureBodies>(solver)->chain(0).places_m();
     const bool begins = time_s_ == 0;
     if (begins) tip_m_ = places[places.size() - kFromEnd];
     ToolMotions out = tool(ToolMode::kGrab, at(time_s_), at(time_s_ + tick_s));
@@ -106,11 +106,11 @@ class StitchHand {
   Vector3d tip_m_;
 };
 
-/// Between the two sides of the slit, in the middle of its length.
+/// Distances between the two sides of the slit, in the middle of its length.
 struct Gap {
   double mean_m = 0, most_m = -1, least_m = 1;
 };
-inline Gap gapOf(const Ticks& solver, const Body& body) {
+inline Gap gapOf(const TissueStepper& solver, const Body& body) {
   const HostState state = solver.readState();
   Gap out;
   int count = 0;

@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Threads through tissue, on both backends.
+// Sutures through tissue, on both backends.
 #include "math/archive.h"
 #include "solver/processes/suture/stitch.h"
-#include "solver/processes/suture/thread_bodies.h"
+#include "solver/processes/suture/suture_bodies.h"
 #include "viscera/math/error.h"
 
 using namespace viscera;
@@ -12,10 +12,10 @@ using namespace viscera::test;
 namespace {
 
 constexpr double kTick_s = 1.0 / 60;
-constexpr double kStitchMomentum = 1e-6;  // of what thread and tissue gave each other
+constexpr double kStitchMomentum = 1e-6;  // of the momentum that suture and tissue exchanged
 constexpr double kFloat_m = 1e-8;         // float32 against itself in another order, after some ticks
 constexpr double kLink = 1e-3;
-constexpr double kLips_m = 2e-4;  // which are pressed into each other by so much, at most
+constexpr double kLips_m = 2e-4;  // largest overlap of lips that are pressed together
 
 class Stitch : public OnBackend {
  protected:
@@ -24,19 +24,19 @@ class Stitch : public OnBackend {
 
 INSTANTIATE_TEST_SUITE_P(Backends, Stitch, ::testing::ValuesIn(backendKinds()), backendSuffix);
 
-uint64_t hashOf(const Model& model, const Ticks& solver) {
-  return hashWith(stateHash(model, solver.readState()), *findProcess<ThreadBodies>(solver));
+uint64_t hashOf(const Model& model, const TissueStepper& solver) {
+  return hashWith(stateHash(model, solver.readState()), *findProcess<SutureBodies>(solver));
 }
 
-/// Of all that may move.
-Vector3d momentumOf(const Model& model, const Ticks& solver) {
+/// Returns the momentum of all free nodes.
+Vector3d momentumOf(const Model& model, const TissueStepper& solver) {
   const HostState state = solver.readState();
   const Body& body = model.bodies[0];
   const std::vector<float> masses = strengths(body).mass_kg;
   Vector3d out = Vector3d::Zero();
   for (const uint32_t slot : body.lattice.active_slots)
     out += static_cast<double>(masses[slot]) * xyz(state.velocity_m_per_s[slot]);
-  const Chain& chain = findProcess<ThreadBodies>(solver)->chain(0);
+  const Chain& chain = findProcess<SutureBodies>(solver)->chain(0);
   for (size_t i = 0; i < chain.nodes(); ++i) out += chain.mass_kg(i) * chain.velocities_m_per_s()[i];
   return out;
 }
@@ -55,33 +55,33 @@ TEST_P(Stitch, ClosesASlitThatIsPulledApart) {
   for (int t = 0; t < ticks; ++t) {
     solver->step(hand.next(*solver, kTick_s));
     felt_n = std::max(felt_n, xyz(lastStats(*solver).impulse[0]).norm() / kTick_s);
-    ASSERT_LT(findProcess<ThreadBodies>(*solver)->chain(0).worstLink(), kLink) << t;
+    ASSERT_LT(findProcess<SutureBodies>(*solver)->chain(0).worstLink(), kLink) << t;
   }
   const Gap after = gapOf(*solver, model_.bodies[0]);
   EXPECT_LT(after.mean_m, 0.5 * before.mean_m);
   EXPECT_GT(after.least_m, -kLips_m);
-  EXPECT_NEAR(felt_n, 0.1, 0.02);  // as much as the hand may
+  EXPECT_NEAR(felt_n, 0.1, 0.02);  // the limit of the stylus
   EXPECT_EQ(solver->health().trips, 0U);
 }
 
-TEST_P(Stitch, KeepsMomentumOfThreadAndTissue) {
+TEST_P(Stitch, KeepsMomentumOfSutureAndTissue) {
   Body body = slitBox();
   for (layout::NodeBits& bits : body.lattice.nodes) bits.lo &= ~layout::kFixedBit;
-  body.material.drag_per_s = 0;
+  body.material.mass_damping_per_s = 0;
   const Model model = modelOf({body});
   Scene scene = stitchScene();
-  scene.threads[0].start = ThreadEnd::kFree;
-  scene.threads[0].drag_per_s = 0;
-  scene.threads[0].channels.resize(3);
+  scene.sutures[0].start = SutureEnd::kFree;
+  scene.sutures[0].mass_damping_per_s = 0;
+  scene.sutures[0].channels.resize(3);
   scene.solver.sleep_speed_m_per_s = 0;
   const auto solver = make(model, scene);
   HostState state = solver->readState();
   for (const uint32_t slot : body.lattice.active_slots)
-    state.velocity_m_per_s[slot].y = 0.1f;  // draws the thread along
+    state.velocity_m_per_s[slot].y = 0.1f;  // draws the suture along
   solver->writeState(state);
   const Vector3d before = momentumOf(model, *solver);
   for (int t = 0; t < 20; ++t) solver->step({});
-  EXPECT_GT(findProcess<ThreadBodies>(*solver)->chain(0).velocities_m_per_s()[40].norm(), 0.01);
+  EXPECT_GT(findProcess<SutureBodies>(*solver)->chain(0).velocities_m_per_s()[40].norm(), 0.01);
   EXPECT_LT((momentumOf(model, *solver) - before).norm(), kStitchMomentum * before.norm());
 }
 
@@ -106,8 +106,9 @@ TEST_P(Stitch, GoesOnToTheBitFromASavedState) {
   EXPECT_EQ(hashOf(model_, *two), hashOf(model_, *make(model_, stitchScene())));
 }
 
-/// A blade parts the tissue beside the tracks in ticks 2 to 7; the other stylus holds tissue, and is nowhere in some
-/// ticks, which the governor rolls back: while the blade is there, right after it, and later.
+/// Returns a blade that cuts the tissue next to the tracks in ticks 2 to 7. The other stylus holds tissue, and has no
+/// valid pose in some ticks, which the stability monitor rolls back: while the blade is there, right after it, and
+/// later.
 ToolMotions cutAndLose(int tick) {
   constexpr double kX_m = 0.0135, kLength_m = 0.0145, kBelow_m = -0.001;
   constexpr int kFirst = 2, kLast = 7;
@@ -151,9 +152,9 @@ TEST_P(Stitch, GoesOnToTheBitFromEveryTickAlsoAfterRollbacks) {
 TEST_P(Stitch, IsTheSameOnEveryBackendAndForAnyNumberOfThreads) {
   constexpr int kTicks = 4;
   Scene scene = stitchScene();
-  scene.solver.measured_limit = false;  // as the GPU knows later how much tissue is stretched
+  scene.solver.measured_limit = false;  // the GPU knows the stretch of the tissue later
   scene.solver.dt_fraction = scene.solver.dt_fraction_strained = 0.5;
-  const auto ticked = [&](Ticks& solver) {
+  const auto ticked = [&](TissueStepper& solver) {
     pullApart(solver, model_.bodies[0], 1.5e-3);
     StitchHand hand(0.012);
     for (int t = 0; t < kTicks; ++t) solver.step(hand.next(solver, kTick_s));
@@ -184,49 +185,49 @@ TEST_P(Stitch, HoldsWithPdWhoseSubstepsAreLonger) {
   StitchHand hand(0.012);
   for (int t = 0; t < 15; ++t) solver->step(hand.next(*solver, kTick_s));
   EXPECT_LT(gapOf(*solver, model_.bodies[0]).mean_m, 0.95 * before.mean_m);
-  EXPECT_LT(findProcess<ThreadBodies>(*solver)->chain(0).worstLink(), kLink);
+  EXPECT_LT(findProcess<SutureBodies>(*solver)->chain(0).worstLink(), kLink);
   EXPECT_EQ(solver->health().trips, 0U);
 }
 
 TEST_P(Stitch, TearsOutOfTissueThatItPullsTooHard) {
   Scene scene = stitchScene(0.5);
-  scene.threads[0].pull_out_n = 0.02;
+  scene.sutures[0].pull_out_n = 0.02;
   const auto solver = make(model_, scene);
   solver->step({});
   const uint32_t before = lastStats(*solver).springs_cut;
   StitchHand hand(0.03);
   const int ticks = 90;
   for (int t = 0; t < ticks; ++t) solver->step(hand.next(*solver, kTick_s));
-  EXPECT_LT(findProcess<ThreadBodies>(*solver)->chain(0).worstLink(), kLink);
+  EXPECT_LT(findProcess<SutureBodies>(*solver)->chain(0).worstLink(), kLink);
   EXPECT_GT(lastStats(*solver).springs_cut, before);
-  EXPECT_LT(findProcess<ThreadBodies>(*solver)->slides(0).size(), 6U);
+  EXPECT_LT(findProcess<SutureBodies>(*solver)->slides(0).size(), 6U);
   EXPECT_TRUE(isFinite(solver->readState()));
   EXPECT_EQ(solver->health().trips, 0U);
 }
 
 TEST(StitchScene, NamesWhatIsWrongWithAChannel) {
   const Model model = modelOf({slitBox()});
-  const auto fault = [&](const std::function<void(ThreadConfig&)>& change) {
+  const auto fault = [&](const std::function<void(SutureConfig&)>& change) {
     Scene scene = stitchScene();
-    change(scene.threads[0]);
+    change(scene.sutures[0]);
     try {
-      ThreadBodies threads(scene, &model);
+      SutureBodies sutures(scene, &model);
     } catch (const SceneError& error) {
       return std::string(error.what());
     }
     return std::string();
   };
-  const auto expect = [&](const char* what, const std::function<void(ThreadConfig&)>& change) {
+  const auto expect = [&](const char* what, const std::function<void(SutureConfig&)>& change) {
     EXPECT_NE(fault(change).find(what), std::string::npos) << fault(change);
   };
-  EXPECT_EQ(fault([](ThreadConfig&) {}), "");
-  expect("channels[0]: there is no body 'lung'", [](ThreadConfig& thread) { thread.channels[0].body = "lung"; });
-  expect("channels[6]: there is no tissue of body 'box'", [](ThreadConfig& thread) {
-    thread.channels.push_back({"box", inStitch(17, 13)});
+  EXPECT_EQ(fault([](SutureConfig&) {}), "");
+  expect("channels[0]: there is no body 'lung'", [](SutureConfig& suture) { suture.channels[0].body = "lung"; });
+  expect("channels[6]: there is no tissue of body 'box'", [](SutureConfig& suture) {
+    suture.channels.push_back({"box", inStitch(17, 13)});
   });
-  expect("channels[2]: its thread passes it by",
-         [](ThreadConfig& thread) { thread.channels[2].position_m = inStitch(15, 5); });
-  expect("channels[1]: does not come after",
-         [](ThreadConfig& thread) { std::swap(thread.channels[0], thread.channels[1]); });
-  expect("channels[1]: is", [](ThreadConfig& thread) { thread.channels[1].position_m = inStitch(12, 8.2); });
+  expect("channels[2]: its suture passes at a distance of",
+         [](SutureConfig& suture) { suture.channels[2].position_m = inStitch(15, 5); });
+  expect("channels[1]: does not follow the previous channel",
+         [](SutureConfig& suture) { std::swap(suture.channels[0], suture.channels[1]); });
+  expect("channels[1]: is", [](SutureConfig& suture) { suture.channels[1].position_m = inStitch(12, 8.2); });
 }

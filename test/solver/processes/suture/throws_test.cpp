@@ -13,7 +13,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kTurns = 1e-3;
 
-/// One of two tails that are wound about each other within 3 mm and go apart on both sides.
+/// Returns one of two tails that are wound about each other within 3 mm and separate on both sides.
 std::vector<Vector3d> tail(double turns, double phase) {
   constexpr double kHalf_m = 1.5e-3, kTail_m = 0.02;
   constexpr int kPieces = 20;

@@ -10,14 +10,14 @@ namespace viscera {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kLinkTolerance = 1e-4;  // of a link's length: an error is made good in the next substep
-constexpr double kOff_m = 2e-5;          // of a channel: made good in the next substep as well
-constexpr int kMostIterations = 80;      // 2 ms for 300 nodes; only where a thread snaps taut
-constexpr int kFrozenAfter = 8;          // iterations; from then on touches only close
-constexpr int kStillAfter = 24;          // and from then on no channel runs: stops may send each other to and fro
-constexpr int kMostWaits = 4;            // substeps in which it stays where it was; then it takes what it has
-constexpr double kPut_s = 5e-4;          // a usual substep
-constexpr double kMidpoint = 0.25;       // bending halfway in the substep: takes no energy
+constexpr double kLinkTolerance = 1e-4;  // of a link's length: an error is corrected in the next substep
+constexpr double kOff_m = 2e-5;          // of a channel: corrected in the next substep as well
+constexpr int kMostIterations = 80;      // 2 ms for 300 nodes; reached only where a suture snaps taut
+constexpr int kFrozenAfter = 8;          // iterations after which touches only close
+constexpr int kStillAfter = 24;     // iterations after which no channel moves: stops may send each other back and forth
+constexpr int kMostWaits = 4;       // substeps in which it does not move; then it takes the current iterate
+constexpr double kPut_s = 5e-4;     // a usual substep
+constexpr double kMidpoint = 0.25;  // bending at the middle of the substep: dissipates no energy
 
 }  // namespace
 
@@ -42,7 +42,7 @@ void Chain::stop() {
   std::fill(mu_.begin(), mu_.end(), 0.0);
 }
 
-/// A substep from rest: what the nodes move by is the least, by their masses.
+/// Moves the nodes by a substep from rest: their displacement is minimal, weighted by mass.
 void Chain::put(std::vector<Vector3d> places_m, std::vector<Vector3d> v_m_per_s, ChainAround& around) {
   x_ = std::move(places_m);
   stop();
@@ -56,7 +56,7 @@ Vector3d Chain::point(uint32_t node, double share) const {
   return share == 0 ? next_[node] : (1 - share) * next_[node] + share * next_[node + 1];
 }
 
-/// Newton's method for m (x' - y) + bending - tensions + what holds and touches = 0, links as long as they were.
+/// Solves m (x' - y) + bending - tensions + holds and touches = 0 with constant link lengths by Newton's method.
 void Chain::step(double dt_s, ChainAround& around) {
   if (dt_s_ > 0 && dt_s != dt_s_) {
     for (double& mu : mu_) mu *= dt_s * dt_s / (dt_s_ * dt_s_);
@@ -80,11 +80,11 @@ void Chain::step(double dt_s, ChainAround& around) {
     const bool whole = advance(around);
     changed = !whole;
     const bool frozen = !whole || iterations_ >= kFrozenAfter;
-    for (ChainHold& hold : around.holds) changed |= heed(hold, !whole);
-    for (ChainTouch& touch : around.touches) changed |= heed(touch, frozen);
+    for (ChainHold& hold : around.holds) changed |= update(hold, !whole);
+    for (ChainTouch& touch : around.touches) changed |= update(touch, frozen);
     const bool runs = iterations_ < kStillAfter;
-    if (whole) changed |= slides_.heed(shape(), frozen, runs, around.slides);
-    if (whole) changed |= knots_.heed(shape(), frozen, runs, around.knots);
+    if (whole) changed |= slides_.update(shape(), frozen, runs, around.slides);
+    if (whole) changed |= knots_.update(shape(), frozen, runs, around.knots);
     if (asks) around.answer(around.slides);
   }
   const bool finite = std::all_of(next_.begin(), next_.end(), [](const Vector3d& place) { return place.allFinite(); });
@@ -94,7 +94,7 @@ void Chain::step(double dt_s, ChainAround& around) {
   finish();
 }
 
-/// There is no solution: all of it stays where it was, at rest, and no one gets anything of it.
+/// Handles a failed solution: the chain does not move, is at rest, and gives no impulses.
 void Chain::wait(ChainAround& around) {
   next_ = x_;
   measureLinks();
@@ -120,11 +120,11 @@ void Chain::begin(const ChainAround& around) {
   }
 }
 
-/// Masses, drag and bending: matrix, and what is not balanced.
+/// Sets masses, drag and bending in the matrix and the residual.
 void Chain::setBending() {
   const size_t n = x_.size();
   const double halfway = kMidpoint * dt_s_ * dt_s_, damped = material_.damping_s * dt_s_;
-  const double stiff = bend_n_per_m_ * (halfway + damped), drag = material_.drag_per_s * dt_s_;
+  const double stiff = bend_n_per_m_ * (halfway + damped), drag = material_.mass_damping_per_s * dt_s_;
   for (size_t i = 0; i < n; ++i) {
     bent_[i] = dt_s_ * dt_s_ * x_[i] + halfway * (next_[i] - ahead_[i]) + damped * (next_[i] - x_[i]);
   }
@@ -154,7 +154,7 @@ void Chain::measureLinks() {
   worst_link_ /= link_m_;
 }
 
-/// A taut link resists being turned: without that no tension would follow a hand.
+/// Adds the links. A taut link resists rotation: without that no tension would follow a stylus.
 void Chain::setLinks() {
   for (size_t i = 0; i < links_.size(); ++i) {
     const ChainLink& link = links_[i];
@@ -185,7 +185,7 @@ void Chain::setAround(const ChainAround& around) {
   }
 }
 
-/// Along the border, in the substep.
+/// Returns the slip along the border in the substep.
 Vector3d Chain::slid(const ChainTouch& touch) const {
   const Vector3d way = next_[touch.node] - x_[touch.node] - touch.moved_m;
   return way - way.dot(touch.normal) * touch.normal;
@@ -195,7 +195,7 @@ double Chain::depth_m(const ChainTouch& touch) const {
   return (touch.at_m - next_[touch.node]).dot(touch.normal) + material_.radius_m;
 }
 
-/// @returns whether it was a whole step
+/// Takes a Newton step. @returns whether it was a whole step
 bool Chain::advance(ChainAround& around) {
   matrix_.factor();
   matrix_.solve(rest_);
@@ -204,7 +204,7 @@ bool Chain::advance(ChainAround& around) {
   for (size_t i = 0; i + 1 < x_.size(); ++i) {
     turned = std::max(turned, (rest_[i + 1].place - rest_[i].place).squaredNorm());
   }
-  // No link turns by more than about a radian at once; tensions are taken whole.
+  // No link turns by more than about a radian at once; tensions are always updated fully.
   const bool whole = turned <= link_m_ * link_m_;
   const double share = whole ? 1 : link_m_ / std::sqrt(turned);
   for (size_t i = 0; i < x_.size(); ++i) next_[i] += share * rest_[i].place;
@@ -212,8 +212,8 @@ bool Chain::advance(ChainAround& around) {
   return whole;
 }
 
-/// What the system that was just solved gave, and how it goes on. @returns whether it must be solved again
-bool Chain::heed(ChainHold& hold, bool frozen) const {
+/// Updates a hold with the solution of the system. @returns whether it must be solved again
+bool Chain::update(ChainHold& hold, bool frozen) const {
   const Vector3d off_m = point(hold.node, hold.share) - hold.to_m;
   hold.impulse_ns = hold.stiffness_kg / dt_s_ * off_m;
   if (frozen) return false;
@@ -223,8 +223,9 @@ bool Chain::heed(ChainHold& hold, bool frozen) const {
   return above;
 }
 
-/// Friction waits until it is known what presses: a node that has just come in is too deep by far.
-bool Chain::heed(ChainTouch& touch, bool frozen) const {
+/// Updates a touch. Friction waits until it is known which touches press: a node that has just entered is much too
+/// deep.
+bool Chain::update(ChainTouch& touch, bool frozen) const {
   const double in_m = depth_m(touch);
   const bool was_closed = touch.closed;
   touch.impulse_ns.setZero();
@@ -246,7 +247,7 @@ bool Chain::heed(ChainTouch& touch, bool frozen) const {
 void Chain::finish() {
   for (size_t i = 0; i < x_.size(); ++i) v_[i] = (next_[i] - x_[i]) / dt_s_;
   x_ = next_;
-  if (iterations_ == kMostIterations) stop();  // what it was to become is not known: it begins again
+  if (iterations_ == kMostIterations) stop();  // not converged: restarts from rest
 }
 
 }  // namespace viscera

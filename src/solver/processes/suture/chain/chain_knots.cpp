@@ -12,9 +12,9 @@ namespace viscera {
 
 namespace {
 
-constexpr double kLoopLinks = 2;  // a loop is no smaller
+constexpr double kLoopLinks = 2;  // links of the smallest loop
 
-/// From s1 to s2, beyond what they are apart.
+/// Returns the vector from s1 to s2, in addition to apart_m.
 Vector3d offOf(const ChainKnot& knot, const std::vector<Vector3d>& places) {
   return ChainPoint(knot.s2, places.size()).of(places) - ChainPoint(knot.s1, places.size()).of(places) - knot.apart_m;
 }
@@ -67,7 +67,8 @@ void ChainKnots::set(const ChainShape& shape, const std::vector<ChainKnot>& knot
   }
 }
 
-/// Held all round: the two points meet. Sliding: across the tangent they do, along it they rub.
+/// A holding knot joins the two points in all directions. A sliding one joins them across the tangent, with friction
+/// along it.
 void ChainKnots::solve(const ChainShape& shape, const ChainMatrix& matrix, std::vector<ChainKnot>& knots,
                        std::vector<ChainMatrix::Unknown>& found) {
   const auto rows = static_cast<Eigen::Index>(3 * knots.size());
@@ -121,7 +122,7 @@ void ChainKnots::solve(const ChainShape& shape, const ChainMatrix& matrix, std::
   }
 }
 
-bool ChainKnots::heed(const ChainShape& shape, bool frozen, bool runs, std::vector<ChainKnot>& knots) {
+bool ChainKnots::update(const ChainShape& shape, bool frozen, bool runs, std::vector<ChainKnot>& knots) {
   bool again = false;
   for (size_t k = 0; k < knots.size(); ++k) {
     ChainKnot& knot = knots[k];

@@ -6,12 +6,12 @@ namespace viscera {
 
 namespace {
 
-/// Of a lower triangle by rows.
+/// Returns the index of an entry of a lower triangle by rows.
 constexpr size_t at(size_t r, size_t c) {
   return r >= c ? r * (r + 1) / 2 + c : c * (c + 1) / 2 + r;
 }
 
-/// Inverse of a symmetric positive matrix by L D L^T: parts of it are a billion times as stiff as others.
+/// Returns the inverse of a symmetric positive matrix by L D L^T: some entries are a billion times as large as others.
 template <class T>
 std::array<T, 6> inverseOf(const std::array<T, 6>& a) {
   const T first = 1 / a[at(0, 0)], l10 = a[at(1, 0)] * first, l20 = a[at(2, 0)] * first;
@@ -41,7 +41,7 @@ std::array<T, 3> times(const std::array<T, 6>& a, const std::array<T, 3>& b) {
   return out;
 }
 
-constexpr double kNoTension = -1;  // for its block to be invertible
+constexpr double kNoTension = -1;  // makes its block invertible
 
 }  // namespace
 
@@ -76,8 +76,9 @@ void ChainMatrix::addPoint(size_t i, double share, const Matrix3d& what) {
   rows_[i].next += share * (1 - share) * what;
 }
 
-/// @param self  of the node, without what those before it left   @param node  in: blocks towards the middle
-/// @param left  by those before it; out: by it
+/// @param self  block of the node, without the contributions of nodes before it   @param node  in: blocks towards the
+/// middle
+/// @param left  in: Schur complement of those before it; out: its own
 template <class T>
 void ChainMatrix::factorNode(Symmetric<T> self, bool link, Factored<T>& node, Left<T>& left) {
   for (size_t e = 0; e < 6; ++e) self[e] -= left.self[e];
@@ -131,7 +132,7 @@ void ChainMatrix::factor() {
   factorMiddle(left);
 }
 
-/// Nodes between the halves, one after the other. @param left  by both halves
+/// Factors the nodes between the halves, one after the other. @param left  Schur complement of both halves
 void ChainMatrix::factorMiddle(const Left<Pair>& left) {
   const size_t k = pairs_.size(), count = middles();
   Left<double> before;
@@ -159,8 +160,8 @@ void ChainMatrix::factorMiddle(const Left<Pair>& left) {
   }
 }
 
-/// @param place, tension  in: right-hand sides, without what those before it leave   @param next, after  in: what those
-/// leave of the node and the next one; out: of the next one and that after it
+/// @param place, tension  in: right-hand sides, without the contributions of nodes before it
+/// @param next, after  in: contributions to the node and the next one; out: to the next one and the one after it
 template <class T>
 void ChainMatrix::forward(const Factored<T>& node, Vector<T>& place, T& tension, Vector<T>& next, Vector<T>& after) {
   for (size_t r = 0; r < 3; ++r) place[r] -= next[r];

@@ -9,10 +9,10 @@
 
 namespace viscera {
 
-/// The linear system of a Newton step of a chain: node by node its place (3) and the tension of the link behind it (1).
-/// A node knows the next two (bending), a tension its two nodes; so it is a band, factored without pivots as L D L^T,
-/// from both ends at once towards two or three nodes in the middle: each step waits for the one before, and two ends do
-/// not wait for each other.
+/// The linear system of a Newton step of a chain: per node its position (3) and the tension of the link behind it (1).
+/// A node couples to the next two by bending, a tension to its two nodes, so the matrix is banded. It is factored as L
+/// D L^T without pivots, from both ends at once towards two or three nodes in the middle. Each step depends on the
+/// previous one, but the two ends are independent of each other.
 class ChainMatrix {
  public:
   struct Unknown {
@@ -22,19 +22,20 @@ class ChainMatrix {
 
   explicit ChainMatrix(size_t nodes);
   size_t size() const { return rows_.size(); }
-  /// Begins node i again. @param self  times I, on the node   @param next, after  times I, between it and the next two
+  /// Resets node i. @param self  times I, on the node   @param next, after  times I, to the next node and the one after
   void setNode(size_t i, double self, double next, double after);
-  /// Link i, from node i to the next: its direction, and what it adds across it where it is taut.
+  /// Adds link i, from node i to the next: its direction, and the stiffness across it where it is taut.
   void addLink(size_t i, const Vector3d& along, double across);
-  /// (all I + way way^T) on the point that has `share` of node i + 1 and the rest of node i.
+  /// Adds (all I + way way^T) on the point with weight `share` of node i + 1 and the rest of node i.
   void addPoint(size_t i, double share, double all, const Vector3d& way);
   void addPoint(size_t i, double share, const Matrix3d& what);
   void factor();
-  /// @param right  [nodes] in: right-hand sides; out: solution. The last tension is none: 0
+  /// Solves the factored system. @param right  [nodes] in: right-hand sides; out: solution. The last tension does not
+  /// exist: 0
   void solve(std::vector<Unknown>& right) const;
 
  private:
-  using Pair = Eigen::Array2d;  ///< of a node of the first half, and of that as far from the other end
+  using Pair = Eigen::Array2d;  ///< values of a node and of that at the same distance from the other end
   template <class T>
   using Vector = std::array<T, 3>;
   template <class T>
@@ -44,20 +45,20 @@ class ChainMatrix {
 
   struct Row {
     Matrix3d self, next;  ///< blocks of the node, and to the next one: both symmetric
-    Vector3d along;       ///< of the link to the next one
+    Vector3d along;       ///< direction of the link to the next one
     double after;         ///< times I: to the node after the next
   };
-  /// A node, or two, once factored. Blocks lead towards the middle.
+  /// A node, or two, once factored. Off-diagonal blocks are towards the middle.
   template <class T>
   struct Factored {
     Square<T> next;
     Vector<T> along;
     T after;
-    Symmetric<T> back;  ///< with `across` and `tension`: inverse of the node's block and its link's
+    Symmetric<T> back;  ///< inverse of the block of the node and its link, with `across` and `tension`
     Vector<T> across;
     T tension;
   };
-  /// What a node that is factored leaves: to be taken from the blocks of the next one, and of the one after it.
+  /// Schur complement of a factored node: to be subtracted from the blocks of the next node and the one after it.
   template <class T>
   struct Left {
     Symmetric<T> self{}, after{};

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Chains that are parted, and made whole again.
+// Cutting chains, and making them whole again.
 #include <algorithm>
 #include <cassert>
 #include <string>
@@ -15,7 +15,8 @@ namespace {
 
 constexpr size_t kLeastNodes = 3;
 
-/// Moves what is behind a node to the other piece. @param is_behind  and is then told so by `shift`
+/// Moves the items behind a node to the other piece. @param is_behind  selects them   @param shift  called for each of
+/// them
 template <class Thing, class IsBehind, class Shift>
 void moveBehind(std::vector<Thing>& from, std::vector<Thing>& to, IsBehind is_behind, Shift shift) {
   const auto first = std::stable_partition(from.begin(), from.end(), [&](const Thing& it) { return !is_behind(it); });
@@ -43,7 +44,7 @@ void Chain::persist(Archive& archive) {
   archive.value(waits_);
   if (!archive.reads()) return;
   if (x_.size() < kLeastNodes || x_.size() > start_.size() || v_.size() != x_.size() || mu_.size() + 1 != x_.size())
-    throw Error("a thread has " + std::to_string(x_.size()) + " nodes in the saved state, and here " +
+    throw Error("a suture has " + std::to_string(x_.size()) + " nodes in the saved state, but here " +
                 std::to_string(start_.size()));
   fit();
 }
@@ -64,7 +65,7 @@ void Chain::keep(size_t first, size_t last) {
   fit();
 }
 
-/// What a substep works with has as many places as there are nodes.
+/// Resizes the arrays of a substep to the number of nodes.
 void Chain::fit() {
   if (next_.size() == x_.size()) return;
   matrix_ = ChainMatrix(x_.size());

@@ -9,11 +9,11 @@ namespace viscera {
 
 namespace {
 
-constexpr double kBackOnItself = 0.2;    // of the sum of two directions: below it they have no bisector to speak of
+constexpr double kBackOnItself = 0.2;    // of the sum of two directions: below it they have no useful bisector
 constexpr double kLeastAlong = 0.2;      // where it turns back: slow rather than not at all
-constexpr double kStraightChain = 1e-3;  // [rad] of a turn whose sines are its angle
+constexpr double kStraightChain = 1e-3;  // [rad] of a turn with sines equal to its angle
 
-constexpr double kLeastSlip_m = 1e-12;  // no division by 0
+constexpr double kLeastSlip_m = 1e-12;  // avoids a division by 0
 
 }  // namespace
 

@@ -10,11 +10,11 @@
 
 namespace viscera {
 
-/// Mass that what never gives way shows: pulled by 20 N it lets a thread go on by 50 nm in a substep of 0.5 ms.
+/// Effective mass of a rigid holder: with a pull of 20 N it lets a suture move by 50 nm in a substep of 0.5 ms.
 constexpr double kRigidMass_kg = 100;
 
-constexpr double kSlack = 1.05;  // of a limit of friction or grip, before an iteration is worth it
-/// Grip or friction as a stiffness: of the limit over what slipped, so that it never drives.
+constexpr double kSlack = 1.05;  // factor over a limit of friction or grip above which another iteration is worthwhile
+/// Returns grip or friction as a secant stiffness: the limit over the slip, so it never accelerates.
 double secant(double limit, double slipped_m, double most_kg);
 
 struct ChainLink {
@@ -32,28 +32,29 @@ struct ChainShape {
 
 /// A point between two nodes.
 struct ChainPoint {
-  /// @param s  on a chain of so many nodes [links]
+  /// @param s  position on a chain with `nodes` nodes [links]
   ChainPoint(double s, size_t nodes);
   Vector3d of(const std::vector<Vector3d>& places) const;
-  /// A force on it, on its nodes.
+  /// Distributes a force on the point to its nodes.
   void push(const Vector3d& by, std::vector<ChainMatrix::Unknown>& rest) const;
   uint32_t node;
-  double share;  ///< of node + 1; the rest is of node
+  double share;  ///< weight of node + 1; the rest is that of node
 };
 
-/// How a chain turns at a point that something holds: from before the two nodes at which that bends it to behind them.
-/// Does not jump where the point passes a node.
+/// Turn of a chain at a held point: from before to behind the two nodes at which the hold bends it. It is continuous
+/// where the point passes a node.
 struct ChainTurn {
   ChainTurn() = default;
   ChainTurn(const ChainPoint& point, const std::vector<ChainLink>& links);
-  /// What a difference of tensions before and behind shows along the tangent.
+  /// Returns the share of a difference of tensions before and behind that acts along the tangent.
   double alongBisector() const;
   Vector3d tangent = Vector3d::Zero();  ///< bisector of the whole turn
   double angle = 0;
-  double along_link = 1;  ///< of the tangent, in the point's own link
+  double along_link = 1;  ///< component of the tangent along the point's own link
 };
 
-/// Friction over what presses across where a rope turns by an angle, so that its tensions are as exp(friction x angle).
+/// Returns friction over normal force where a rope turns by an angle: the ratio of its tensions is exp(friction x
+/// angle).
 double capstan(double friction, double angle);
 
 }  // namespace viscera

@@ -10,13 +10,13 @@ namespace viscera {
 namespace {
 
 constexpr double kAtStop = 1e-6;        // links
-constexpr double kMostLinks = 1;        // in an iteration: the next one's tangent is another
-constexpr double kSlow_m_per_s = 1e-3;  // at which what was held begins to slide
-constexpr double kBeginsAt = 0.5;       // of what holds, at first: in light tissue that speed would ask for more
+constexpr double kMostLinks = 1;        // per iteration: the tangent changes after that
+constexpr double kSlow_m_per_s = 1e-3;  // initial speed of sliding
+constexpr double kBeginsAt = 0.5;  // of the holding stiffness, initially: in light tissue that speed would need more
 
 }  // namespace
 
-/// What is nearer already goes no nearer.
+/// A point that is already nearer comes no nearer.
 void ChainRun::stopAt(double other, double apart, bool runs, double s) {
   const double edge = runs ? (other + s) / 2 : other, keep = runs ? apart / 2 : apart;
   if (other > s) {
@@ -39,7 +39,7 @@ bool ChainRun::rub(const ChainShape& shape, double along, double limit, double o
   return size > kSlack * limit;
 }
 
-/// At a sharp turn it goes farther along the bisector than along the chain.
+/// At a sharp turn it moves farther along the bisector than along the chain.
 bool ChainRun::follow(const ChainShape& shape, double off_m, double& s, bool& out) {
   const double link_m = shape.link_m / turn.along_link, last = static_cast<double>(shape.links.size());
   const double wanted = s - std::clamp(off_m / link_m, -kMostLinks, kMostLinks), to = std::clamp(wanted, low, high);

@@ -8,26 +8,28 @@
 
 namespace viscera {
 
-/// How a point runs along a chain in a substep: between stops, and rubbing by a limit over what it slid.
+/// Motion of a point along a chain in a substep: between stops, with friction as the limit over the slip.
 struct ChainRun {
   static constexpr double kFar = std::numeric_limits<double>::infinity();
-  double low = -kFar, high = kFar;  ///< of s, its place on the chain [links]
-  double slid_m = 0;                ///< by the chain in this substep, that s has followed
-  bool on_needle = false;           ///< of a chain that a needle is on: beside its tail it cannot give way
+  double low = -kFar, high = kFar;  ///< bounds of s, its position on the chain [links]
+  double slid_m = 0;                ///< displacement along the chain in this substep that s has followed
+  bool on_needle = false;           ///< the chain has a needle: next to the needle's tail it cannot yield
   ChainTurn turn;
 
-  /// Another point is there, or, where that runs too, may come as far as their middle.
+  /// Stops it at another point or, where that moves too, at the middle between them.
   void stopAt(double other, double apart, bool runs, double s);
-  /// A new stiffness of friction. @param along  what it gave, times dt   @param limit  of that   @param off_m  along
-  /// @returns whether it must be solved again
+  /// Updates the stiffness of friction. @param along  its force times dt^2   @param limit  bound of that
+  /// @param off_m  offset along
+  /// @returns whether the system must be solved again
   bool rub(const ChainShape& shape, double along, double limit, double off_m, double mass_kg, double s,
            double& rub_kg) const;
-  /// s goes where the chain has slid to. @param off_m  along   @param out  an end of the chain has passed
+  /// Moves s to where the chain has slid. @param off_m  offset along   @param out  set if an end of the chain has
+  /// passed
   /// @returns whether something stops it
   bool follow(const ChainShape& shape, double off_m, double& s, bool& out);
 };
 
-/// What does not slip holds.
+/// Returns whether the friction slips; else it holds.
 inline bool slips(double rub_kg, double mass_kg) {
   return rub_kg < std::min(mass_kg, kRigidMass_kg);
 }

@@ -8,7 +8,7 @@ namespace viscera {
 
 namespace {
 
-constexpr double kApartLinks = 1;     // of two channels, whatever becomes of their tissue
+constexpr double kApartLinks = 1;     // of two channels, regardless of their tissue
 constexpr double kApartRest = 0.4;    // of their distance in the tissue at rest
 constexpr double kFromNeedle = 0.01;  // links
 
@@ -16,8 +16,8 @@ bool tears(const ChainSlide& slide) {
   return slips(slide.stiffness_kg, slide.mass_kg);
 }
 
-/// On a needle's thread a stiffness is one of the chain and of the tissue, which goes back as it is given less: the
-/// chain itself stays where the needle is.
+/// Returns the effective stiffness. On a needle's suture it is that of chain and tissue in series, as the tissue moves
+/// back when its impulse decreases: the chain stays where the needle is.
 double yields(const ChainSlide& slide, const ChainRun& run, double stiffness_kg) {
   return run.on_needle ? stiffness_kg / (1 + stiffness_kg / slide.mass_kg) : stiffness_kg;
 }
@@ -40,7 +40,7 @@ void ChainSlides::begin(const ChainShape& shape, const std::array<bool, 2>& swag
       continue;
     }
     runs_[k].on_needle = swaged[0] || swaged[1];
-    if (runs_[k].on_needle) slide.impulse_ns.setZero();  // of which the tissue has nothing yet
+    if (runs_[k].on_needle) slide.impulse_ns.setZero();  // not yet applied to the tissue
     if (before < slides.size()) {
       const double apart = std::max(kApartLinks, kApartRest * slides[before].between_rest_m / shape.link_m);
       runs_[before].stopAt(slide.s, apart, true, slides[before].s);
@@ -57,7 +57,7 @@ void ChainSlides::begin(const ChainShape& shape, const std::array<bool, 2>& swag
   }
 }
 
-/// Times dt: what the tissue gets where the chain is off by so much.
+/// Returns the impulse on the tissue times dt for an offset of the chain.
 Vector3d ChainSlides::impulse(const ChainSlide& slide, const ChainRun& run, const Vector3d& off_m, double dt_s) const {
   const Vector3d given = run.on_needle ? Vector3d(dt_s * slide.impulse_ns / slide.mass_kg) : Vector3d::Zero();
   if (tears(slide)) return yields(slide, run, slide.stiffness_kg) * (off_m + given);
@@ -83,7 +83,7 @@ void ChainSlides::set(const ChainShape& shape, const std::vector<ChainSlide>& sl
   }
 }
 
-bool ChainSlides::heed(const ChainShape& shape, bool frozen, bool runs, std::vector<ChainSlide>& slides) {
+bool ChainSlides::update(const ChainShape& shape, bool frozen, bool runs, std::vector<ChainSlide>& slides) {
   bool again = false;
   for (size_t k = 0; k < slides.size(); ++k) {
     ChainSlide& slide = slides[k];
@@ -102,7 +102,7 @@ bool ChainSlides::heed(const ChainShape& shape, bool frozen, bool runs, std::vec
   return again;
 }
 
-/// From holding to sliding to tearing and back, by what it has just been found to need.
+/// Switches between holding, sliding and tearing, by the impulse just found to be needed.
 bool ChainSlides::change(const ChainShape& shape, const Vector3d& off_m, ChainSlide& slide, const ChainRun& run) const {
   const double dt2 = shape.dt_s * shape.dt_s, most = dt2 * slide.most_n, mass_kg = slide.mass_kg;
   const Vector3d all = shape.dt_s * slide.impulse_ns;

@@ -10,9 +10,9 @@ namespace viscera {
 namespace {
 
 constexpr double kWholeSphere = 4 * 3.14159265358979323846;
-constexpr double kLeastTurns = 0.75;  // of a throw: half a turn is two tails that lie across each other
+constexpr double kLeastTurns = 0.75;  // of a throw: half a turn is two tails that cross
 
-/// Solid angle of a triangle seen from 0 (van Oosterom and Strackee 1983).
+/// Returns the solid angle of a triangle seen from 0 (van Oosterom and Strackee 1983).
 double solidAngle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
   const double below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
@@ -22,7 +22,7 @@ double solidAngle(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
 
 }  // namespace
 
-/// What points from a piece of one to a piece of the other is a parallelogram: two triangles.
+/// The vectors from a segment of one to a segment of the other span a parallelogram: two triangles.
 double turnsOf(const Strand& one, const Strand& other) {
   double sum = 0;
   for (size_t i = 0; i + 1 < one.count; ++i) {

@@ -10,19 +10,19 @@
 
 namespace viscera {
 
-/// Nodes in a row.
+/// Consecutive nodes.
 struct Strand {
   const Vector3d* nodes;
   size_t count;
 };
 
-/// Gauss's integral of two strands: signed turns of one about the other, right-handed above 0. Exact for their straight
-/// pieces; a whole number only where their ends are far apart.
+/// Returns Gauss's linking integral of two strands: signed turns of one about the other, positive if right-handed.
+/// Exact for their straight segments; an integer only if their ends are far apart.
 double turnsOf(const Strand& one, const Strand& other);
 
-/// Whole turns of a throw with their sign; 0: it is none yet.
+/// Returns the whole turns of a throw, signed; 0: not a throw yet.
 int throwOf(double turns);
 
-/// @param throws  one after the other, in whole turns; those of 0 are passed over
+/// Returns the kind of knot. @param throws  in order, in whole turns; zeros are skipped
 KnotKind kindOf(const std::vector<int>& throws);
 }  // namespace viscera

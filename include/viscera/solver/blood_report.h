@@ -1,0 +1,19 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+namespace viscera {
+
+/// Blood from cut vessels since the last reset (docs/lessons/bleeding.md). bled_ml is the sum of on_tissue_ml and
+/// dripped_ml.
+struct BloodReport {
+  double bled_ml = 0;
+  double on_tissue_ml = 0;
+  double dripped_ml = 0;
+  double flow_ml_per_min = 0;  ///< present flow of all vessels together [ml/min]
+  uint64_t stumps = 0;         ///< number of pieces of vessels that bleed now
+};
+
+}  // namespace viscera

@@ -1,0 +1,97 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "render/tube_painter.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "render/mesh_uniforms.h"
+#include "render/shapes/tube.h"
+#include "viscera/layout/picture_labels.h"
+#include "viscera/model/scene/scene.h"
+
+namespace viscera {
+
+namespace {
+
+constexpr double kLeastRadius_px = 0.75;  // 1.5 pixels cover a pixel centre in every row or column that they cross
+
+size_t allVertices(const std::vector<TubeStyle>& sutures) {
+  size_t out = 0;
+  for (const TubeStyle& suture : sutures) out += suture.most * tubeVertices(suture.nodes);
+  return out + kMostParted * tubeVertices(2);  // both pieces have the node at which a suture is cut
+}
+
+/// Returns triangles of the longest tube. They depend only on the number of nodes, and those of a shorter tube come
+/// first.
+std::vector<uint32_t> longestTube(const std::vector<TubeStyle>& sutures) {
+  size_t nodes = 0;
+  for (const TubeStyle& suture : sutures) nodes = std::max(nodes, suture.nodes);
+  ToolShape tube;
+  addTube(std::vector<Vector3f>(nodes, Vector3f::Zero()), std::vector<float>(nodes), {}, tube);
+  return tube.indices;
+}
+
+}  // namespace
+
+TubePainter::TubePainter(std::vector<TubeStyle> sutures, const std::vector<std::string>& features)
+    : sutures_(std::move(sutures)),
+      program_(gpu::Program::graphics("mesh.vert", "tool.frag", features)),
+      vertices_(allVertices(sutures_), "sutures"),
+      indices_(longestTube(sutures_), "sutures") {
+  inputs_.readTools(vertices_.id(), indices_.id());
+}
+
+/// Makes the tube of a suture in the optical frame of a camera.
+void TubePainter::shape(const TubeStyle& suture, const std::vector<Vector3d>& places_m, const Pose& optical_from_tissue,
+                        double pixel) {
+  points_m_.clear();
+  radii_m_.clear();
+  tube_.vertices.clear();
+  tube_.indices.clear();
+  for (const Vector3d& place_m : places_m) {
+    const Vector3d at_m = optical_from_tissue * place_m;
+    points_m_.push_back(at_m.cast<float>());
+    radii_m_.push_back(static_cast<float>(std::max(suture.radius_m, kLeastRadius_px * pixel * at_m.z())));
+  }
+  addTube(points_m_, radii_m_, suture.color, tube_);
+}
+
+/// Draws all sutures. @param before  called with each suture first
+template <class Before>
+void TubePainter::drawWith(const gpu::Program& program, const VisibleTubes& shown, const Pose& optical_from_tissue,
+                           const Eigen::Matrix4f& clip_from_optical, double pixel, Before before) {
+  glBindVertexArray(inputs_.id());
+  program.use();
+  setMeshMatrices(program, Pose{}, clip_from_optical);
+  size_t first_vertex = 0;
+  for (const VisibleTube& piece : shown) {
+    const auto look = std::find_if(sutures_.begin(), sutures_.end(), [&](const TubeStyle& suture) {
+      return suture.suture == piece.suture && suture.part == piece.part;
+    });
+    if (look == sutures_.end() || piece.places_m.size() < 2 || piece.places_m.size() > look->nodes) continue;
+    shape(*look, piece.places_m, optical_from_tissue, pixel);
+    const size_t first = first_vertex;
+    first_vertex += tube_.vertices.size();
+    vertices_.write(tube_.vertices, first);
+    before(*look);
+    glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(tube_.indices.size()), GL_UNSIGNED_INT, nullptr,
+                             static_cast<GLint>(first));
+  }
+  glBindVertexArray(0);
+}
+
+void TubePainter::draw(const VisibleTubes& shown, const Pose& optical_from_tissue,
+                       const Eigen::Matrix4f& clip_from_optical, double pixel) {
+  drawWith(program_, shown, optical_from_tissue, clip_from_optical, pixel, [](const TubeStyle&) {});
+}
+
+void TubePainter::drawGeometry(const gpu::Program& program, const VisibleTubes& shown, const Pose& optical_from_tissue,
+                               const Eigen::Matrix4f& clip_from_optical, double pixel) {
+  drawWith(program, shown, optical_from_tissue, clip_from_optical, pixel, [&](const TubeStyle& look) {
+    const auto of_suture = static_cast<uint32_t>(layout::kFirstSutureLabel + look.suture);
+    program.set("label", look.part == TubeKind::kClip ? layout::kClipLabel : of_suture);
+  });
+}
+
+}  // namespace viscera
