@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <iterator>
 #include <utility>
 
 #include "cli/npy_writer.h"
@@ -16,22 +15,27 @@
 namespace viscera::cli {
 
 Album::Album(const std::string& folder, const Scene& scene, const Strokes& strokes, uint64_t ticks, Pictures pictures,
-             const Kinds& kinds)
-    : folder_(folder), scene_(scene), pictures_(pictures), ticks_(ticks), kinds_(kinds) {
-  if (folder_.empty()) return;
+             const Kinds& kinds, Film* film)
+    : folder_(folder), scene_(scene), pictures_(pictures), ticks_(ticks), kinds_(kinds), film_(film) {
+  if (film_) film_->follow(scene_);
+  if (!folder_.empty()) makeFolder(strokes);
+  const bool writes_images = !folder_.empty() && pictures_ != Pictures::kNone;
+  if (film_ || writes_images) writer_ = std::thread([this] { write(); });
+}
+
+void Album::makeFolder(const Strokes& strokes) {
   std::error_code error;
   std::filesystem::create_directories(pictures_ == Pictures::kNone ? folder_ : folder_ + "/frames", error);
   if (error) throw Error(folder_ + ": cannot create this folder for pictures: " + error.message());
   if (pictures_ == Pictures::kNone) return;
   for (const Mark& mark : strokes.marks) {
-    const double tick = std::max(1.0, std::round(mark.time_s * scene.solver.tick_hz));
-    if (tick > static_cast<double>(ticks)) {
+    const double tick = std::max(1.0, std::round(mark.time_s * scene_.solver.tick_hz));
+    if (tick > static_cast<double>(ticks_)) {
       std::cout << "mark '" << mark.name << "' is after the end of the run: no picture\n";
       continue;
     }
     marks_.emplace(static_cast<uint64_t>(tick), mark.name);
   }
-  writer_ = std::thread([this] { write(); });
 }
 
 Album::~Album() {
@@ -43,7 +47,18 @@ Album::~Album() {
   if (writer_.joinable()) writer_.join();
 }
 
-FrameRequest Album::wants(const Session& session) const {
+FrameRequest Album::wants(const Session& session) {
+  FrameRequest out = filesOf(session);
+  if (!film_) return out;
+  out.every_image = true;
+  if (!session.imageDue(film_->camera())) return out;
+  film_ticks_.push_back(session.tick() + 1);
+  out.cameras.resize(scene_.cameras.size());
+  out.cameras[film_->camera()] = true;
+  return out;
+}
+
+FrameRequest Album::filesOf(const Session& session) const {
   FrameRequest out;
   if (folder_.empty()) return out;
   const bool marked = marks_.count(session.tick() + 1) > 0;
@@ -66,8 +81,19 @@ void Album::add(Frame&& frame) {
   std::unique_lock<std::mutex> lock(mutex_);
   changed_.wait(lock, [this] { return waiting_.size() < kWaiting || error_; });
   rethrow();
-  std::move(frame.images.begin(), frame.images.end(), std::back_inserter(waiting_));
+  for (ImageFrame& image : frame.images) {
+    const bool is_filmed = isFilmed(image);
+    if (is_filmed || !folder_.empty()) waiting_.push_back({std::move(image), is_filmed});
+  }
   changed_.notify_all();
+}
+
+/// Returns whether the film gets this image. Images at marks are not due in the film.
+bool Album::isFilmed(const ImageFrame& image) {
+  if (!film_ || image.camera != film_->camera() || image.kind != PictureKind::kColor) return false;
+  if (film_ticks_.empty() || film_ticks_.front() != image.tick) return false;
+  film_ticks_.pop_front();
+  return true;
 }
 
 void Album::finish() {
@@ -78,7 +104,9 @@ void Album::finish() {
   changed_.notify_all();
   if (writer_.joinable()) writer_.join();
   rethrow();
-  if (surface_) writePly(*surface_, folder_ + "/surface.ply");
+  if (!film_ticks_.empty())
+    throw Error("--film: the picture of tick " + std::to_string(film_ticks_.front()) + " is missing");
+  if (surface_ && !folder_.empty()) writePly(*surface_, folder_ + "/surface.ply");
 }
 
 void Album::rethrow() {
@@ -90,13 +118,14 @@ void Album::write() {
   for (;;) {
     changed_.wait(lock, [this] { return end_ || !waiting_.empty(); });
     if (waiting_.empty()) return;
-    const ImageFrame image = std::move(waiting_.front());
+    const Waiting next = std::move(waiting_.front());
     waiting_.pop_front();
     changed_.notify_all();
     lock.unlock();
     std::exception_ptr error;
     try {
-      writeOut(image);
+      if (next.is_filmed) film_->add(next.image);
+      if (!folder_.empty()) writeOut(next.image);
     } catch (...) {
       error = std::current_exception();
     }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/film/film_options.h"
 #include "export/exporter.h"
 #include "model/scan/labels.h"
 #include "model/scan/window.h"
@@ -27,6 +28,7 @@ struct RunOptions {
   std::string record;                     ///< file of a recording; empty: none
   double save_every_s = 0;                ///< simulated time between saved states [s]; 0: at the end only
   std::optional<ExportOptions> exported;  ///< options of the export into `out`/export
+  FilmOptions film;
   Overrides overrides;
 };
 /// Runs `viscera check`: lists EGL devices, the chosen one, and why others were not chosen; for a scene, its bodies and
@@ -46,6 +48,7 @@ struct ReplayOptions {
   double speed = 0;  ///< speed relative to the clock; 0: as fast as possible
   std::string out;   ///< output folder; empty: no images, no tables
   std::string save;  ///< file of the final state; empty: none
+  FilmOptions film;
   bool no_view = false, depth = false, labels = false;
   Overrides overrides;  ///< overrides of keys that do not affect the state
 };

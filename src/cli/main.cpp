@@ -7,6 +7,7 @@
 
 #include "cli/commands.h"
 #include "cli/fault.h"
+#include "cli/film/film_options.h"
 #include "devices/device_profile.h"
 #include "math/memory_for.h"
 #include "model/scene/feature_rules.h"
@@ -103,7 +104,8 @@ CLI::App* addRun(CLI::App& app, Options& o) {
                                      "the surface mesh at the end; files of an older run are removed");
   run->add_flag("--live", o.run.live,
                 "skip pictures instead of waiting for them, as a live session does, except at marks")
-      ->needs(out);
+      ->needs(out)
+      ->excludes(addFilm(run, o.run.film));
   run->add_flag(
          "--depth", o.run.depth,
          "write the depths of every picture: .npy, float32, metres along the optical axis, +Inf where there is nothing")
@@ -142,6 +144,7 @@ CLI::App* addReplay(CLI::App& app, Options& options) {
                                         "files of an older run are removed");
   replay->add_flag("--depth", o.depth, "write the depths of every picture, as run does")->needs(out);
   replay->add_flag("--labels", o.labels, "write the labels of every picture, as run does")->needs(out);
+  addFilm(replay, o.film);
   replay->add_flag("--no-view", o.no_view,
                    "run without pictures, and without OpenGL unless solver.backend: gpu needs it");
   replay->add_option("--save", o.save, "file for the state at the end, from which run --resume continues");
@@ -161,6 +164,7 @@ CLI::App* addTask(CLI::App& app, Options& o) {
   task->add_option("--seconds", o.run.seconds, "simulated time; default: the strokes' length, or 1")
       ->check(CLI::Range(0.0, 86400.0));
   task->add_option("--out", o.run.out, "folder for pictures and tables, as for run, and for the report");
+  addFilm(task, o.run.film);
   task->add_flag("--no-view", o.run.no_view,
                  "run without pictures, and without OpenGL unless solver.backend: gpu needs it");
   task->add_option("--record", o.run.record, "new file that records the session, for viscera replay");

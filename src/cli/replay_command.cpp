@@ -8,6 +8,7 @@
 
 #include "cli/album.h"
 #include "cli/commands.h"
+#include "cli/film/film.h"
 #include "cli/run_folder.h"
 #include "cli/run_plan.h"
 #include "cli/scene_lookup.h"
@@ -30,7 +31,8 @@ using ReplayClock = std::chrono::steady_clock;
 /// first one the given folder.
 class Replayed {
  public:
-  explicit Replayed(const ReplayOptions& options) : options_(options) {}
+  /// @param film  null: none
+  Replayed(const ReplayOptions& options, Film* film) : options_(options), film_(film) {}
 
   Session& make(const Scene& scene) {
     end();
@@ -45,12 +47,12 @@ class Replayed {
   }
   FrameRequest wants(const Session& session) {
     if (!hands_) hands_.emplace(*session_);
-    if (!options_.out.empty() && !album_) {
+    if ((film_ || !options_.out.empty()) && !album_) {
       ++pieces_;
-      folder_ = pieces_ == 1 ? options_.out : options_.out + "/piece_" + std::to_string(pieces_);
+      folder_ = options_.out + (pieces_ == 1 || options_.out.empty() ? "" : "/piece_" + std::to_string(pieces_));
       const auto pictures = options_.no_view ? Album::Pictures::kNone : Album::Pictures::kAll;
       album_ = std::make_unique<Album>(folder_, session.scene(), Strokes{}, UINT64_MAX, pictures,
-                                       Album::Kinds{options_.depth, options_.labels});
+                                       Album::Kinds{options_.depth, options_.labels}, film_);
     }
     return album_ ? album_->wants(session) : FrameRequest{};
   }
@@ -68,13 +70,9 @@ class Replayed {
     measures_.push_back(hands_->rows().metrics());
     if (album_) {
       album_->add(std::move(last));
-      FrameRequest skin;
-      skin.surface = skin.every_image = true;
-      Frame shown;
-      static_cast<Pictures&>(shown) = session_->show(skin);
-      album_->add(std::move(shown));
+      if (!folder_.empty()) addSkin();
       album_->finish();
-      writeHands(hands_->rows(), folder_);
+      if (!folder_.empty()) writeHands(hands_->rows(), folder_);
     }
     album_.reset();
     hands_.reset();
@@ -91,12 +89,20 @@ class Replayed {
   const ReplayJson& measures() const { return measures_; }
 
  private:
+  void addSkin() {
+    FrameRequest skin;
+    skin.surface = skin.every_image = true;
+    Frame shown;
+    static_cast<Pictures&>(shown) = session_->show(skin);
+    album_->add(std::move(shown));
+  }
   std::string reportFolder() {
     if (options_.out.empty()) return "";
     return options_.out + (++scenes_ == 1 ? "/report" : "/report_" + std::to_string(scenes_));
   }
 
   const ReplayOptions& options_;
+  Film* const film_;
   std::unique_ptr<gpu::Context> context_;
   std::unique_ptr<Session> session_;
   std::optional<ToolLog> hands_;
@@ -140,9 +146,24 @@ ReplayJson resultOf(const SessionReplay& replay, const SessionReplay::Outcome& o
   return out;
 }
 
+/// Starts the film of the recorded sessions that are shown. Returns null if none is requested.
+std::unique_ptr<Film> beginFilm(const ReplayOptions& options, const SessionReplay& recording, double until_s) {
+  if (options.film.file.empty()) return nullptr;
+  FilmFormat format;
+  for (size_t p = 0; p < recording.parts().size(); ++p) {
+    const SessionReplay::Part& part = recording.parts()[p];
+    if (part.to_s < options.from_s || part.from_s > until_s) continue;
+    const std::string name = options.file + " (scene " + std::to_string(p + 1) + ")";
+    format.include(filmFormat(options.film, part.scene.scene(name, options.overrides), name));
+  }
+  if (format.rate_hz == 0) throw Error("--film: the recording ends before --from");
+  return std::make_unique<Film>(options.film, format);
+}
+
 }  // namespace
 
 int replay(const ReplayOptions& options) {
+  requireFilm(options.film, options.no_view);
   SessionReplay recording(options.file);
   tell(recording);
   const double until_s = options.until_s.value_or(recording.duration_s());
@@ -151,9 +172,11 @@ int replay(const ReplayOptions& options) {
     throw Error(std::string(options.depth ? "--depth" : "--labels") + ": needs pictures; remove --no-view");
   std::vector<Output> outputs = outputsIn(options.out);
   outputs.push_back({"--save", options.save, FileKind::kState});
+  outputs.push_back({"--film", options.film.file, FileKind::kFilm});
   requireOutputs(outputs);
   const RunFolder folder(options.out);
-  Replayed replayed(options);
+  const std::unique_ptr<Film> film = beginFilm(options, recording, until_s);
+  Replayed replayed(options, film.get());
   SessionReplay::Ports ports;
   ports.make = [&](const Scene& scene, size_t) -> Session& { return replayed.make(scene); };
   ports.leaps = [&](Session&) { replayed.endPiece(); };
@@ -161,6 +184,7 @@ int replay(const ReplayOptions& options) {
   ports.stepped = [&](Session&, Frame&& frame, double at_s) { replayed.stepped(std::move(frame), at_s); };
   const SessionReplay::Outcome outcome = recording.run(options.from_s, until_s, options.overrides, ports);
   replayed.end();
+  if (film) film->finish();
   if (!options.save.empty()) replayed.session().save(options.save);
   ReplayJson result = resultOf(recording, outcome, replayed.session());
   result["pieces"] = replayed.measures();

@@ -9,6 +9,7 @@
 
 #include "cli/album.h"
 #include "cli/commands.h"
+#include "cli/film/film.h"
 #include "cli/run_folder.h"
 #include "cli/run_metrics.h"
 #include "cli/run_plan.h"
@@ -154,6 +155,7 @@ std::vector<Output> outputsOf(const RunOptions& options) {
   std::vector<Output> out = outputsIn(options.out);
   out.push_back({"--save", options.save, FileKind::kState});
   out.push_back({"--record", options.record, FileKind::kRecording});
+  out.push_back({"--film", options.film.file, FileKind::kFilm});
   return out;
 }
 
@@ -179,10 +181,31 @@ void printRecording(const Strokes& strokes) {
             << ", overrides: " << (strokes.recorded.overrides.empty() ? "none" : strokes.recorded.overrides) << '\n';
 }
 
+/// Checks the options of a film before anything is computed. @throws Error
+void requireFilmOf(const RunOptions& options, const Scene& scene) {
+  requireFilm(options.film, options.no_view);
+  if (!options.film.file.empty()) filmCamera(options.film, scene, "scene " + scene.name);
+}
+
+/// Starts a film. Returns null if none is requested.
+std::unique_ptr<Film> beginFilm(const FilmOptions& options, const Scene& scene) {
+  if (options.file.empty()) return nullptr;
+  return std::make_unique<Film>(options, filmFormat(options, scene, "scene " + scene.name));
+}
+
+/// Prints the metrics, and writes them to the folder. @param folder  empty: none
+void putMetrics(const Json& metrics, const std::string& folder) {
+  if (!folder.empty())
+    writeFile(folder + "/metrics.json", FileKind::kJson,
+              metrics.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+  std::cout << metrics.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
+}
+
 }  // namespace
 
 int run(const RunOptions& options) {
   RunPlan plan = planRun(options);
+  requireFilmOf(options, plan.scene);
   const std::vector<Output> outputs = outputsOf(options);
   requireOutputs(outputs);
   const uint64_t ticks = plan.ticks;
@@ -200,7 +223,9 @@ int run(const RunOptions& options) {
   sayFarHands(strokes, scene);
   printNotes(session, stroke_notes);
   const RunFolder folder(options.out);
-  Album album(options.out, session.scene(), strokes, ticks, picturesOf(options), {options.depth, options.labels});
+  const std::unique_ptr<Film> film = beginFilm(options.film, scene);
+  Album album(options.out, session.scene(), strokes, ticks, picturesOf(options), {options.depth, options.labels},
+              film.get());
   printRecording(strokes);
   if (!options.resume.empty()) resume(session, options.resume, ticks);
   std::optional<ToolLog> hands;
@@ -225,6 +250,7 @@ int run(const RunOptions& options) {
   const layout::TickStats stats = last.stats;
   album.add(std::move(last));
   album.finish();
+  if (film) film->finish();
   if (exporter) exporter->finish();
   if (!options.save.empty()) session.save(options.save);
   if (recorder) finish(*recorder);
@@ -233,12 +259,8 @@ int run(const RunOptions& options) {
   compareWithRecording(strokes, ticks, metrics);
   if (hands) metrics["tools"] = hands->rows().metrics();
   if (task) metrics["tasks"] = task->finish();
-  if (!options.out.empty()) {
-    if (hands) writeHands(hands->rows(), options.out);
-    writeFile(options.out + "/metrics.json", FileKind::kJson,
-              metrics.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
-  }
-  std::cout << metrics.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
+  if (hands && !options.out.empty()) writeHands(hands->rows(), options.out);
+  putMetrics(metrics, options.out);
   return 0;
 }
 

@@ -55,6 +55,7 @@ FileKind kindOfYaml(Text text) {
 FileKind kindOf(Text head) {
   for (const Signature& signature : kSignatures)
     if (begins(head, signature.bytes)) return signature.kind;
+  if (begins(head.substr(std::min<size_t>(head.size(), 4)), "ftyp")) return FileKind::kFilm;  // after a length
   if (head.find('\0') != Text::npos && !begins(head, "<?xml")) return FileKind::kBytes;
   Text text = head;
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text[0]))) text.remove_prefix(1);
@@ -87,6 +88,8 @@ const char* nameOf(FileKind kind) {
       return "an XDMF file";
     case FileKind::kPc2:
       return "a point cache";
+    case FileKind::kFilm:
+      return "a film";
     case FileKind::kHtml:
       return "an HTML page";
     case FileKind::kJson:

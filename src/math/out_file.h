@@ -24,6 +24,7 @@ enum class FileKind {
   kVtk,
   kXdmf,
   kPc2,
+  kFilm,
   kHtml,
   kJson,
   kScene,
@@ -64,6 +65,8 @@ class OutFile {
   void write(std::string_view text) { write(text.data(), text.size()); }
   /// Replaces bytes that were written. @param offset  of the first [bytes]   @throws Error
   void writeAt(uint64_t offset, const void* data, size_t bytes);
+  /// Returns the file that has the data until keep(), for another process that writes it.
+  const std::string& target() const { return draft_.empty() ? path_ : draft_; }
   /// Moves the file into its place. @param durable  waits until a power failure cannot take it   @throws Error
   void keep(bool durable = false);
 

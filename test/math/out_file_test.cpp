@@ -105,6 +105,9 @@ TEST(OutFile, NeverReplacesAFileOfAnotherKind) {
       {FileKind::kVtk, "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">"},
       {FileKind::kXdmf, "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">"},
       {FileKind::kPc2, std::string("POINTCACHE2\0", 12)},
+      {FileKind::kFilm, std::string("\0\0\0\x20"
+                                    "ftypisom",
+                                    12)},
       {FileKind::kHtml, "<!doctype html>\n"},
       {FileKind::kJson, "{\"a\": 1}\n"},
       {FileKind::kScene, "# mine\nname: a\nbodies:\n  - name: b\n"},
