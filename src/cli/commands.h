@@ -15,9 +15,10 @@ namespace viscera::cli {
 
 struct RunOptions {
   std::string scene;
-  std::string mesh;     ///< mesh file; empty: the scene's
-  std::string strokes;  ///< strokes file; empty: nothing touches the tissue
-  std::string task;     ///< file or shipped name of a task to judge; empty: none
+  std::string mesh;                 ///< mesh file; empty: the scene's
+  std::string strokes;              ///< strokes file; empty: nothing touches the tissue
+  std::string task;                 ///< file or shipped name of a task to judge; empty: none
+  std::optional<std::string> name;  ///< trainee's name in the report of the task
   std::optional<double> seconds;
   std::string out;                        ///< output folder; empty: no images, no metrics.json
   bool no_view = false;                   ///< whether to run without OpenGL: on the CPU, without images
@@ -50,10 +51,19 @@ struct ReplayOptions {
   std::string save;  ///< file of the final state; empty: none
   FilmOptions film;
   bool no_view = false, depth = false, labels = false;
-  Overrides overrides;  ///< overrides of keys that do not affect the state
+  std::optional<std::string> name;  ///< trainee's name in reports of tasks
+  Overrides overrides;              ///< overrides of keys that do not affect the state
 };
 /// Runs `viscera replay`: repeats a recorded session. @return 1 if its states differ from the recorded ones
 int replay(const ReplayOptions& options);
+
+struct ReportOptions {
+  std::string folder;  ///< searched for files report.json, with its subfolders
+  std::string out;     ///< page to write; empty: progress.html in the folder
+};
+/// Runs `viscera report`: a page with the progress of trainees over all reports in a folder.
+/// @throws Error  the folder cannot be read, has no report, or the page cannot be written
+int report(ReportOptions options);
 
 /// Runs `viscera bench`: starts the program viscera-bench in the folder of this one.
 /// @param arguments  command line from "bench" on, null-terminated

@@ -23,6 +23,7 @@ struct Options {
   int device = -1;
   cli::RunOptions run;
   cli::ReplayOptions replay;
+  cli::ReportOptions report;
   cli::SweepOptions sweep;
   cli::ImportOptions import;
   ExportOptions exported;
@@ -147,6 +148,7 @@ CLI::App* addReplay(CLI::App& app, Options& options) {
   addFilm(replay, o.film);
   replay->add_flag("--no-view", o.no_view,
                    "run without pictures, and without OpenGL unless solver.backend: gpu needs it");
+  replay->add_option("--name", o.name, "name of the trainee, for the report of a task");
   replay->add_option("--save", o.save, "file for the state at the end, from which run --resume continues");
   replay
       ->add_option(
@@ -158,18 +160,29 @@ CLI::App* addReplay(CLI::App& app, Options& options) {
 
 CLI::App* addTask(CLI::App& app, Options& o) {
   CLI::App* task = app.add_subcommand(
-      "task", "judge a user in a task (docs/lessons/tasks.md); prints one JSON object as its last line");
+      "task",
+      "judge a user in a task (docs/lessons/tasks.md); prints the verdict, and one JSON object as its last line");
   task->add_option("task", o.run.task, "task file, or name of a shipped task")->required();
   task->add_option("--strokes", o.run.strokes, "recorded strokes of the user");
   task->add_option("--seconds", o.run.seconds, "simulated time; default: the strokes' length, or 1")
       ->check(CLI::Range(0.0, 86400.0));
   task->add_option("--out", o.run.out, "folder for pictures and tables, as for run, and for the report");
   addFilm(task, o.run.film);
+  task->add_option("--name", o.run.name, "name of the trainee, for the report; at most 64 characters");
   task->add_flag("--no-view", o.run.no_view,
                  "run without pictures, and without OpenGL unless solver.backend: gpu needs it");
   task->add_option("--record", o.run.record, "new file that records the session, for viscera replay");
   addOverrides(task, o.run.overrides);
   return task;
+}
+
+CLI::App* addReport(CLI::App& app, Options& o) {
+  CLI::App* report = app.add_subcommand(
+      "report", "write a page with the progress of trainees, from the reports of `viscera task --out` in a folder");
+  report->add_option("folder", o.report.folder, "folder that is searched, with its subfolders, for files report.json")
+      ->required();
+  report->add_option("--out", o.report.out, "page to write; default: progress.html in the folder");
+  return report;
 }
 
 CLI::App* addSettle(CLI::App& app, Options& o) {
@@ -343,6 +356,7 @@ constexpr Command kCommands[] = {
      [](Options& o) { return memoryFor("replaying '" + o.replay.file + "'", [&] { return cli::replay(o.replay); }); }},
     {addTask,
      [](Options& o) { return memoryFor("judging task '" + o.run.task + "'", [&] { return cli::task(o.run); }); }},
+    {addReport, [](Options& o) { return cli::report(o.report); }},
     {addSettle, [](Options& o) { return withScene<cli::settle>("settling", o); }},
     {addFit, [](Options& o) { return withScene<cli::fit>("fitting", o); }},
     {addAnchor, [](Options& o) { return withScene<cli::anchor>("anchoring in", o); }},

@@ -42,7 +42,7 @@ class Replayed {
     const Progress progress = consoleProgress();
     session_ =
         context_ ? std::make_unique<Session>(scene, *context_, progress) : std::make_unique<Session>(scene, progress);
-    tasks_ = std::make_unique<TaskRun>(*session_, reportFolder(), !options_.no_view);
+    tasks_ = std::make_unique<TaskRun>(*session_, reportFolder(), !options_.no_view, options_.name.value_or(""));
     return *session_;
   }
   FrameRequest wants(const Session& session) {
@@ -80,8 +80,9 @@ class Replayed {
   /// Ends the piece and the tasks of the session.
   void end() {
     endPiece();
-    if (tasks_)
-      for (ReplayJson& judged : tasks_->finish()) judged_.push_back(std::move(judged));
+    if (!tasks_) return;
+    for (ReplayJson& judged : tasks_->finish()) judged_.push_back(std::move(judged));
+    tasks_->printVerdicts();
     tasks_.reset();
   }
   const ReplayJson& judged() const { return judged_; }
@@ -164,6 +165,7 @@ std::unique_ptr<Film> beginFilm(const ReplayOptions& options, const SessionRepla
 
 int replay(const ReplayOptions& options) {
   requireFilm(options.film, options.no_view);
+  requireTrainee(options.name);
   SessionReplay recording(options.file);
   tell(recording);
   const double until_s = options.until_s.value_or(recording.duration_s());

@@ -109,7 +109,8 @@ void compareWithRecording(const Strokes& strokes, uint64_t ticks, Json& metrics)
 /// Starts the task. Returns null if there is none.
 std::unique_ptr<TaskRun> beginTask(Session& session, const RunOptions& options) {
   if (options.task.empty()) return nullptr;
-  auto out = std::make_unique<TaskRun>(session, options.out.empty() ? "" : options.out + "/report", !options.no_view);
+  auto out = std::make_unique<TaskRun>(session, options.out.empty() ? "" : options.out + "/report", !options.no_view,
+                                       options.name.value_or(""));
   out->begin(loadTask(options.task));
   return out;
 }
@@ -193,11 +194,13 @@ std::unique_ptr<Film> beginFilm(const FilmOptions& options, const Scene& scene) 
   return std::make_unique<Film>(options, filmFormat(options, scene, "scene " + scene.name));
 }
 
-/// Prints the metrics, and writes them to the folder. @param folder  empty: none
-void putMetrics(const Json& metrics, const std::string& folder) {
+/// Prints the verdict of a task, if there is one, and the metrics as the last line. @param folder  also gets the
+/// metrics as a file; empty: none
+void putMetrics(const Json& metrics, const TaskRun* task, const std::string& folder) {
   if (!folder.empty())
     writeFile(folder + "/metrics.json", FileKind::kJson,
               metrics.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+  if (task) task->printVerdicts();
   std::cout << metrics.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
 }
 
@@ -260,7 +263,7 @@ int run(const RunOptions& options) {
   if (hands) metrics["tools"] = hands->rows().metrics();
   if (task) metrics["tasks"] = task->finish();
   if (hands && !options.out.empty()) writeHands(hands->rows(), options.out);
-  putMetrics(metrics, options.out);
+  putMetrics(metrics, task.get(), options.out);
   return 0;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cli/task_run.h"
 
+#include <ctime>
 #include <filesystem>
 #include <iostream>
 #include <utility>
@@ -9,15 +10,25 @@
 #include "cli/commands.h"
 #include "cli/png_writer.h"
 #include "cli/scene_lookup.h"
+#include "math/one_line.h"
 #include "tasks/task_notes.h"
 #include "tasks/task_picture.h"
+#include "tasks/verdict.h"
+#include "viscera/math/error.h"
+#include "viscera/math/state_hash.h"
 
 namespace viscera::cli {
 
-TaskRun::TaskRun(Session& session, std::string folder, bool pictures)
+void requireTrainee(const std::optional<std::string>& name) {
+  const std::string fault = name ? traineeFault(*name) : "";
+  if (!fault.empty()) throw Error("--name: " + fault);
+}
+
+TaskRun::TaskRun(Session& session, std::string folder, bool pictures, std::string trainee)
     : session_(session),
       folder_(std::move(folder)),
       pictures_(pictures && !folder_.empty() && !session.scene().cameras.empty()),
+      trainee_(std::move(trainee)),
       watch_(session, [this](TaskResult&& result) { ended_.push_back(std::move(result)); }) {}
 
 void TaskRun::begin(const TaskConfig& task) {
@@ -43,15 +54,26 @@ nlohmann::ordered_json TaskRun::finish() {
   watch_.giveUp("the run ended before the goal was reached");
   nlohmann::ordered_json out = nlohmann::ordered_json::array();
   if (!ended_.empty()) takePicture("at the end", "end");
+  Attempt attempt = attemptAt(std::time(nullptr), trainee_);
+  if (!ended_.empty()) attempt.state_hash = StateHash::text(session_.stateHash());
   for (const TaskResult& result : ended_) {
-    out.push_back(toJson(result));
+    out.push_back(toJson(result, attempt));
     const std::string folder = out.size() == 1 ? folder_ : folder_ + "/task_" + std::to_string(out.size());
-    if (!folder_.empty()) writeReport(folder, result, taken_);
+    lines_.push_back(verdictText(result.task, result.status));
+    lines_.push_back(mistakesText(result.task, result.status));
+    if (folder_.empty()) continue;
+    writeReport(folder, result, attempt, taken_);
+    lines_.push_back("Report: " + folder + "/report.html");
   }
   return out;
 }
 
+void TaskRun::printVerdicts() const {
+  for (const std::string& line : lines_) std::cout << oneLine(line) << '\n';
+}
+
 int task(RunOptions options) {
+  requireTrainee(options.name);
   const std::string file = findTask(options.task);
   const TaskConfig task = loadTask(file);
   options.task = file;

@@ -97,6 +97,7 @@ TaskShapes clipShapes(const TaskConfig& task) {
   const Vector3d first_m = task.clip.clips.front().position_m;
   const Vector3d way = task.clip.clips.back().position_m - first_m;
   TaskShapes out;
+  out.along_normal = true;
   out.normal = way.norm() > 0 ? Vector3d(way.normalized()) : Vector3d(Vector3d::UnitX());
   for (const TaskPlace& place : task.clip.clips)
     out.lines_m.push_back(circleOf(place.position_m, out.normal, task.clip.radius_m));

@@ -10,6 +10,6 @@
 namespace viscera {
 
 /// Returns the page, with everything that it shows embedded.
-std::string reportPage(const TaskResult& result, const std::vector<ReportPicture>& pictures);
+std::string reportPage(const TaskResult& result, const Attempt& attempt, const std::vector<ReportPicture>& pictures);
 
 }  // namespace viscera

@@ -39,10 +39,11 @@ std::string groupFault(bool given, const char* name);
 /// Returns the corners of a circle, the first one twice. @param normal  of any length
 std::vector<Vector3d> circleOf(const Vector3d& center_m, const Vector3d& normal, double radius_m);
 
-/// Lines to draw, and the normal of their plane.
+/// Lines to draw, and the normal of their plane. The work is in that plane, or along the normal.
 struct TaskShapes {
   std::vector<std::vector<Vector3d>> lines_m;  ///< in the rest shape
   Vector3d normal = Vector3d::UnitZ();
+  bool along_normal = false;  ///< whether plots show the normal as one of their axes
 };
 
 /// Judge of a task's ticks, in order, that reports progress towards the goal. It does not depend on wall-clock time.

@@ -21,30 +21,37 @@ struct TaskMeasure {
   const char* name;
   const char* meaning;
   double TaskTally::*value;
+  const char* unit;    ///< empty: a number of events, or a ratio
+  const char* phrase;  ///< noun for sentences; %N and %S are limits.force_n and limits.strain
 };
 
 inline constexpr TaskMeasure kTaskMeasures[] = {
     {"off_path_mm",
      "mm: path length of the tip of a blade or cautery in ticks in which springs were cut, times the share of cut "
      "points outside the corridor",
-     &TaskTally::off_path_mm},
-    {"deviation_mm", "mm: largest distance of a cut point from the line", &TaskTally::deviation_mm},
-    {"wrong_touches", "contacts that begin anywhere but at the target that is due", &TaskTally::wrong_touches},
-    {"drops", "times that lifted tissue was lost before the goal was reached", &TaskTally::drops},
+     &TaskTally::off_path_mm, "mm", "cutting outside the corridor"},
+    {"deviation_mm", "mm: largest distance of a cut point from the line", &TaskTally::deviation_mm, "mm",
+     "the largest distance from the line"},
+    {"wrong_touches", "contacts that begin anywhere but at the target that is due", &TaskTally::wrong_touches, "",
+     "wrong touches"},
+    {"drops", "times that lifted tissue was lost before the goal was reached", &TaskTally::drops, "", "dropped tissue"},
     {"gap_mm", "mm: current mean increase of the distance between the sides of the wound over that at rest",
-     &TaskTally::gap_mm},
-    {"weak_knots", "tied knots that are neither square nor surgeon's", &TaskTally::weak_knots},
+     &TaskTally::gap_mm, "mm", "the gap of the wound"},
+    {"weak_knots", "tied knots that are neither square nor surgeon's", &TaskTally::weak_knots, "", "weak knots"},
     {"clip_off_mm", "mm: largest distance at rest between a clip that is placed and its position",
-     &TaskTally::clip_off_mm},
+     &TaskTally::clip_off_mm, "mm", "the distance of clips from their positions"},
     {"bad_clips",
      "clips at no position or at one that has a clip, clips that closed on nothing, and clips that were taken off",
-     &TaskTally::bad_clips},
-    {"blood_ml", "ml: blood that has flowed out of vessels (bleeding.flow_ml_per_min)", &TaskTally::blood_ml},
-    {"force_s", "s: time in which the force on a stylus was above limits.force_n", &TaskTally::force_s},
-    {"peak_force_n", "N: largest force on any stylus", &TaskTally::peak_force_n},
-    {"strain_s", "s: time in which the strain of a spring was above limits.strain", &TaskTally::strain_s},
-    {"peak_strain", "largest strain of a spring", &TaskTally::peak_strain},
-    {"path_m", "m: total path length of all tips", &TaskTally::path_m},
+     &TaskTally::bad_clips, "", "bad clips"},
+    {"blood_ml", "ml: blood that has flowed out of vessels (bleeding.flow_ml_per_min)", &TaskTally::blood_ml, "ml",
+     "blood loss"},
+    {"force_s", "s: time in which the force on a stylus was above limits.force_n", &TaskTally::force_s, "s",
+     "force above %N N"},
+    {"peak_force_n", "N: largest force on any stylus", &TaskTally::peak_force_n, "N", "the largest force"},
+    {"strain_s", "s: time in which the strain of a spring was above limits.strain", &TaskTally::strain_s, "s",
+     "strain above %S"},
+    {"peak_strain", "largest strain of a spring", &TaskTally::peak_strain, "", "the largest strain"},
+    {"path_m", "m: total path length of all tips", &TaskTally::path_m, "m", "the path of the tips"},
 };
 
 }  // namespace viscera

@@ -3,7 +3,6 @@
 #include "tasks/task_notes.h"
 
 #include <algorithm>
-#include <string_view>
 
 #include "tasks/task_kinds.h"
 #include "tasks/task_measures.h"
@@ -26,6 +25,8 @@ constexpr MeasureOfKind kOfKinds[] = {
     {"clip_off_mm", TaskGoal::kClipDivide},     {"bad_clips", TaskGoal::kClipDivide},
 };
 
+}  // namespace
+
 bool isCounted(std::string_view measure, TaskGoal goal) {
   bool of_kinds = false;
   for (const MeasureOfKind& row : kOfKinds) {
@@ -35,8 +36,6 @@ bool isCounted(std::string_view measure, TaskGoal goal) {
   }
   return !of_kinds;
 }
-
-}  // namespace
 
 std::vector<std::string> taskNotes(const TaskConfig& task) {
   std::vector<std::string> notes;

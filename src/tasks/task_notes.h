@@ -3,11 +3,15 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tasks/task.h"
 
 namespace viscera {
+
+/// Returns whether tasks of a kind count a measure (task_measures.h).
+bool isCounted(std::string_view measure, TaskGoal goal);
 
 /// Returns keys of a task that have no effect, one line each for a person: rules of measures that its kind does not
 /// count.

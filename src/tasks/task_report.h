@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tasks/attempt.h"
 #include "tasks/task_watch.h"
 
 namespace viscera {
@@ -15,11 +16,12 @@ struct ReportPicture {
   std::string caption, file;
 };
 
-/// Returns state, score, measures and tools of a finished task.
-nlohmann::ordered_json toJson(const TaskResult& result);
+/// Returns verdict, score, the measures of the task's kind, and tools of a finished task.
+nlohmann::ordered_json toJson(const TaskResult& result, const Attempt& attempt);
 
 /// Writes report.json, report.csv, tools.csv, kinematics.txt (ToolRows::writeJigsaws()) and report.html, a page that
 /// needs no network. @param folder  is created if missing   @throws Error  a file cannot be written
-void writeReport(const std::string& folder, const TaskResult& result, const std::vector<ReportPicture>& pictures = {});
+void writeReport(const std::string& folder, const TaskResult& result, const Attempt& attempt,
+                 const std::vector<ReportPicture>& pictures = {});
 
 }  // namespace viscera

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "math/float_bits.h"
+#include "math/number_text.h"
 #include "tasks/task_kinds.h"
 #include "viscera/session/tissue_processes.h"
 
@@ -168,7 +169,8 @@ void TaskWatch::giveUp(const std::string& why) {
 void TaskWatch::end(TaskPhase state, const std::string& why) {
   status_.state = state;
   status_.step = why;
-  if (!judge_->reached()) status_.score = 0;
+  status_.reached = judge_->reached();
+  if (!status_.reached) status_.score = 0;
   hands_->rows.resize(std::min(hands_->rows.size(), hands_->felt.size()));  // later ticks do not belong to it
   if (ended_) ended_({*task_, status_, *hands_, cuts_m_, springs_cut_});
 }

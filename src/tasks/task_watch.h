@@ -29,7 +29,8 @@ struct TaskStatus {
   double time_s = 0;    ///< simulated time since the clock began [s]
   double progress = 0;  ///< 0..1
   double penalties_s = 0;
-  double score = 0;  ///< score so far; 0 for a goal that was not reached
+  double score = 0;      ///< score so far; 0 for a goal that was not reached
+  bool reached = false;  ///< whether the goal was reached, at the end
   TaskTally tally;
 };
 const char* nameOf(TaskPhase state);

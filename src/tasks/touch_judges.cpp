@@ -156,7 +156,7 @@ std::unique_ptr<TaskJudge> liftJudge(const TaskConfig& task, const Session& sess
 }
 
 TaskShapes liftShapes(const TaskConfig& task) {
-  return {{circleOf(task.lift.center_m, task.lift.up, task.lift.radius_m)}, task.lift.up};
+  return {{circleOf(task.lift.center_m, task.lift.up, task.lift.radius_m)}, task.lift.up, true};
 }
 
 }  // namespace viscera

@@ -16,6 +16,7 @@
 #include "tasks/task_kinds.h"
 #include "tasks/task_notes.h"
 #include "tasks/task_report.h"
+#include "tasks/verdict.h"
 
 namespace viscera::nodes {
 namespace {
@@ -202,11 +203,11 @@ void TaskSwitch::report(TaskResult&& result) {
     Metrics metrics = metricsOf(done);
     metrics.header.stamp = ros::Time::now();
     metrics_publisher_.publish(metrics);
-    ROS_INFO("task %s: %s, score %.1f (%s)", done.task.name.c_str(), nameOf(done.status.state), done.status.score,
-             oneLine(done.status.step).c_str());
+    ROS_INFO("task %s: %s %s", done.task.name.c_str(), oneLine(verdictText(done.task, done.status)).c_str(),
+             mistakesText(done.task, done.status).c_str());
     try {
       saved_folder_.room();
-      writeReport(folder, done);
+      writeReport(folder, done, attemptAt(std::time(nullptr)));
       ROS_INFO("report: %s/report.html", folder.c_str());
       const std::lock_guard<std::mutex> lock(mutex_);
       state_.report = folder;
