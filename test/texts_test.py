@@ -119,6 +119,13 @@ class Texts(unittest.TestCase):
                  if not self.exists(token, path)]
         self.assertEqual(wrong, [], "no such file or folder\n" + "\n".join(wrong))
 
+    def test_edits_of_mutations_have_their_text(self):
+        """The text that an edit of scripts/mutate replaces occurs once in its file."""
+        sys.path.insert(0, os.path.join(ROOT, "scripts"))
+        from mutating.mutations import MUTATIONS
+        wrong = [f"{edit.name}: {edit.file}" for edit in MUTATIONS if self.files[edit.file].count(edit.old) != 1]
+        self.assertEqual(wrong, [], "scripts/mutating/mutations.py: the text to replace must occur once")
+
     def test_owners_of_shaders_name_them(self):
         wrong, owned = [], 0
         for path, content in self.files.items():
