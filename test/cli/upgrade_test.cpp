@@ -52,6 +52,19 @@ TEST(Upgrade, RenamesKeysAndLeavesTheRestOfAFile) {
   EXPECT_EQ(viscera({"run", scene, "--no-view", "--seconds", "0.05"}).status, 0);
 }
 
+TEST(Upgrade, RenamesWhatAnAliasRepeatsOnce) {
+  TemporaryFolder folder;
+  const std::string scene = folder.write(
+      "scene.yaml",
+      "bodies:\n  - {name: \xc3\xa4, material: &soft {drag_per_s: 3}}\n  - {name: b, material: *soft, wetness: 1}\n");
+  const Ending ending = viscera({"upgrade", scene});
+  ASSERT_EQ(ending.status, 0) << ending.err;
+  EXPECT_EQ(readFile(scene),
+            "bodies:\n  - {name: \xc3\xa4, material: &soft {mass_damping_per_s: 3}}\n"
+            "  - {name: b, material: *soft, specular_wetness: 1}\n");
+  EXPECT_EQ(viscera({"upgrade", folder.write("loop.yaml", "a: &a [*a]\n")}).status, 0);
+}
+
 TEST(Upgrade, WritesNothingIfAFileIsNoYaml) {
   TemporaryFolder folder;
   const std::string scene = folder.write("scene.yaml", kOld), broken = folder.write("broken.yaml", "a: [1\n");

@@ -38,10 +38,10 @@ struct Extremes {
   double max_speed_m_per_s = 0;
   uint64_t nonfinite = 0;  ///< largest number of non-finite nodes in a tick
   uint64_t crowded = 0;    ///< largest number of nodes without contact forces at the end of a tick (TickStats::crowded)
-  uint64_t roll_backs = 0;  ///< number of ticks rolled back
-  uint64_t speed_limited = 0;   ///< number of ticks in which a stylus was faster than tissue can follow
-  uint64_t obstacles_speed_limited =
-      0;  ///< number of ticks, summed over obstacles, in which the frame of one was too fast
+  uint64_t roll_backs = 0;     ///< number of ticks rolled back
+  uint64_t speed_limited = 0;  ///< number of ticks in which a stylus was faster than tissue can follow
+  /// number of ticks, summed over obstacles, in which the frame of one was too fast
+  uint64_t obstacles_speed_limited = 0;
 };
 
 namespace gpu {

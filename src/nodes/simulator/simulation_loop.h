@@ -61,9 +61,9 @@ struct LoopPorts {
   /// Returns the outputs of a state that does not advance. @param changed  the state changed since it was last shown
   /// @param aimed  a camera has moved since its images were last shown
   std::function<FrameRequest(bool changed, bool aimed)> stills;
-  std::function<void()> rest;    ///< stops forces at once, until a live tick is delivered
+  std::function<void()> rest;        ///< stops forces at once, until a live tick is delivered
   std::function<void()> resetInput;  ///< discards device input: styluses were not followed, or will not be
-  std::function<void()> failed;  ///< called when an error has ended the thread
+  std::function<void()> failed;      ///< called when an error has ended the thread
 };
 
 /// Runs the session, with its OpenGL context, on a thread of its own that is paced by the steady clock.

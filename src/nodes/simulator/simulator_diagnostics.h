@@ -62,19 +62,19 @@ class SimulatorDiagnostics {
   const ObstacleFrames& obstacles_;
   const CameraFrames& camera_frames_;
   uint64_t cameras_missed_before_ = 0;
-  uint64_t missed_before_ = 0;        ///< number of missed lookups of obstacles' frames
-  uint64_t speed_limited_before_ = 0;     ///< number of ticks in which obstacles were limited in speed
-  std::vector<std::string> cameras_;  ///< names of the cameras
-  std::set<std::string> processes_;   ///< names of the processes that have a status
-  const std::string scene_;           ///< name of the scene
+  uint64_t missed_before_ = 0;         ///< number of missed lookups of obstacles' frames
+  uint64_t speed_limited_before_ = 0;  ///< number of ticks in which obstacles were limited in speed
+  std::vector<std::string> cameras_;   ///< names of the cameras
+  std::set<std::string> processes_;    ///< names of the processes that have a status
+  const std::string scene_;            ///< name of the scene
   const double tick_s_;
   Slowness slowness_;
   PictureWatch pictures_;
   bool told_ways_ = false;  ///< whether it was logged how images are drawn
   std::optional<LoopStatus> now_;
   FramePublisher::Latencies latencies_;
-  std::vector<LatencyMeter::Reading> force_latencies_;  ///< [styluses]
-  std::vector<ForceLoop::HapticStats> felt_, felt_before_;     ///< [styluses]
+  std::vector<LatencyMeter::Reading> force_latencies_;      ///< [styluses]
+  std::vector<ForceLoop::HapticStats> felt_, felt_before_;  ///< [styluses]
   std::vector<uint64_t> dropped_before_;
   diagnostic_updater::Updater updater_;
   ros::SteadyTimer timer_;

@@ -5,6 +5,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <set>
 
 namespace viscera {
 
@@ -41,6 +42,8 @@ class Search {
 
   /// @param path  of the node, with the names in the file
   void visit(const YAML::Node& node, const std::string& path) {
+    // An alias is the same place of the text as its anchor, and may contain itself.
+    if (!node.IsDefined() || node.IsScalar() || !visited_.insert(node.Mark().pos).second) return;
     if (node.IsSequence()) {
       for (size_t i = 0; i < node.size(); ++i) visit(node[i], path + '[' + std::to_string(i) + ']');
     } else if (node.IsMap()) {
@@ -80,6 +83,7 @@ class Search {
   }
 
   const std::string& text_;
+  std::set<int> visited_;  ///< positions of the maps and lists that were searched
   std::vector<Edit> edits_;
   std::vector<std::string> notes_;
 };
