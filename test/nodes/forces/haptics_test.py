@@ -5,6 +5,7 @@
 never receives more energy from the tissue than they have given."""
 import math
 import statistics
+import struct
 import sys
 import time
 import unittest
@@ -13,7 +14,7 @@ import genpy.dynamic
 import rospy
 import rostest
 from geometry_msgs.msg import PoseStamped, WrenchStamped
-from simulator_watch import Latest, SimulatorWatch, wait_until
+from simulator_watch import SimulatorWatch, wait_until
 from std_msgs.msg import Float64
 
 LIMIT_S = 60
@@ -38,27 +39,38 @@ def half_range(values):
 class HapticsTest(unittest.TestCase):
     def setUp(self):
         rospy.init_node("haptics_test")
-        self.wrenches, self.heights, self.energies = [], [], []
+        self.wrenches, self.heights, self.energies, self.impedances = [], [], [], []
         rospy.Subscriber("left/body/servo_cf", WrenchStamped, self.on_wrench, queue_size=1000, tcp_nodelay=True)
         rospy.Subscriber("left/measured_cp", PoseStamped, self.on_pose, queue_size=1000, tcp_nodelay=True)
         rospy.Subscriber("left/energy", Float64, lambda m: self.energies.append(m.data), queue_size=100)
-        self.impedance = Latest("left/servo_ci", rospy.AnyMsg)
+        rospy.Subscriber("left/servo_ci", rospy.AnyMsg, self.on_impedance, queue_size=1000, tcp_nodelay=True)
         self.watch = SimulatorWatch()
 
     def on_wrench(self, message):
-        self.wrenches.append((message.header.stamp.to_sec(), message.wrench.force.z))
+        self.wrenches.append((message.header.stamp.to_sec(), message.wrench.force.z, message.header.seq))
 
     def on_pose(self, message):
         self.heights.append((message.header.stamp.to_sec(), message.pose.position.z))
 
-    def assert_same_as_impedance(self, force_n, height_m):
+    def on_impedance(self, message):
+        seconds, nanoseconds = struct.unpack_from("<II", message._buff, 4)  # the header's stamp, after its number
+        self.impedances.append((seconds + 1e-9 * nanoseconds, message))
+
+    def wait_received(self, until_s):
+        """Waits for every message sent before until_s: rospy may be seconds late at this rate."""
+        def received():
+            return all(messages and messages[-1][0] >= until_s
+                       for messages in (self.wrenches, self.heights, self.impedances))
+        wait_until(received, LIMIT_S, "messages up to the end of the measurement")
+
+    def assert_same_as_impedance(self, message, force_n, height_m):
         """crtk_msgs/CartesianImpedance, which this machine knows only from the simulator, gives the same force."""
-        header = self.impedance.message._connection_header
+        header = message._connection_header
         self.assertEqual(header["type"], "crtk_msgs/CartesianImpedance")
         kinds = genpy.dynamic.generate_dynamic(header["type"], header["message_definition"])
         kind = kinds[header["type"]]
         self.assertEqual(kind._md5sum, header["md5sum"])  # of the definition's text, as in rosmsg
-        impedance = kind().deserialize(self.impedance.message._buff)
+        impedance = kind().deserialize(message._buff)
         self.assertEqual(impedance.header.frame_id, "tissue")
         turn = impedance.force_orientation
         self.assertGreater(turn.w, 0.99)  # z is the normal: upwards
@@ -75,14 +87,16 @@ class HapticsTest(unittest.TestCase):
         begun = rospy.get_time()
         time.sleep(LOOK_S)
         ended = rospy.get_time()
-        forces = [f for t, f in self.wrenches if begun <= t < ended]
-        stamps = [t for t, _ in self.wrenches if begun <= t < ended]
+        self.wait_received(ended)
+        held = [wrench for wrench in self.wrenches if begun <= wrench[0] < ended]
+        forces = [force for _, force, _ in held]
         heights = [z for t, z in self.heights if begun <= t < ended]
-        spans = [b - a for a, b in zip(stamps, stamps[1:])]
-        rate_hz = len(forces) / (ended - begun)
+        # Counted by the sender's numbers: rospy may drop messages at this rate.
+        spans = [b[0] - a[0] for a, b in zip(held, held[1:]) if b[2] == a[2] + 1]
+        rate_hz = (held[-1][2] - held[0][2]) / (held[-1][0] - held[0][0])
         force_n, height_m = statistics.median(forces), statistics.median(heights)
-        print("%.0f wrenches a second, median period %.2f ms, %.3f N +- %.4f, %.2f mm +- %.4f" % (
-            rate_hz, 1e3 * statistics.median(spans), force_n, half_range(forces), 1e3 * height_m,
+        print("%.0f wrenches a second, %.0f of them received, median period %.2f ms, %.3f N +- %.4f, %.2f mm +- %.4f" % (
+            rate_hz, len(held) / (ended - begun), 1e3 * statistics.median(spans), force_n, half_range(forces), 1e3 * height_m,
             1e3 * half_range(heights)), flush=True)
         self.assertTrue(RATE_HZ[0] < rate_hz < RATE_HZ[1], rate_hz)
         self.assertTrue(PERIOD_S[0] < statistics.median(spans) < PERIOD_S[1], statistics.median(spans))
@@ -93,7 +107,8 @@ class HapticsTest(unittest.TestCase):
         self.assertGreater(force_n, 0.2)
         self.assertLess(abs(force_n - hand_n), BALANCE * hand_n)
 
-        self.assert_same_as_impedance(force_n, height_m)
+        impedance = [message for t, message in self.impedances if begun <= t < ended][-1]
+        self.assert_same_as_impedance(impedance, force_n, height_m)
         wait_until(lambda: self.heights[-1][1] > TOP_M + 2 * RADIUS_M, LIMIT_S, "a hand that goes away")
         self.watch.wait_news()
         self.assertEqual(self.wrenches[-1][1], 0)
