@@ -17,7 +17,11 @@ AVOIDED = re.compile(r'\b(anew|heeds?|heeded|told|tells|(?:is|are) asked|whose|o
                      r'newcomers?|as many as there are|void)\b', re.IGNORECASE)
 OLD_NAMES = re.compile(r'\b(ThreadBodies|ThreadConfig|tie_thread|governor|Governor|dashpot_ratio|drag_per_s|mottling|wall_grain|FoldWatch|nodes_unfolded|'
                        r'mayBeCrushed|CellPull|CellMotion|SeenTarget|seen_light|SeenBurns|ShownMesh|PaleSkin|Fingers|DeviceEar|ToldStatus|ToldSimulators|'
-                       r'stand_ins|heedPulls|heedFeeling|notePoses|noteTask|held_back|hands_anew|HelpingThreads|keep_up|KeepUp|ToolTarget|bury)\b')
+                       r'stand_ins|heedPulls|heedFeeling|notePoses|noteTask|held_back|hands_anew|HelpingThreads|keep_up|KeepUp|ToolTarget|bury|'
+                       r'place_m|places_m|placeOf|placesOf|MeshPlace|WoundPlace|FramePlace|BrickPlaces|way_m|ways_|wayOf|wayOfEdge|wayOfSurface|EdgeWay|most_way|'
+                       r'under_way|told_s|told_n|told_rad|told_m_|wantsOf|HandsThere|HandMotions?|CpuHands|HandBuffers|handsForgotten|hand_scale|steered_hand|'
+                       r'SutureChannels|ChannelLaw|BesideChannels|suture_channels|key_place|lookAt(?:Vertex|Edges?)|noteLooks|look_notes|with_look|noteRead|'
+                       r'noteErrors|noteStretch|taskNoted|stylusTold|toldBy|giveWay|since_look_s_)\b')
 OLD_NAMES_IN = {'src/model/scene/yaml/renamed_keys.cpp', 'test/cli/upgrade_test.cpp', 'test/words_test.py'}
 ABBREVIATION = re.compile(r'\b(e\.g|i\.e|vs|Fig|Eq|Sec|approx|No|etc|al|p|pp)\.')
 NO_VERBS = {'This', 'Its', 'As', 'Is', 'Was', 'Has', 'Does', 'Nodes', 'Cells', 'Always', 'Seconds', 'Metres', 'Values', 'Bytes', 'Forces', 'Springs',

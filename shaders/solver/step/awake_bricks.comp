@@ -194,9 +194,9 @@ void ask(uint b) {
 }
 #endif
 
-#ifdef LOOK
+#ifdef CHECK
 layout(std430, binding = kBindVelocityOut) readonly buffer VelocityOut { vec4 next_velocity[]; };
-uniform uint look;          // number of this check, > 0
+uniform uint check;         // number of this check, > 0
 uniform float since_s;      // time since the last check
 uniform float sleeps_after_s;
 uniform float slow2;        // largest |v|^2 that counts as slow [m2/s2]
@@ -248,7 +248,7 @@ void ask(uint b) {
   float quiet = uintBitsToFloat(ofFirst(floatBitsToUint(restless ? 0.0 : sleeping[b].quiet_s + since_s)));
   if (isFirst()) sleeping[b].quiet_s = quiet;
   if (quiet >= sleeps_after_s) return;
-  for (uint d = lane(); d < 27u; d += LANES) sleeping[neighborBrick(firstSlot(b), d)].wanted = look;
+  for (uint d = lane(); d < 27u; d += LANES) sleeping[neighborBrick(firstSlot(b), d)].wanted = check;
 }
 #endif
 
@@ -258,7 +258,7 @@ layout(std430, binding = kBindStats) readonly buffer StatsBuffer { TickStats sta
 #ifdef LAW
 layout(std430, binding = kBindCells) readonly buffer CellsBuffer { uint cells[]; };
 #endif
-uniform uint look;  // number of the last check; 0: bricks are awake as stored
+uniform uint check;  // number of the last check; 0: bricks are awake as stored
 uniform uint group_size;
 uniform float sleeps_after_s;
 const uint kMostGroups = 65535u;  // along x, as Program::dispatch folds them
@@ -266,18 +266,18 @@ const uint kMostGroups = 65535u;  // along x, as Program::dispatch folds them
 /// Returns the state of this check, also for bricks that another invocation is writing.
 bool isAwake(uint b) {
   if (sleeping[b].kind != kMayMove) return sleeping[b].kind == kNeverSleeps;
-  return look > 0u ? sleeping[b].wanted == look : sleeping[b].awake != 0u;
+  return check > 0u ? sleeping[b].wanted == check : sleeping[b].awake != 0u;
 }
 
 uint groupsOf(uint count) { return (count + group_size - 1u) / group_size; }
 
 void listNodes(uint b) {
   uint count = sleeping[b].node_count, first = sleeping[b].first_node;
-  uint place = ofFirst(isFirst() ? atomicAdd(nodes_list.count, count) : 0u);
-  for (uint i = lane(); i < count; i += LANES) awake_nodes[place + i] = active_nodes[first + i];
+  uint position = ofFirst(isFirst() ? atomicAdd(nodes_list.count, count) : 0u);
+  for (uint i = lane(); i < count; i += LANES) awake_nodes[position + i] = active_nodes[first + i];
   if (!isFirst()) return;
-  atomicMax(nodes_list.groups_x, min(groupsOf(place + count), kMostGroups));
-  atomicMax(nodes_list.groups_y, (groupsOf(place + count) + kMostGroups - 1u) / kMostGroups);
+  atomicMax(nodes_list.groups_x, min(groupsOf(position + count), kMostGroups));
+  atomicMax(nodes_list.groups_y, (groupsOf(position + count) + kMostGroups - 1u) / kMostGroups);
 }
 
 #ifdef LAW
@@ -302,11 +302,11 @@ void listCells(uint b) {
   if (isFirst()) sleeping[b].cells_listed = needed ? 1u : 0u;
 #endif
   if (!needed || count == 0u) return;
-  uint place = ofFirst(isFirst() ? atomicAdd(cells_list.count, count) : 0u);
-  for (uint i = lane(); i < count; i += LANES) awake_cells[place + i] = cells[first + i];
+  uint position = ofFirst(isFirst() ? atomicAdd(cells_list.count, count) : 0u);
+  for (uint i = lane(); i < count; i += LANES) awake_cells[position + i] = cells[first + i];
   if (!isFirst()) return;
-  atomicMax(cells_list.groups_x, min(groupsOf(place + count), kMostGroups));
-  atomicMax(cells_list.groups_y, (groupsOf(place + count) + kMostGroups - 1u) / kMostGroups);
+  atomicMax(cells_list.groups_x, min(groupsOf(position + count), kMostGroups));
+  atomicMax(cells_list.groups_y, (groupsOf(position + count) + kMostGroups - 1u) / kMostGroups);
 }
 #endif
 
@@ -322,7 +322,7 @@ void follow(uint b, bool now) {
 
 void ask(uint b) {
   bool now = isAwake(b);
-  if (look > 0u && sleeping[b].kind == kMayMove) follow(b, now);
+  if (check > 0u && sleeping[b].kind == kMayMove) follow(b, now);
   if (now) listNodes(b);
 #ifdef LAW
   listCells(b);

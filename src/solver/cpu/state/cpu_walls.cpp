@@ -71,7 +71,7 @@ void CpuWalls::listNodes(const CpuStore& store) {
   nodes_.resize(cells_.size() * simd::kWallNodes);
   bricks_of_.resize(bodies_.size());
   for (size_t i = 0; i < cells_.size(); ++i) {
-    const auto note = [&](uint32_t node, uint32_t slot) {
+    const auto record = [&](uint32_t node, uint32_t slot) {
       nodes_[numberAt(i, node, simd::kWallNodes)] = slot;
       slots_.push_back(slot);
       bricks_of_[i / kWallLanes].push_back(slot / layout::kBrickSlots);
@@ -79,17 +79,18 @@ void CpuWalls::listNodes(const CpuStore& store) {
     const uint32_t cell = cells_[i] == kNone ? cells_[i / kWallLanes * kWallLanes] : cells_[i];
     for (uint32_t corner = 0; corner < 8; ++corner) {
       const uint32_t slot = neighborSlot(store.bricks, cell, cornerOffset(corner));
-      note(corner, slot);
+      record(corner, slot);
       for (int axis = 0; axis < 3; ++axis) {
         const uint32_t spring = outward(corner, axis);
         const bool there = springCount(store.whole_nodes[slot], spring) != 0;
-        note(simd::nodeBeyond(corner, axis), there ? neighborSlot(store.bricks, slot, kNeighborOffsets[spring]) : slot);
+        record(simd::nodeBeyond(corner, axis),
+               there ? neighborSlot(store.bricks, slot, kNeighborOffsets[spring]) : slot);
       }
     }
   }
   for (std::vector<uint32_t>& bricks : bricks_of_) sortAndUnite(bricks);
   sortAndUnite(slots_);
-  places_.resize(4 * slots_.size());
+  positions_.resize(4 * slots_.size());
   in_wall_.assign(store.brickCount(), 0);
   first_node_.assign(store.brickCount() + 1, 0);
   std::vector<uint32_t> index(store.slotCount());
@@ -179,8 +180,8 @@ void CpuWalls::refresh(const CpuStore& store, uint32_t cell, float rigidity_j, f
 }
 
 simd::WallGroups CpuWalls::groups() {
-  return {bodies_.data(),    nodes_.data(),     ends_.data(),   moments_.data(), numbers_.data(),
-          strengths_.data(), laminates_.data(), places_.data(), forces_.data(),  measured_.data()};
+  return {bodies_.data(),    nodes_.data(),     ends_.data(),      moments_.data(), numbers_.data(),
+          strengths_.data(), laminates_.data(), positions_.data(), forces_.data(),  measured_.data()};
 }
 
 std::vector<uint32_t> CpuWalls::acting(const std::vector<uint32_t>& bricks) const {
@@ -210,7 +211,7 @@ void CpuWalls::place(uint32_t brick, const layout::BodyParams& body, const float
     const size_t at = vectorAt(slots_[n]);
     for (size_t c = 0; c < 3; ++c) {
       const float u = scale * displacement[at + 64 * c];
-      places_[4 * n + c] = ahead_s == 0 ? u : u + ahead * velocity[at + 64 * c];
+      positions_[4 * n + c] = ahead_s == 0 ? u : u + ahead * velocity[at + 64 * c];
     }
   }
 }
