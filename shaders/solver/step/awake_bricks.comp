@@ -99,8 +99,9 @@ float freeze(uint b) {
 #endif
 
 #ifdef WAKE_ALL
-/// Fixed, or isolated and not held (step.glsl).
+/// Fixed, or isolated and not held (step.glsl). Ghosts move.
 bool staysAtRest(NodeBits bits) {
+  if ((bits.lo & kGhostBit) != 0u) return false;
   return (bits.lo & kFixedBit) != 0u || (isIsolated(bits) && (bits.lo & kGrabMask) == 0u);
 }
 

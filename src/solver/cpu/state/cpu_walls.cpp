@@ -24,9 +24,9 @@ uint32_t outward(uint32_t corner, int axis) {
   return static_cast<uint32_t>(2 * axis) + (corner >> axis & 1 ? 0 : 1);
 }
 
-bool isWithinRow(const layout::NodeBits& bits, int axis) {
-  const auto first = static_cast<uint32_t>(2 * axis);
-  return springCount(bits, first) != 0 && springCount(bits, first + 1) != 0;
+/// Returns whether there is a node or a ghost beyond a node in the direction of an axial spring.
+bool isBeyond(const layout::NodeBits& whole, uint32_t spring) {
+  return springCount(whole, spring) != 0 || hasGhost(whole, static_cast<int>(spring / 2));
 }
 
 /// Returns the index of a number of a cell in arrays with `numbers` of them per group.
@@ -41,7 +41,8 @@ void sortAndUnite(std::vector<uint32_t>& values) {
 
 }  // namespace
 
-CpuWalls::CpuWalls(const CpuStore& store, const JoinedMoments& moments, const Strengths& table) {
+CpuWalls::CpuWalls(const CpuStore& store, const JoinedMoments& moments, const Strengths& table,
+                   const AlignedVector<float>& masses_kg) {
   uint32_t body = 0;
   for (uint32_t slot = 0; slot < store.slotCount(); ++slot) {
     if (moments.wallOf(slot) == nullptr) continue;
@@ -63,6 +64,12 @@ CpuWalls::CpuWalls(const CpuStore& store, const JoinedMoments& moments, const St
   listNodes(store);
   addNumbers(moments, table);
   addForces();
+  ghosts_kg_.resize(slots_.size());
+  for (size_t n = 0; n < slots_.size(); ++n) {
+    const layout::NodeBits& bits = store.nodes[slots_[n]];
+    if (!isGhost(bits)) continue;
+    ghosts_kg_[n] = masses_kg[neighborSlot(store.bricks, slots_[n], kNeighborOffsets[springOfGhost(bits)])];
+  }
 }
 
 /// Fills nodes_, slots_ and bricks_of_. Where there is no node beyond a corner, the corner takes its place with weight
@@ -82,7 +89,7 @@ void CpuWalls::listNodes(const CpuStore& store) {
       note(corner, slot);
       for (int axis = 0; axis < 3; ++axis) {
         const uint32_t spring = outward(corner, axis);
-        const bool there = springCount(store.whole_nodes[slot], spring) != 0;
+        const bool there = isBeyond(store.whole_nodes[slot], spring);
         note(simd::nodeBeyond(corner, axis), there ? neighborSlot(store.bricks, slot, kNeighborOffsets[spring]) : slot);
       }
     }
@@ -215,9 +222,10 @@ void CpuWalls::place(uint32_t brick, const layout::BodyParams& body, const float
   }
 }
 
-void CpuWalls::sumForces(uint32_t brick, float* out) const {
+void CpuWalls::sumForces(uint32_t brick, const Vector3f& gravity, float* out) const {
   for (uint32_t n = first_node_[brick]; n < first_node_[brick + 1]; ++n) {
-    float sum[4] = {};
+    const Vector3f lifted = -ghosts_kg_[n] * gravity;
+    float sum[4] = {lifted.x(), lifted.y(), lifted.z(), 0};
     for (uint32_t s = first_share_[n]; s < first_share_[n + 1]; ++s) {
       const float* force = &forces_[shares_[s]];
       for (size_t c = 0; c < 4; ++c) sum[c] += force[c];
