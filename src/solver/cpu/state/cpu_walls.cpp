@@ -61,7 +61,7 @@ CpuWalls::CpuWalls(const CpuStore& store, const JoinedMoments& moments, const St
     position_[cells_[i]] = i;
     cells_of_[cells_[i] / layout::kBrickSlots].push_back(i);
   }
-  listNodes(store);
+  listGroups(listNodes(store));
   addNumbers(moments, table);
   addForces();
   ghosts_kg_.resize(slots_.size());
@@ -72,14 +72,14 @@ CpuWalls::CpuWalls(const CpuStore& store, const JoinedMoments& moments, const St
   }
 }
 
-/// Fills nodes_, slots_ and bricks_of_. Where there is no node beyond a corner, the corner takes its place with weight
-/// 0.
-void CpuWalls::listNodes(const CpuStore& store) {
-  nodes_.resize(cells_.size() * simd::kWallNodes);
+/// Fills slots_ and bricks_of_. Where there is no node beyond a corner, the corner takes its place with weight 0.
+/// @return [groups][kWallNodes][kWallLanes] index in slots_
+std::vector<uint32_t> CpuWalls::listNodes(const CpuStore& store) {
+  std::vector<uint32_t> out(cells_.size() * simd::kWallNodes);
   bricks_of_.resize(bodies_.size());
   for (size_t i = 0; i < cells_.size(); ++i) {
     const auto note = [&](uint32_t node, uint32_t slot) {
-      nodes_[numberAt(i, node, simd::kWallNodes)] = slot;
+      out[numberAt(i, node, simd::kWallNodes)] = slot;
       slots_.push_back(slot);
       bricks_of_[i / kWallLanes].push_back(slot / layout::kBrickSlots);
     };
@@ -106,7 +106,27 @@ void CpuWalls::listNodes(const CpuStore& store) {
     ++first_node_[slots_[n] / layout::kBrickSlots + 1];
   }
   for (size_t b = 0; b < store.brickCount(); ++b) first_node_[b + 1] += first_node_[b];
-  for (uint32_t& node : nodes_) node = 4 * index[node];
+  for (uint32_t& node : out) node = index[node];
+  return out;
+}
+
+/// Fills listed_ and nodes_.
+/// @param nodes  of listNodes()
+void CpuWalls::listGroups(const std::vector<uint32_t>& nodes) {
+  constexpr size_t kGroup = size_t{simd::kWallNodes} * kWallLanes;
+  first_listed_.push_back(0);
+  for (size_t g = 0; g < bodies_.size(); ++g) {
+    const auto first = nodes.begin() + static_cast<std::ptrdiff_t>(g * kGroup);
+    std::vector<uint32_t> once(first, first + kGroup);
+    sortAndUnite(once);
+    for (size_t i = 0; i < kGroup; ++i) {
+      const auto place = std::lower_bound(once.begin(), once.end(), nodes[g * kGroup + i]) - once.begin();
+      nodes_.push_back(static_cast<uint16_t>(4 * place));
+    }
+    for (const uint32_t node : once) listed_.push_back(4 * node);
+    first_listed_.push_back(static_cast<uint32_t>(listed_.size()));
+  }
+  forces_.resize(4 * listed_.size());
 }
 
 void CpuWalls::addNumbers(const JoinedMoments& moments, const Strengths& table) {
@@ -115,7 +135,6 @@ void CpuWalls::addNumbers(const JoinedMoments& moments, const Strengths& table) 
   moments_.resize(cells_.size() * simd::kMomentNumbers);
   numbers_.resize(cells_.size() * simd::kWallNumbers);
   strengths_.resize(cells_.size() * 2);
-  forces_.resize(cells_.size() * 4 * simd::kWallNodes);
   measured_.resize(cells_.size() * 2);
   rows_.resize(cells_.size());
   laminates_.assign(groups, nullptr);
@@ -149,14 +168,7 @@ void CpuWalls::addNumbers(const JoinedMoments& moments, const Strengths& table) 
 /// Fills shares_ and first_share_.
 void CpuWalls::addForces() {
   std::vector<std::vector<uint32_t>> of_node(slots_.size());
-  for (uint32_t i = 0; i < cells_.size(); ++i) {
-    if (cells_[i] == kNone) continue;
-    for (uint32_t node = 0; node < simd::kWallNodes; ++node) {
-      const uint32_t at = nodes_[numberAt(i, node, simd::kWallNodes)];
-      const bool nothing = node >= 8 && at == nodes_[numberAt(i, (node - 8) / 3, simd::kWallNodes)];
-      if (!nothing) of_node[at / 4].push_back(4 * (i * simd::kWallNodes + node));
-    }
-  }
+  for (uint32_t n = 0; n < listed_.size(); ++n) of_node[listed_[n] / 4].push_back(4 * n);
   first_share_.push_back(0);
   for (const std::vector<uint32_t>& shares : of_node) {
     shares_.insert(shares_.end(), shares.begin(), shares.end());
@@ -186,8 +198,8 @@ void CpuWalls::refresh(const CpuStore& store, uint32_t cell, float rigidity_j, f
 }
 
 simd::WallGroups CpuWalls::groups() {
-  return {bodies_.data(),    nodes_.data(),     ends_.data(),   moments_.data(), numbers_.data(),
-          strengths_.data(), laminates_.data(), places_.data(), forces_.data(),  measured_.data()};
+  return {bodies_.data(),  first_listed_.data(), listed_.data(),    nodes_.data(),  ends_.data(),   moments_.data(),
+          numbers_.data(), strengths_.data(),    laminates_.data(), places_.data(), forces_.data(), measured_.data()};
 }
 
 std::vector<uint32_t> CpuWalls::acting(const std::vector<uint32_t>& bricks) const {

@@ -52,7 +52,8 @@ class CpuWalls {
   std::array<float, 2> measured(uint32_t brick) const;
 
  private:
-  void listNodes(const CpuStore& store);
+  std::vector<uint32_t> listNodes(const CpuStore& store);
+  void listGroups(const std::vector<uint32_t>& nodes);
   void addNumbers(const JoinedMoments& moments, const Strengths& table);
   void addForces();
 
@@ -61,11 +62,13 @@ class CpuWalls {
   std::vector<uint32_t> cells_;     ///< [kWallLanes * groups] slots; kNone if there is no cell
   std::vector<uint32_t> position_;  ///< [slots] index in cells_
   std::vector<uint32_t> bodies_;
-  std::vector<uint32_t> nodes_;       ///< [groups][kWallNodes][kWallLanes] four times an index in slots_
-  std::vector<uint32_t> slots_;       ///< [nodes] slots of the nodes of cells in walls, ascending
-  std::vector<uint32_t> first_node_;  ///< [bricks + 1] where a brick's nodes begin
-  std::vector<float> ghosts_kg_;      ///< [nodes] masses of ghosts; 0 for nodes
-  AlignedVector<float> places_;       ///< [nodes][4]
+  std::vector<uint32_t> first_listed_;  ///< [groups + 1] where a group's nodes begin in listed_
+  std::vector<uint32_t> listed_;        ///< nodes of each group, ascending: four times an index in slots_
+  std::vector<uint16_t> nodes_;         ///< [groups][kWallNodes][kWallLanes] four times an index among these
+  std::vector<uint32_t> slots_;         ///< [nodes] slots of the nodes of cells in walls, ascending
+  std::vector<uint32_t> first_node_;    ///< [bricks + 1] where a brick's nodes begin
+  std::vector<float> ghosts_kg_;        ///< [nodes] masses of ghosts; 0 for nodes
+  AlignedVector<float> places_;         ///< [nodes][4]
   AlignedVector<float> ends_, moments_, numbers_, strengths_, laminate_numbers_, forces_, measured_;
   std::vector<const float*> laminates_;
   std::vector<float> rows_;                       ///< [kWallLanes * groups] WallCell::rows
