@@ -10,7 +10,7 @@ if(NOT rviz_FOUND OR NOT Qt5_FOUND)
 endif()
 file(GLOB rviz_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/rviz/*.cpp)
 # Sources of devices and math themselves, not their libraries: rviz loads this one beside others.
-add_library(viscera_rviz SHARED ${rviz_sources} ${PROJECT_SOURCE_DIR}/src/devices/steered_hand.cpp
+add_library(viscera_rviz SHARED ${rviz_sources} ${PROJECT_SOURCE_DIR}/src/devices/steered_tool.cpp
                                 ${PROJECT_SOURCE_DIR}/src/math/number_text.cpp)
 viscera_unity(viscera_rviz 24)
 add_dependencies(viscera_rviz ${PROJECT_NAME}_generate_messages_cpp ${catkin_EXPORTED_TARGETS})

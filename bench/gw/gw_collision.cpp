@@ -30,8 +30,8 @@ Model clothModel(int edge) {
 
 /// Returns nodes at random positions in a cube, displaced by the same distance in random directions.
 /// @param before  receives the positions before
-HostState cloud(const Model& model, double cube_m, double way_m, std::mt19937& random, HostState* before = nullptr) {
-  std::uniform_real_distribution<double> place(-0.5 * cube_m, 0.5 * cube_m);
+HostState cloud(const Model& model, double cube_m, double offset_m, std::mt19937& random, HostState* before = nullptr) {
+  std::uniform_real_distribution<double> position(-0.5 * cube_m, 0.5 * cube_m);
   std::normal_distribution<double> any;
   const Body& body = model.bodies[0];
   HostState state;
@@ -41,8 +41,8 @@ HostState cloud(const Model& model, double cube_m, double way_m, std::mt19937& r
   state.spring_cut.resize(body.network->springs.size());
   if (before) *before = state;
   for (const uint32_t slot : body.lattice.active_slots) {
-    const Vector3d from = Vector3d(place(random), place(random), place(random)) - restPosition(body, slot);
-    const Vector3d to = from + way_m * Vector3d(any(random), any(random), any(random)).normalized();
+    const Vector3d from = Vector3d(position(random), position(random), position(random)) - restPosition(body, slot);
+    const Vector3d to = from + offset_m * Vector3d(any(random), any(random), any(random)).normalized();
     const Vector3f f = from.cast<float>(), t = to.cast<float>();
     if (before) before->displacement_m[slot] = {f.x(), f.y(), f.z(), 0};
     state.displacement_m[slot] = {t.x(), t.y(), t.z(), 0};
@@ -64,15 +64,15 @@ std::vector<CollisionPair> found(const Model& model, const Scene& scene, const H
 }
 
 /// Returns the pairs that touch at some time while all nodes move linearly from one state to the other.
-std::vector<ReferencePair> pairsOnTheWay(const Model& model, const Scene& scene, const HostState& from,
-                                         const HostState& to, double way_m) {
+std::vector<ReferencePair> pairsInStep(const Model& model, const Scene& scene, const HostState& from,
+                                       const HostState& to, double offset_m) {
   const Body& body = model.bodies[0];
   const auto at = [&body](const HostState& state, uint32_t slot) {
     const layout::vec4& u = state.displacement_m[slot];
     return Vector3d(restPosition(body, slot) + Vector3d(u.x, u.y, u.z));
   };
   std::vector<ReferencePair> out;
-  for (ReferencePair pair : referencePairs(model, scene, from, 2 * way_m)) {
+  for (ReferencePair pair : referencePairs(model, scene, from, 2 * offset_m)) {
     const uint32_t a = pair.slots[0], b = pair.slots[1];
     const Vector3d apart = at(from, a) - at(from, b), change = at(to, a) - at(to, b) - apart;
     const double nearest = std::clamp(-apart.dot(change) / change.squaredNorm(), 0.0, 1.0);
@@ -105,13 +105,13 @@ void reportStep(Report& report, const Model& model) {
               {{"way of a node", "cells"}, {"pairs"}, {"recall"}});
   std::mt19937 random(2);
   const double nodes = static_cast<double>(model.activeNodes());
-  for (const double way : {0.01, 0.05, 0.1, 0.25, 0.5, 1.0, 2.0}) {
+  for (const double offset : {0.01, 0.05, 0.1, 0.25, 0.5, 1.0, 2.0}) {
     HostState before;
-    const HostState state = cloud(model, kSpacing_m * std::cbrt(nodes / 0.2), way * kSpacing_m, random, &before);
+    const HostState state = cloud(model, kSpacing_m * std::cbrt(nodes / 0.2), offset * kSpacing_m, random, &before);
     const Scene scene = collidingScene();
-    const auto truth = pairsOnTheWay(model, scene, before, state, way * kSpacing_m);
+    const auto truth = pairsInStep(model, scene, before, state, offset * kSpacing_m);
     const double share = recallOf(found(model, scene, state), truth, kTolerance_m).share();
-    table.add({way, static_cast<double>(truth.size()), share});
+    table.add({offset, static_cast<double>(truth.size()), share});
   }
   report.add(table, "recall_step");
 }

@@ -43,9 +43,9 @@ Counted countRuns(const GwKernels& kernels, const NetworkLinks& links, double no
           2 * springs + nodes, (kForce + kNegation) * springs + kAddition * all};
 }
 
-void addRow(Table& table, const GwNetwork& network, const std::string& way, const Counted& c, const Printed& p) {
+void addRow(Table& table, const GwNetwork& network, const std::string& variant, const Counted& c, const Printed& p) {
   const auto nodes = static_cast<double>(network.nodes());
-  table.add({network.name, nodes, static_cast<double>(network.springs()), way, p.rgb / nodes, p.rgba / nodes,
+  table.add({network.name, nodes, static_cast<double>(network.springs()), variant, p.rgb / nodes, p.rgba / nodes,
              p.fetches / nodes, p.dependent / nodes, p.operations / nodes, c.bytes / nodes, c.fetches / nodes,
              c.dependent / nodes, c.stores / nodes, c.operations / nodes});
 }

@@ -22,13 +22,13 @@ const Vector3d kGravity_m_per_s2(0, 0, -9.81);
 
 /// Gathers forces by one of the methods. @return the target that contains them, if any
 using Gather = std::function<const BlendTarget*(GwKernels&)>;
-struct Way {
+struct Variant {
   std::string name;
   StateFormat state;
   Gather gather;
 };
 
-Way edgeWay(const std::string& name) {
+Variant edgeVariant(const std::string& name) {
   return {name, StateFormat::kFloat32, [](GwKernels& kernels) -> const BlendTarget* {
             kernels.springForces();
             kernels.sumForces();
@@ -36,14 +36,14 @@ Way edgeWay(const std::string& name) {
           }};
 }
 
-Way pointWay(const std::string& name, StateFormat state) {
+Variant pointVariant(const std::string& name, StateFormat state) {
   return {name, state, [](GwKernels& kernels) -> const BlendTarget* {
             kernels.pointForces();
             return nullptr;
           }};
 }
 
-Way blendWay(BlendFormat format, size_t slots, double scale_n) {
+Variant blendVariant(BlendFormat format, size_t slots, double scale_n) {
   auto target = std::make_shared<BlendTarget>(format, slots, scale_n);
   return {std::string("blending, ") + nameOf(format), StateFormat::kFloat32,
           [target](GwKernels& kernels) -> const BlendTarget* {
@@ -54,14 +54,14 @@ Way blendWay(BlendFormat format, size_t slots, double scale_n) {
 }
 
 enum { kPoint32, kPoint16, kRuns, kBlend8, kBlend16, kBlend32 };
-std::vector<Way> waysOf(size_t slots, double largest_sum_n) {
+std::vector<Variant> variantsOf(size_t slots, double largest_sum_n) {
   const double scale_n = scaleOf(largest_sum_n);
-  return {pointWay("point-centric, 32 bit state", StateFormat::kFloat32),
-          pointWay("point-centric, 16 bit state", StateFormat::kFloat16),
-          edgeWay("edge-centric, runs"),
-          blendWay(BlendFormat::kFixed8, slots, scale_n),
-          blendWay(BlendFormat::kFloat16, slots, scale_n),
-          blendWay(BlendFormat::kFloat32, slots, scale_n)};
+  return {pointVariant("point-centric, 32 bit state", StateFormat::kFloat32),
+          pointVariant("point-centric, 16 bit state", StateFormat::kFloat16),
+          edgeVariant("edge-centric, runs"),
+          blendVariant(BlendFormat::kFixed8, slots, scale_n),
+          blendVariant(BlendFormat::kFloat16, slots, scale_n),
+          blendVariant(BlendFormat::kFloat32, slots, scale_n)};
 }
 
 Misfit errorOf(const GwNetwork& network, const Field& measured, const Field& truth) {
@@ -79,17 +79,17 @@ void compareForces(Report& report, const GwNetwork& network, Table& table) {
   report.stage("forces, " + network.name);
   const Field u_m = asFloats(deformed(network));
   const Field truth_n = ReferenceLattice(network.model).elasticForces(u_m);
-  const std::vector<Way> ways = waysOf(network.slots(), largestSum_n(network, u_m));
+  const std::vector<Variant> variants = variantsOf(network.slots(), largestSum_n(network, u_m));
   std::vector<Field> forces_n;
-  for (const Way& way : ways) {
-    GwKernels kernels(network, way.state);
+  for (const Variant& variant : variants) {
+    GwKernels kernels(network, variant.state);
     kernels.start(u_m);
-    const BlendTarget* target = way.gather(kernels);
+    const BlendTarget* target = variant.gather(kernels);
     forces_n.push_back(target ? target->forces() : kernels.forces());
     const Misfit error = errorOf(network, forces_n.back(), truth_n);
-    table.add({network.name, static_cast<double>(network.nodes()), way.name, error.max, error.rms});
+    table.add({network.name, static_cast<double>(network.nodes()), variant.name, error.max, error.rms});
   }
-  report.checkAtMost(network.name + ": point- against " + ways[kRuns].name + ", largest difference of a force",
+  report.checkAtMost(network.name + ": point- against " + variants[kRuns].name + ", largest difference of a force",
                      errorOf(network, forces_n[kRuns], forces_n[kPoint32]).max, kAgreement);
   report.checkAtMost(network.name + ": blending into 32 bit floats, error of a force",
                      errorOf(network, forces_n[kBlend32], truth_n).max, kBlending32);
@@ -122,13 +122,13 @@ TrueMotion trueMotion(const GwNetwork& network, const std::vector<int>& substeps
 }
 
 /// Returns [checkpoints] errors.
-std::vector<Misfit> errorsOf(const GwNetwork& network, const TrueMotion& truth, const Way& way) {
-  GwKernels kernels(network, way.state);
+std::vector<Misfit> errorsOf(const GwNetwork& network, const TrueMotion& truth, const Variant& variant) {
+  GwKernels kernels(network, variant.state);
   kernels.start(Field(network.slots(), Vector3d::Zero()));
   std::vector<Misfit> out;
   int done = 0;
   for (size_t c = 0; c < truth.substeps.size(); ++c) {
-    for (; done < truth.substeps[c]; ++done) kernels.integrate(truth.motion, way.gather(kernels));
+    for (; done < truth.substeps[c]; ++done) kernels.integrate(truth.motion, variant.gather(kernels));
     out.push_back(errorOf(network, kernels.displacements(), truth.u_m[c]));
   }
   return out;
@@ -138,21 +138,21 @@ void compareMotions(Report& report, const GwNetwork& network, const std::vector<
   report.stage("motion, " + network.name + ", float64");
   const TrueMotion truth = trueMotion(network, substeps);
   double worst = 0;  // of methods that use 32-bit floats throughout
-  const std::vector<Way> ways = waysOf(network.slots(), kHeadroom * truth.largest_sum_n);
+  const std::vector<Variant> variants = variantsOf(network.slots(), kHeadroom * truth.largest_sum_n);
   Plot plot{"Error of u over its largest, " + network.name,
             "substeps of dt_safe/2",
             "largest error / largest u",
             true,
             true,
             {}};
-  for (size_t w = 0; w < ways.size(); ++w) {
-    const Way& way = ways[w];
-    report.stage("motion, " + network.name + ", " + way.name);
-    const std::vector<Misfit> errors = errorsOf(network, truth, way);
-    Series series{way.name, {}, {}};
+  for (size_t w = 0; w < variants.size(); ++w) {
+    const Variant& variant = variants[w];
+    report.stage("motion, " + network.name + ", " + variant.name);
+    const std::vector<Misfit> errors = errorsOf(network, truth, variant);
+    Series series{variant.name, {}, {}};
     for (size_t c = 0; c < errors.size(); ++c) {
       const double time_s = substeps[c] * truth.motion.dt_s;
-      table.add({network.name, static_cast<double>(network.nodes()), way.name, substeps[c], time_s,
+      table.add({network.name, static_cast<double>(network.nodes()), variant.name, substeps[c], time_s,
                  largestNorm(truth.u_m[c]), errors[c].max, errors[c].rms});
       series.x.push_back(substeps[c]);
       series.y.push_back(errors[c].max);

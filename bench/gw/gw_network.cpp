@@ -147,9 +147,9 @@ Field deformed(const GwNetwork& network) {
 
 double largestSum_n(const GwNetwork& network, const Field& u_m) {
   std::vector<double> sums_n(network.slots(), 0);
-  const auto placeOf = [&](uint32_t slot) -> Vector3d { return network.network().positions_m[slot] + u_m[slot]; };
+  const auto positionOf = [&](uint32_t slot) -> Vector3d { return network.network().positions_m[slot] + u_m[slot]; };
   for (const NetworkSpring& spring : network.network().springs) {
-    const double length_m = (placeOf(spring.b) - placeOf(spring.a)).norm();
+    const double length_m = (positionOf(spring.b) - positionOf(spring.a)).norm();
     const double force_n = spring.stiffness_n_per_m * std::abs(length_m - spring.rest_length_m);
     sums_n[spring.a] += force_n;
     sums_n[spring.b] += force_n;

@@ -28,7 +28,7 @@ constexpr GwStagesPrinted kPaper[] = {
 constexpr double kPaperIrregular = 1.6;  // from GW's text: point- over edge-centric, valences 3 to 12
 
 /// A method for a substep, in stages. Stages without work are empty.
-struct GwStagesWay {
+struct GwStagesVariant {
   std::string name;
   std::function<void()> force, accumulate, integrate;
 };
@@ -37,7 +37,7 @@ struct GwStagesWay {
 struct Course {
   std::unique_ptr<GwKernels> kernels;
   std::unique_ptr<BlendTarget> target;
-  std::vector<GwStagesWay> ways;
+  std::vector<GwStagesVariant> variants;
 };
 enum { kPoint, kPasses, kGwStagesRuns, kBlended };
 
@@ -52,11 +52,11 @@ Course courseOf(const GwNetwork& network) {
   BlendTarget* target = out.target.get();
   const GwMotion still{kStill_s, Vector3d::Zero()};
   const auto integrate = [k, still] { k->integrate(still); };
-  out.ways = {{"point-centric", [k] { k->pointForces(); }, {}, integrate},
-              {"point-centric, a pass per neighbour", [k] { k->pointPasses(); }, {}, integrate},
-              {"edge-centric, runs", [k] { k->springForces(); }, [k] { k->sumForces(); }, integrate},
-              {"edge-centric, blending", [k] { k->forceTexture(); }, [k, target] { k->scatterForces(*target); },
-               [k, still, target] { k->integrate(still, target); }}};
+  out.variants = {{"point-centric", [k] { k->pointForces(); }, {}, integrate},
+                  {"point-centric, a pass per neighbour", [k] { k->pointPasses(); }, {}, integrate},
+                  {"edge-centric, runs", [k] { k->springForces(); }, [k] { k->sumForces(); }, integrate},
+                  {"edge-centric, blending", [k] { k->forceTexture(); }, [k, target] { k->scatterForces(*target); },
+                   [k, still, target] { k->integrate(still, target); }}};
   return out;
 }
 
@@ -77,30 +77,30 @@ struct Times {
 std::vector<Times> timesOf(const GwNetwork& network, double seconds) {
   const Course course = courseOf(network);
   std::vector<Candidate> candidates;
-  std::vector<std::pair<size_t, double Times::*>> places;
-  for (size_t w = 0; w < course.ways.size(); ++w) {
-    const GwStagesWay& way = course.ways[w];
-    const auto add = [&](const std::function<void()>& work, double Times::*place) {
+  std::vector<std::pair<size_t, double Times::*>> positions;
+  for (size_t w = 0; w < course.variants.size(); ++w) {
+    const GwStagesVariant& variant = course.variants[w];
+    const auto add = [&](const std::function<void()>& work, double Times::*position) {
       if (!work) return;
       candidates.push_back(candidateOf(network, work));
-      places.emplace_back(w, place);
+      positions.emplace_back(w, position);
     };
-    add(way.force, &Times::force);
-    add(way.accumulate, &Times::accumulate);
-    add(way.integrate, &Times::integrate);
+    add(variant.force, &Times::force);
+    add(variant.accumulate, &Times::accumulate);
+    add(variant.integrate, &Times::integrate);
     add(
-        [way] {
-          way.force();
-          if (way.accumulate) way.accumulate();
-          way.integrate();
+        [variant] {
+          variant.force();
+          if (variant.accumulate) variant.accumulate();
+          variant.integrate();
         },
         &Times::total);
   }
   const std::vector<Rate> rates = measureRates(candidates, seconds);
-  std::vector<Times> out(course.ways.size());
+  std::vector<Times> out(course.variants.size());
   for (size_t c = 0; c < rates.size(); ++c) {
-    out[places[c].first].*places[c].second = kMilli / rates[c].substeps_per_s;
-    if (places[c].second == &Times::total) out[places[c].first].spread = rates[c].spread;
+    out[positions[c].first].*positions[c].second = kMilli / rates[c].substeps_per_s;
+    if (positions[c].second == &Times::total) out[positions[c].first].spread = rates[c].spread;
   }
   return out;
 }
@@ -110,15 +110,15 @@ Cell orNone(double value) {
 }
 
 /// Returns GW's figures for a method; zeros for methods that are not GW's.
-Times printedFor(const GwStagesPrinted& row, size_t way) {
+Times printedFor(const GwStagesPrinted& row, size_t variant) {
   Times out;
-  if (way == kPoint) out = {row.point_force, 0, row.integration};
-  if (way == kBlended) out = {row.edge_force, row.edge_sum, row.integration};
+  if (variant == kPoint) out = {row.point_force, 0, row.integration};
+  if (variant == kBlended) out = {row.edge_force, row.edge_sum, row.integration};
   out.total = out.force + out.accumulate + out.integrate;
   return out;
 }
 
-const std::vector<std::string>& wayNames() {
+const std::vector<std::string>& variantNames() {
   static const std::vector<std::string> names = {"point-centric", "point-centric, a pass per neighbour",
                                                  "edge-centric, runs", "edge-centric, blending"};
   return names;
@@ -137,10 +137,16 @@ Table stageTable(const std::string& title, std::vector<Column> more) {
   return Table(title, columns);
 }
 
-std::vector<Cell> cellsOf(const GwNetwork& network, size_t way, const std::vector<Times>& times) {
-  const Times& t = times[way];
-  return {static_cast<double>(network.nodes()), wayNames()[way], t.force, orNone(t.accumulate), t.integrate, t.total,
-          times[kPoint].total / t.total,        t.spread};
+std::vector<Cell> cellsOf(const GwNetwork& network, size_t variant, const std::vector<Times>& times) {
+  const Times& t = times[variant];
+  return {static_cast<double>(network.nodes()),
+          variantNames()[variant],
+          t.force,
+          orNone(t.accumulate),
+          t.integrate,
+          t.total,
+          times[kPoint].total / t.total,
+          t.spread};
 }
 
 void measureRegular(Report& report, double seconds) {

@@ -62,10 +62,10 @@ StateSnapshot movedState(const Model& model, const std::vector<uint32_t>& bricks
   return out;
 }
 
-TriangleMesh closedMesh(int around, int up, const std::function<Vector3d(const Vector3d& direction)>& place) {
+TriangleMesh closedMesh(int around, int up, const std::function<Vector3d(const Vector3d& direction)>& position) {
   TriangleMesh mesh;
   mesh.part_names = {"skin"};
-  const auto add = [&](const Vector3d& direction) { mesh.positions_m.push_back(place(direction).cast<float>()); };
+  const auto add = [&](const Vector3d& direction) { mesh.positions_m.push_back(position(direction).cast<float>()); };
   add(-Vector3d::UnitZ());
   for (int j = 1; j < up; ++j) {
     const double polar = M_PI * j / up;

@@ -33,6 +33,6 @@ StateSnapshot movedState(const Model& model, const std::vector<uint32_t>& bricks
 /// Creates a closed sphere grid of 2 around (up - 1) triangles; a function of the direction gives the position of each
 /// vertex.
 /// @param around, up  > 2
-TriangleMesh closedMesh(int around, int up, const std::function<Vector3d(const Vector3d& direction)>& place);
+TriangleMesh closedMesh(int around, int up, const std::function<Vector3d(const Vector3d& direction)>& position);
 
 }  // namespace viscera::bench

@@ -17,8 +17,8 @@ constexpr double kDifference = 1e-4;  // [spacings] step of the finite differenc
 /// Returns the normal of a material plane after the deformation.
 Vector3d carriedNormal(const Deformation& deformation, const Vector3d& at_m, const Vector3d& normal, double step_m) {
   const Vector3d other = normal.unitOrthogonal(), third = normal.cross(other);
-  const auto along = [&](const Vector3d& way) {
-    return Vector3d(deformation(at_m + step_m * way) - deformation(at_m - step_m * way));
+  const auto along = [&](const Vector3d& direction) {
+    return Vector3d(deformation(at_m + step_m * direction) - deformation(at_m - step_m * direction));
   };
   return along(other).cross(along(third)).normalized();
 }
@@ -36,17 +36,17 @@ MappingError mappingError(const Model& model, const Deformation& deformation, Mo
   const TriangleMesh& mesh = model.bodies[0].skin.mesh;
   const std::vector<Vector3f> normals = vertexNormals(mesh);
   const double spacing_m = model.bodies[0].lattice.spacing_m;
-  std::vector<double> places, angles;
+  std::vector<double> positions, angles;
   for (size_t v = 0; v < mesh.positions_m.size(); ++v) {
-    const Vector3d rest = mesh.positions_m[v].cast<double>(), true_place = deformation(rest);
-    places.push_back((shown.position_m(v).cast<double>() - true_place).norm() / spacing_m);
+    const Vector3d rest = mesh.positions_m[v].cast<double>(), true_position = deformation(rest);
+    positions.push_back((shown.position_m(v).cast<double>() - true_position).norm() / spacing_m);
     const Vector3d normal =
         carriedNormal(deformation, rest, normals[v].cast<double>().normalized(), kDifference * spacing_m);
     const Vector3d mapped = unpackNormal(shown.normals[v]).cast<double>();
     angles.push_back(std::atan2(mapped.cross(normal).norm(), mapped.dot(normal)) * 180 / M_PI);
   }
-  return {meanOf(places), percentile(places, 0.95), *std::max_element(places.begin(), places.end()), meanOf(angles),
-          percentile(angles, 0.95)};
+  return {meanOf(positions), percentile(positions, 0.95), *std::max_element(positions.begin(), positions.end()),
+          meanOf(angles), percentile(angles, 0.95)};
 }
 
 std::vector<Column> errorColumns() {

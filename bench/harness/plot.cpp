@@ -28,7 +28,7 @@ std::string quoted(const std::string& text) {
 }
 
 /// Returns colour, dashes and point type that distinguish curve `index` from the others: gnuplot has 8 colours.
-std::string lookOf(Series::Style style, size_t index) {
+std::string styleOf(Series::Style style, size_t index) {
   const std::string number = std::to_string(index % kPointTypes + 1), dashes = std::to_string(index / kColours + 1);
   const std::string line = " lt " + std::to_string(index % kColours + 1) + " lw 2 dt " + dashes,
                     point = " pt " + number;
@@ -94,7 +94,7 @@ void Plot::writeScript(std::ostream& out, const std::string& png) const {
       if (isDrawn(*this, series[s].x[i], series[s].y[i])) out << series[s].x[i] << ' ' << series[s].y[i] << '\n';
     }
     out << "END_OF_SERIES\n";
-    curves += (curves.empty() ? "" : ", \\\n  ") + block + " with " + lookOf(series[s].style, s) + " title " +
+    curves += (curves.empty() ? "" : ", \\\n  ") + block + " with " + styleOf(series[s].style, s) + " title " +
               quoted(series[s].name);
   }
   if (!curves.empty()) out << "plot " << curves << '\n';

@@ -41,7 +41,7 @@ std::string nameOf(Wanted wanted) {
   }
 }
 
-FrameRequest wantsOf(const Session& session, Wanted wanted) {
+FrameRequest outputsOf(const Session& session, Wanted wanted) {
   FrameRequest out;
   out.surface = wanted == Wanted::kSurface || wanted == Wanted::kSurfaceAndImages;
   if (wanted == Wanted::kNothing || wanted == Wanted::kSurface) return out;
@@ -70,7 +70,7 @@ StylusSamples Pressing::now() const {
 
 SessionSpeed measureSession(Session& session, Wanted wanted, double seconds,
                             const std::function<StylusSamples()>& samples) {
-  const auto tick = [&] { session.step(samples(), wantsOf(session, wanted)); };
+  const auto tick = [&] { session.step(samples(), outputsOf(session, wanted)); };
   for (int t = 0; t < kWarmUpTicks; ++t) tick();
   session.drain();
   const ViewCounters before = session.counters();

@@ -14,7 +14,7 @@ namespace viscera::bench {
 enum class Wanted { kNothing, kSurface, kImages, kSurfaceAndImages, kEveryImage };
 std::string nameOf(Wanted wanted);
 /// Returns the outputs of the next step: images at the rates of the cameras, or after every tick (kEveryImage).
-FrameRequest wantsOf(const Session& session, Wanted wanted);
+FrameRequest outputsOf(const Session& session, Wanted wanted);
 
 /// A probe that works on a body. It waits until the tissue has sagged, approaches from the patient's left and presses
 /// into it. Then it moves in and out once per second of simulated time.

@@ -24,7 +24,7 @@ uniform vec2 texel;      // see pixel_classes.frag
 uniform vec3 background;
 uniform mat4 optical_from_mesh;
 layout(binding = kUnitSeenDepths) uniform sampler2D seen_depths;
-layout(binding = kUnitSeenPlaces) uniform usampler2D seen_places;
+layout(binding = kUnitSeenPositions) uniform usampler2D seen_positions;
 layout(binding = kUnitSeenFinishes) uniform usampler2D seen_finishes;
 #ifdef GRAIN
 layout(binding = kUnitGrainSlopes) uniform sampler3D grain_slopes;  // see GrainTexture
@@ -58,12 +58,12 @@ vec3 lit(vec2 pixel, float depth, vec3 rest, vec3 rest_x, vec3 rest_y, bool rest
     rest_x = turn * position_x;
     rest_y = turn * position_y;
   }
-  vec4 looks = unpackUnorm4x8(finish.y);
-  vec3 albedo = linearFromSrgb(looks.rgb);
+  vec4 appearance = unpackUnorm4x8(finish.y);
+  vec3 albedo = linearFromSrgb(appearance.rgb);
   float roughness = kRoughness, shade = 1.0;
   uint beside = finish.x & 0xffffffu;
 #ifdef GRAIN
-  vec4 grain = grainAt(rest, 2.0 * looks.a - 1.0);
+  vec4 grain = grainAt(rest, 2.0 * appearance.a - 1.0);
   roughness = body_finish[bodyOf(alpha)].x;
 #endif
 #ifdef DETAIL
@@ -96,15 +96,15 @@ void main() {
   for (int i = 0; i < 4; ++i) {
     ivec2 beside = ivec2(i & 1, i >> 1);
     float depth = texelFetch(seen_depths, at + beside, 0).r;
-    uvec4 place = texelFetch(seen_places, at + beside, 0);
+    uvec4 position = texelFetch(seen_positions, at + beside, 0);
     uvec2 finish = texelFetch(seen_finishes, at + beside, 0).xy;
-    vec3 light = lit(gl_FragCoord.xy + 0.5 * vec2(beside) - 0.25, depth, uintBitsToFloat(place.xyz), vec3(0.0), vec3(0.0), false,
-                     directionOf(place.w), isFront(place.w), finish);
+    vec3 light = lit(gl_FragCoord.xy + 0.5 * vec2(beside) - 0.25, depth, uintBitsToFloat(position.xyz), vec3(0.0), vec3(0.0), false,
+                     directionOf(position.w), isFront(position.w), finish);
     sum += depth == 1.0 ? background : light;
   }
   image = vec4(0.25 * sum, 1.0);
 #else
-  uvec4 first = texelFetch(seen_places, at, 0), right = texelFetch(seen_places, at + ivec2(1, 0), 0), below = texelFetch(seen_places, at + ivec2(0, 1), 0);
+  uvec4 first = texelFetch(seen_positions, at, 0), right = texelFetch(seen_positions, at + ivec2(1, 0), 0), below = texelFetch(seen_positions, at + ivec2(0, 1), 0);
   vec3 rest = uintBitsToFloat(first.xyz), rest_right = uintBitsToFloat(right.xyz), rest_below = uintBitsToFloat(below.xyz);
   vec3 rest_x = 2.0 * (rest_right - rest), rest_y = 2.0 * (rest_below - rest);
   rest = 0.5 * (rest_right + rest_below);

@@ -22,21 +22,21 @@ const float kBehindSlope = 2.0, kBehind = 16.0 / 16777216.0;  // as obstacles ar
 const float kMissed = 1e30;
 
 // Returns where the ray t * way, from the camera, first meets a sphere: t, or kMissed.
-float sphereAt(vec3 way, vec3 centre_m, float radius_m) {
-  float middle = dot(way, centre_m) / dot(way, way);
-  vec3 off_m = centre_m - middle * way;  // a difference of squares would cancel at the rim
+float sphereAt(vec3 direction, vec3 centre_m, float radius_m) {
+  float middle = dot(direction, centre_m) / dot(direction, direction);
+  vec3 off_m = centre_m - middle * direction;  // a difference of squares would cancel at the rim
   float rest = radius_m * radius_m - dot(off_m, off_m);
-  float t = middle - sqrt(max(rest, 0.0) / dot(way, way));
+  float t = middle - sqrt(max(rest, 0.0) / dot(direction, direction));
   return rest >= 0.0 && t > 0.0 ? t : kMissed;
 }
 
 // Returns the same for the wall of the cylinder between the ends.
-float wallAt(vec3 way, vec3 from_m, vec3 along_m, float radius_m) {
+float wallAt(vec3 direction, vec3 from_m, vec3 along_m, float radius_m) {
   float length2 = dot(along_m, along_m);
   if (length2 == 0.0) return kMissed;
-  vec3 across = way - along_m * (dot(along_m, way) / length2), off_m = from_m - along_m * (dot(along_m, from_m) / length2);
+  vec3 across = direction - along_m * (dot(along_m, direction) / length2), off_m = from_m - along_m * (dot(along_m, from_m) / length2);
   float t = sphereAt(across, off_m, radius_m);
-  float share = dot(t * way - from_m, along_m) / length2;
+  float share = dot(t * direction - from_m, along_m) / length2;
   return t < kMissed && share >= 0.0 && share <= 1.0 ? t : kMissed;
 }
 #endif
@@ -44,11 +44,11 @@ float wallAt(vec3 way, vec3 from_m, vec3 along_m, float radius_m) {
 void main() {
   depth_m = position_m.z;
 #ifdef ROUND
-  vec3 way = position_m / position_m.z;
-  float t = min(sphereAt(way, first_end.xyz, first_end.w), sphereAt(way, last_end.xyz, first_end.w));
-  t = min(t, wallAt(way, first_end.xyz, last_end.xyz - first_end.xyz, first_end.w));
+  vec3 direction = position_m / position_m.z;
+  float t = min(sphereAt(direction, first_end.xyz, first_end.w), sphereAt(direction, last_end.xyz, first_end.w));
+  t = min(t, wallAt(direction, first_end.xyz, last_end.xyz - first_end.xyz, first_end.w));
   depth_m = t;
-  vec4 clip = clip_from_optical * vec4(t * way, 1.0);
+  vec4 clip = clip_from_optical * vec4(t * direction, 1.0);
   float depth = 0.5 + 0.5 * clip.z / clip.w;
   float slope = fwidth(depth);
   if (t == kMissed) discard;

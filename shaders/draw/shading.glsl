@@ -28,10 +28,10 @@ Light lightAt(vec3 position_m) {
   Light light = Light(kToKey, kKeyLight, 1.0);
 #ifdef LENS_LIGHT
   for (int i = 0; i < lens_lights; ++i) {
-    vec3 way_m = position_m - kBesideLens_m;
-    float away2 = dot(way_m, way_m), aside = length(way_m.xy) / (max(way_m.z, 1e-6) * lens_light.y);
+    vec3 offset_m = position_m - kBesideLens_m;
+    float away2 = dot(offset_m, offset_m), aside = length(offset_m.xy) / (max(offset_m.z, 1e-6) * lens_light.y);
     float share = exp2(-aside * aside) * min(lens_light.x * lens_light.x / away2, kMostNearness);
-    light.to_key = -way_m * inversesqrt(away2);
+    light.to_key = -offset_m * inversesqrt(away2);
     light.key *= share;
     light.fill = kCavityFill * share;  // light reflected by lit tissue around
   }

@@ -21,7 +21,7 @@ in vec4 rest;
 #ifdef GRAIN
 in float patches;
 #endif
-layout(location = 0) out uvec4 place;
+layout(location = 0) out uvec4 position;
 layout(location = 1) out uvec2 finish;
 
 void main() {
@@ -30,7 +30,7 @@ void main() {
   vec3 flat_normal = flatNormal(position_m);
   bool turned_away = wall && dot(gl_FrontFacing ? outward : -outward, normalize(-position_m)) < kTurnedAway;
   if (turned_away || dot(normal, normal) <= 0.01) outward = gl_FrontFacing ? flat_normal : -flat_normal;
-  place = uvec4(floatBitsToUint(rest.xyz), directionCode(outward, gl_FrontFacing));
+  position = uvec4(floatBitsToUint(rest.xyz), directionCode(outward, gl_FrontFacing));
   uint beside = wall ? uint(clamp(rest.w / kDeepestSeen_m, 0.0, 1.0) * 16777214.0) : kNoSeenChart;
 #ifdef DETAIL
   uint chart = texelFetch(shown_charts, first_chart + gl_PrimitiveID).r;

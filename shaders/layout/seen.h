@@ -11,7 +11,7 @@ namespace viscera::layout {
 #endif
 
 const uint kUnitSeenDepths = 22u;    // depth
-const uint kUnitSeenPlaces = 23u;    // rgba32ui: xyz rest position, as bits of floats [m]; w see directionCode()
+const uint kUnitSeenPositions = 23u;  // rgba32ui: xyz rest position, as bits of floats [m]; w see directionCode()
 const uint kUnitSeenFinishes = 24u;  // rg32ui: x code of alpha << 24 and a texture chart or a wall's depth, y sRGB colour and patches
 const uint kUnitOver = 25u;          // sRGB colours times alpha, and alpha: what is drawn over the tissue
 const uint kUnitGrainSlopes = 26u;   // slope of the relief of the grain: 128/255 is flat

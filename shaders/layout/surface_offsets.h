@@ -11,10 +11,10 @@
 namespace viscera::layout {
 #endif
 
-const uint kWayBits = 9u;        // bits of a component; the lowest is x
-const int kWayZero = 256;        // code of 0
-const float kWayStep = 1.0f / 128.0f;  // step of a component, in cells: +-2 in total
-const uint kWayEdgeBit = 1u << 27u;    // there is an edge from the node along x, towards the sign of the component; then y, z
+const uint kOffsetBits = 9u;     // bits of a component; the lowest is x
+const int kOffsetZero = 256;     // code of 0
+const float kOffsetStep = 1.0f / 128.0f;  // step of a component, in cells: +-2 in total
+const uint kOffsetEdgeBit = 1u << 27u;  // there is an edge from the node along x, towards the sign of the component; then y, z
 // Largest distance of tissue from a node outside it, in cells: a cell's diagonal, and as much again where its edges are stretched or turned
 // (shaders/solver/tissue/surface_offset.glsl).
 const float kFarthestTissue = 3.5f;

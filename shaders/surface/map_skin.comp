@@ -113,13 +113,13 @@ void mapInCell(uint vertex, SkinBinding s, float spacing, vec3 rest1, vec3 rest2
   Basis rest = triangleBasis(rest1, rest2, rest1, rest2);
   uint own = (s.springs >> kCornerShift) & 7u;
   vec3 from_own = s.weights.y * rest1 + s.weights.z * rest2 + inSpace(rest, xyz(s.offset_constant)) / spacing;
-  vec3 place = vec3(float(own & 1u), float((own >> 1) & 1u), float((own >> 2) & 1u)) + from_own;
+  vec3 position = vec3(float(own & 1u), float((own >> 1) & 1u), float((own >> 2) & 1u)) + from_own;
   vec3 moved = vec3(0.0f), along_x = vec3(0.0f), along_y = vec3(0.0f), along_z = vec3(0.0f);  // du/dp
   for (uint c = 0u; c < 8u; ++c) {
     vec3 u = xyz(displacement[cellCorner(s, c)]);
     float sx = (c & 1u) != 0u ? 1.0f : -1.0f, sy = (c & 2u) != 0u ? 1.0f : -1.0f, sz = (c & 4u) != 0u ? 1.0f : -1.0f;
-    float wx = (c & 1u) != 0u ? place.x : 1.0f - place.x, wy = (c & 2u) != 0u ? place.y : 1.0f - place.y;
-    float wz = (c & 4u) != 0u ? place.z : 1.0f - place.z;
+    float wx = (c & 1u) != 0u ? position.x : 1.0f - position.x, wy = (c & 2u) != 0u ? position.y : 1.0f - position.y;
+    float wz = (c & 4u) != 0u ? position.z : 1.0f - position.z;
     moved += wx * wy * wz * u;
     along_x += sx * wy * wz * u;
     along_y += wx * sy * wz * u;

@@ -47,7 +47,7 @@ Album::~Album() {
   if (writer_.joinable()) writer_.join();
 }
 
-FrameRequest Album::wants(const Session& session) {
+FrameRequest Album::outputs(const Session& session) {
   FrameRequest out = filesOf(session);
   if (!film_) return out;
   out.every_image = true;

@@ -41,7 +41,7 @@ class Album {
   Album& operator=(const Album&) = delete;
 
   /// Returns the outputs that the session's next step should produce.
-  FrameRequest wants(const Session& session);
+  FrameRequest outputs(const Session& session);
   /// Adds the images of a frame. Blocks only if more than kWaiting images wait to be written.
   /// @throws ImageError, Error  for an earlier image
   void add(Frame&& frame);

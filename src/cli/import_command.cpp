@@ -123,7 +123,7 @@ Organ joined(const std::vector<Organ>& organs) {
 }
 
 /// Notes the volume that smoothing removes from a label with pieces one or two voxels thick.
-void noteLostVolume(const Organ& organ, double voxels_m3, std::vector<std::string>& notes) {
+void reportLostVolume(const Organ& organ, double voxels_m3, std::vector<std::string>& notes) {
   constexpr double kMostLost = 0.05;  // share; less for a tube of three voxels
   if (organ.volume_m3 >= (1 - kMostLost) * voxels_m3) return;
   TextOut out;
@@ -170,7 +170,7 @@ std::vector<Organ> organsOf(const ReadScan& read, const ImportOptions& options, 
       continue;
     }
     organ.volume_m3 = signedVolume(organ.mesh);
-    if (!options.by_window) noteLostVolume(organ, voxels_m3[n], notes);
+    if (!options.by_window) reportLostVolume(organ, voxels_m3[n], notes);
     for (const Vector3f& p : organ.mesh.positions_m) organ.box_m.extend(p.cast<double>());
     organ.held_m = heldOf(organ.mesh);
     largest_m3 = std::max(largest_m3, organ.volume_m3);
@@ -261,8 +261,8 @@ std::string sceneOf(const std::vector<Organ>& organs, const std::string& scan) {
   stylus.cut.blade_length_m = 0.022;
   stylus = scaledTools(stylus, sizeOf(all));
   out << "styluses:\n";
-  for (const char* hand : {"left", "right"}) {
-    out << "  - {name: " << hand
+  for (const char* side : {"left", "right"}) {
+    out << "  - {name: " << side
         << ", idle: probe, button1: grab, button2: cut, probe: {radius_m: " << stylus.probe.radius_m
         << "}, grab: {radius_m: " << stylus.grab.radius_m << "}, cut: {blade_length_m: " << stylus.cut.blade_length_m
         << "}, shaft_length_m: " << stylus.shaft_length_m << "}\n";
@@ -272,9 +272,9 @@ std::string sceneOf(const std::vector<Organ>& organs, const std::string& scan) {
   const double distance = 0.5 * all.sizes().norm() / std::sin(half);
   out << "cameras:\n  - {name: camera, position_m: [" << listText(distance * Vector3d(1, 0.35, 0.3).normalized())
       << "], target_m: [0, 0, 0], vertical_fov_deg: " << kFieldOfViewDeg << "}\n";
-  for (const auto& [name, way, up] : {std::tuple("from_left", Vector3d::UnitY(), "[0, 0, 1]"),
-                                      std::tuple("from_above", Vector3d::UnitZ(), "[1, 0, 0]")})
-    out << "  - {name: " << name << ", position_m: [" << listText(distance * way)
+  for (const auto& [name, direction, up] : {std::tuple("from_left", Vector3d::UnitY(), "[0, 0, 1]"),
+                                            std::tuple("from_above", Vector3d::UnitZ(), "[1, 0, 0]")})
+    out << "  - {name: " << name << ", position_m: [" << listText(distance * direction)
         << "], target_m: [0, 0, 0], up: " << up << ", vertical_fov_deg: " << kFieldOfViewDeg
         << ", width_px: 320, height_px: 240, rate_hz: 5}\n";
   return out.str();

@@ -45,8 +45,8 @@ class Replayed {
     tasks_ = std::make_unique<TaskRun>(*session_, reportFolder(), !options_.no_view, options_.name.value_or(""));
     return *session_;
   }
-  FrameRequest wants(const Session& session) {
-    if (!hands_) hands_.emplace(*session_);
+  FrameRequest outputs(const Session& session) {
+    if (!tools_) tools_.emplace(*session_);
     if ((film_ || !options_.out.empty()) && !album_) {
       ++pieces_;
       folder_ = options_.out + (pieces_ == 1 || options_.out.empty() ? "" : "/piece_" + std::to_string(pieces_));
@@ -54,7 +54,7 @@ class Replayed {
       album_ = std::make_unique<Album>(folder_, session.scene(), Strokes{}, UINT64_MAX, pictures,
                                        Album::Kinds{options_.depth, options_.labels}, film_);
     }
-    return album_ ? album_->wants(session) : FrameRequest{};
+    return album_ ? album_->outputs(session) : FrameRequest{};
   }
   void stepped(Frame&& frame, double at_s) {
     if (album_) album_->add(std::move(frame));
@@ -65,17 +65,17 @@ class Replayed {
   }
   /// Writes images and tables since the last jump; measures are kept.
   void endPiece() {
-    if (!session_ || !hands_) return;
+    if (!session_ || !tools_) return;
     Frame last = session_->drain();
-    measures_.push_back(hands_->rows().metrics());
+    measures_.push_back(tools_->rows().metrics());
     if (album_) {
       album_->add(std::move(last));
       if (!folder_.empty()) addSkin();
       album_->finish();
-      if (!folder_.empty()) writeHands(hands_->rows(), folder_);
+      if (!folder_.empty()) writeTools(tools_->rows(), folder_);
     }
     album_.reset();
-    hands_.reset();
+    tools_.reset();
   }
   /// Ends the piece and the tasks of the session.
   void end() {
@@ -106,7 +106,7 @@ class Replayed {
   Film* const film_;
   std::unique_ptr<gpu::Context> context_;
   std::unique_ptr<Session> session_;
-  std::optional<ToolLog> hands_;
+  std::optional<ToolLog> tools_;
   std::unique_ptr<TaskRun> tasks_;
   std::unique_ptr<Album> album_;
   std::string folder_;
@@ -182,7 +182,7 @@ int replay(const ReplayOptions& options) {
   SessionReplay::Ports ports;
   ports.make = [&](const Scene& scene, size_t) -> Session& { return replayed.make(scene); };
   ports.leaps = [&](Session&) { replayed.endPiece(); };
-  ports.wants = [&](const Session& session) { return replayed.wants(session); };
+  ports.outputs = [&](const Session& session) { return replayed.outputs(session); };
   ports.stepped = [&](Session&, Frame&& frame, double at_s) { replayed.stepped(std::move(frame), at_s); };
   const SessionReplay::Outcome outcome = recording.run(options.from_s, until_s, options.overrides, ports);
   replayed.end();

@@ -81,10 +81,10 @@ void resume(Session& session, const std::string& file, uint64_t ticks) {
 void exportNow(Session& session, Exporter& exporter, Album& album) {
   if (!exporter.ofSkin()) return exporter.add(session, {});
   album.add(session.drain());  // makes room for the next frame
-  FrameRequest wants;
-  wants.surface = wants.every_image = true;
+  FrameRequest outputs;
+  outputs.surface = outputs.every_image = true;
   Frame frame;
-  static_cast<Pictures&>(frame) = session.show(wants);
+  static_cast<Pictures&>(frame) = session.show(outputs);
   if (!frame.surface) throw Error("--export: the skin of tick " + std::to_string(session.tick()) + " is missing");
   exporter.add(session, *frame.surface);
   album.add(std::move(frame));
@@ -116,7 +116,7 @@ std::unique_ptr<TaskRun> beginTask(Session& session, const RunOptions& options) 
 }
 
 /// Prints which styluses of the strokes are outside the workspace of a device.
-void sayFarHands(const Strokes& strokes, const Scene& scene) {
+void sayFarTools(const Strokes& strokes, const Scene& scene) {
   for (const StylusConfig& stylus : scene.styluses) {
     double farthest_m = 0;
     for (const Stroke& stroke : strokes.strokes) {
@@ -223,7 +223,7 @@ int run(const RunOptions& options) {
   requireOutputs(outputs);  // all inputs are known at this point
   requireSomethingToWrite(options, session, ticks);
   const std::vector<std::string> stroke_notes = resolveAnchors(strokes, session.model(), scene.fit);
-  sayFarHands(strokes, scene);
+  sayFarTools(strokes, scene);
   printNotes(session, stroke_notes);
   const RunFolder folder(options.out);
   const std::unique_ptr<Film> film = beginFilm(options.film, scene);
@@ -231,8 +231,8 @@ int run(const RunOptions& options) {
               film.get());
   printRecording(strokes);
   if (!options.resume.empty()) resume(session, options.resume, ticks);
-  std::optional<ToolLog> hands;
-  if (!options.strokes.empty()) hands.emplace(session);
+  std::optional<ToolLog> tools;
+  if (!options.strokes.empty()) tools.emplace(session);
   std::optional<SessionRecorder> recorder;
   if (!options.record.empty()) recorder.emplace(options.record).follow(session);
   const std::unique_ptr<TaskRun> task = beginTask(session, options);
@@ -243,7 +243,7 @@ int run(const RunOptions& options) {
   for (uint64_t t = session.tick(); t < ticks; ++t) {
     const double time_s = static_cast<double>(t + 1) * session.tick_s();
     if (strokes.inputReset(t + 1)) session.resetInput();
-    album.add(session.step(strokes.at(time_s, scene.styluses), album.wants(session)));
+    album.add(session.step(strokes.at(time_s, scene.styluses), album.outputs(session)));
     progress("simulating", static_cast<double>(t + 1) / static_cast<double>(ticks));
     if (exporter && exporter->isDue(t + 1)) exportNow(session, *exporter, album);
     if (save_ticks > 0 && (t + 1) % save_ticks == 0) session.save(options.save);
@@ -260,9 +260,9 @@ int run(const RunOptions& options) {
 
   Json metrics = metricsOf(session, stats, context ? context->renderer() : "none", wall_s);
   compareWithRecording(strokes, ticks, metrics);
-  if (hands) metrics["tools"] = hands->rows().metrics();
+  if (tools) metrics["tools"] = tools->rows().metrics();
   if (task) metrics["tasks"] = task->finish();
-  if (hands && !options.out.empty()) writeHands(hands->rows(), options.out);
+  if (tools && !options.out.empty()) writeTools(tools->rows(), options.out);
   putMetrics(metrics, task.get(), options.out);
   return 0;
 }

@@ -21,10 +21,10 @@ constexpr const char* kListName = "/.viscera_run";
 constexpr const char* kListHead = "# files of the last run into this folder; the next run removes them";
 
 /// Returns the canonical path of a file; of one that does not exist, its future path.
-fs::path placeOf(const std::string& path) {
+fs::path resolvedPath(const std::string& path) {
   std::error_code error;
-  const fs::path place = fs::weakly_canonical(fs::absolute(path, error), error);
-  return error ? fs::path(path).lexically_normal() : place;
+  const fs::path resolved = fs::weakly_canonical(fs::absolute(path, error), error);
+  return error ? fs::path(path).lexically_normal() : resolved;
 }
 
 /// Returns whether a listed name is within the folder. @param name  name from a list
@@ -49,7 +49,7 @@ void requireOutputs(const std::vector<Output>& outputs) {
     if (outputs[i].path.empty()) continue;
     requireReplaceable(outputs[i].path, outputs[i].kind);
     for (size_t j = 0; j < i; ++j) {
-      if (outputs[j].path.empty() || placeOf(outputs[j].path) != placeOf(outputs[i].path)) continue;
+      if (outputs[j].path.empty() || resolvedPath(outputs[j].path) != resolvedPath(outputs[i].path)) continue;
       throw Error(outputs[j].option + " and " + outputs[i].option + " both write " + outputs[i].path +
                   "; give each its own file");
     }

@@ -47,15 +47,15 @@ std::unique_ptr<gpu::Context> contextFor(bool no_view, const Scene& scene) {
   try {
     return std::make_unique<gpu::Context>(scene.solver.device);
   } catch (const GpuError& error) {
-    const char* const way_out = no_view ? "; solver.backend: cpu or auto works without OpenGL, on the CPU"
-                                        : "; --no-view works without OpenGL, on the CPU and without pictures";
-    throw GpuError(error.what() + std::string(way_out));
+    const char* const remedy = no_view ? "; solver.backend: cpu or auto works without OpenGL, on the CPU"
+                                       : "; --no-view works without OpenGL, on the CPU and without pictures";
+    throw GpuError(error.what() + std::string(remedy));
   }
 }
 
-void writeHands(const ToolRows& hands, const std::string& folder) {
-  hands.write(folder + "/tools.csv");
-  hands.writeJigsaws(folder + "/kinematics.txt");
+void writeTools(const ToolRows& tools, const std::string& folder) {
+  tools.write(folder + "/tools.csv");
+  tools.writeJigsaws(folder + "/kinematics.txt");
 }
 
 }  // namespace viscera::cli

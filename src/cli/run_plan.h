@@ -25,6 +25,6 @@ RunPlan planRun(const RunOptions& options);
 std::unique_ptr<gpu::Context> contextFor(bool no_view, const Scene& scene);
 
 /// Writes tools.csv and kinematics.txt. @throws Error  one cannot be written
-void writeHands(const ToolRows& hands, const std::string& folder);
+void writeTools(const ToolRows& tools, const std::string& folder);
 
 }  // namespace viscera::cli

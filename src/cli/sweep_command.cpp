@@ -31,7 +31,7 @@ namespace viscera::cli {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLookAgain{500};  // period of checking runs that others have claimed
+constexpr std::chrono::milliseconds kRetryAfter{500};  // period of checking runs that others have claimed
 
 /// Returns the last line of a file that is not empty.
 std::string lastLine(const std::string& path) {
@@ -157,7 +157,7 @@ class Sweep {
           did = true;
         }
         if (!open) return;
-        if (!did) std::this_thread::sleep_for(kLookAgain);
+        if (!did) std::this_thread::sleep_for(kRetryAfter);
       }
     } catch (...) {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -167,16 +167,16 @@ class Sweep {
   }
 
   void make(size_t run, const SweepFolder::Claim& claim) {
-    const std::string place = folder_.runFolder(run);
+    const std::string run_folder = folder_.runFolder(run);
     std::vector<std::string> arguments = plan_.arguments(run);
     // Concurrent sessions use one CPU thread each. The state hash does not depend on it.
     if (options_.jobs > 1 && !plan_.sets("solver.threads"))
       arguments.insert(arguments.end(), {"--set", "solver.threads=1"});
-    if (plan_.keep) arguments.insert(arguments.end(), {"--out", place + "/out"});
-    const std::optional<int> ended =
-        runToEnd(program_, arguments, place + "/output.txt", place + "/error.txt", claim.file(), options_.run_limit_s);
-    const std::string said = lastLine(place + "/output.txt");
-    const std::string why = howItFailed(ended, options_.run_limit_s, lastLine(place + "/error.txt"));
+    if (plan_.keep) arguments.insert(arguments.end(), {"--out", run_folder + "/out"});
+    const std::optional<int> ended = runToEnd(program_, arguments, run_folder + "/output.txt",
+                                              run_folder + "/error.txt", claim.file(), options_.run_limit_s);
+    const std::string said = lastLine(run_folder + "/output.txt");
+    const std::string why = howItFailed(ended, options_.run_limit_s, lastLine(run_folder + "/error.txt"));
     const bool done = ended == 0 && nlohmann::json::parse(said, nullptr, false).is_object();
     if (done)
       folder_.keepResult(run, said);

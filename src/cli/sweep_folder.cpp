@@ -40,7 +40,7 @@ bool exists(const std::string& path) {
 }
 
 /// Returns the value of a metric in a result as text; empty if there is none.
-std::string told(const Json& result, const std::string& name) {
+std::string resultOf(const Json& result, const std::string& name) {
   const auto found = result.find(name);
   if (found == result.end()) return "";
   return found->is_string() ? found->get<std::string>() : found->dump();
@@ -151,7 +151,7 @@ SweepTable SweepFolder::table() const {
   }
   for (const std::string& name : metricsOf(results)) {
     SweepTable::Column column{name, {}};
-    for (const Json& result : results) column.cells.push_back(told(result, name));
+    for (const Json& result : results) column.cells.push_back(resultOf(result, name));
     out.columns.push_back(std::move(column));
   }
   out.columns.push_back(std::move(last));

@@ -39,10 +39,10 @@ void TaskRun::begin(const TaskConfig& task) {
 
 void TaskRun::takePicture(const std::string& caption, const std::string& name) {
   if (!pictures_) return;
-  FrameRequest wants;
-  wants.every_image = true;
-  wants.cameras = {true};
-  for (ImageFrame& image : session_.show(wants).images) {
+  FrameRequest outputs;
+  outputs.every_image = true;
+  outputs.cameras = {true};
+  for (ImageFrame& image : session_.show(outputs).images) {
     if (watch_.task()) drawTask(*watch_.task(), session_.scene().cameras[0], image);
     std::filesystem::create_directories(folder_);
     writePng(folder_ + "/" + name + ".png", image.width, image.height, image.rgb);

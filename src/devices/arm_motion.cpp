@@ -12,7 +12,7 @@ namespace {
 constexpr double kPeakOverMean = 15.0 / 8;  // ratio of the speeds along the path
 constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
 
-double shareOfWay(double s) {
+double shareOfPath(double s) {
   return s * s * s * (10 + s * (-15 + 6 * s));
 }
 
@@ -53,7 +53,7 @@ std::optional<std::string> ArmMotion::command(const std::string& text) {
   }
   if (state_ != State::kEnabled) {
     stop();
-    jaw_way_ = {};
+    jaw_path_ = {};
   }
   return std::nullopt;
 }
@@ -66,18 +66,18 @@ bool ArmMotion::servo(const Pose& setpoint) {
 }
 
 void ArmMotion::stop() {
-  way_ = {};
+  path_ = {};
   velocity_left_s_ = 0;
 }
 
-void ArmMotion::Way::begin(double least_s) {
+void ArmMotion::Path::begin(double least_s) {
   // a goal that is already reached takes a moment too: a client that waits for the end must see a beginning
   *this = {std::max(kPeakOverMean * least_s, 1e-3), 0};
 }
 
-double ArmMotion::Way::advance(double span_s) {
+double ArmMotion::Path::advance(double span_s) {
   done_s += span_s;
-  if (done_s < duration_s) return shareOfWay(done_s / duration_s);
+  if (done_s < duration_s) return shareOfPath(done_s / duration_s);
   *this = {};
   return 1;
 }
@@ -87,9 +87,9 @@ bool ArmMotion::move(const Pose& goal) {
   stop();
   start_ = setpoint_;
   goal_ = goal;
-  const double way_m = (goal.position_m - start_.position_m).norm();
+  const double offset_m = (goal.position_m - start_.position_m).norm();
   const double turn_rad = start_.orientation.angularDistance(goal.orientation);
-  way_.begin(std::max(way_m / config_.speed_m_per_s, turn_rad / (kRadPerDeg * config_.turn_deg_per_s)));
+  path_.begin(std::max(offset_m / config_.speed_m_per_s, turn_rad / (kRadPerDeg * config_.turn_deg_per_s)));
   return true;
 }
 
@@ -104,7 +104,7 @@ bool ArmMotion::servoVelocity(const Vector3d& linear_m_per_s, const Vector3d& an
 
 bool ArmMotion::servoJaw(double angle_rad) {
   if (state_ != State::kEnabled) return false;
-  jaw_way_ = {};
+  jaw_path_ = {};
   jaw_rad_ = angle_rad;
   return true;
 }
@@ -113,20 +113,20 @@ bool ArmMotion::moveJaw(double goal_rad) {
   if (state_ != State::kEnabled) return false;
   jaw_start_rad_ = jaw_rad_;
   jaw_goal_rad_ = goal_rad;
-  jaw_way_.begin(std::abs(goal_rad - jaw_rad_) / (kRadPerDeg * config_.turn_deg_per_s));
+  jaw_path_.begin(std::abs(goal_rad - jaw_rad_) / (kRadPerDeg * config_.turn_deg_per_s));
   return true;
 }
 
 bool ArmMotion::hold() {
   if (state_ != State::kEnabled) return false;
   stop();
-  jaw_way_ = {};
+  jaw_path_ = {};
   return true;
 }
 
 void ArmMotion::advance(double span_s) {
-  if (way_.duration_s > 0) {
-    const double share = way_.advance(span_s);
+  if (path_.duration_s > 0) {
+    const double share = path_.advance(span_s);
     setpoint_ = share == 1 ? goal_ : interpolate(start_, goal_, share);
   }
   if (velocity_left_s_ > 0) {
@@ -139,8 +139,8 @@ void ArmMotion::advance(double span_s) {
       setpoint_.orientation = (turn * setpoint_.orientation).normalized();
     }
   }
-  if (jaw_way_.duration_s > 0) {
-    const double share = jaw_way_.advance(span_s);
+  if (jaw_path_.duration_s > 0) {
+    const double share = jaw_path_.advance(span_s);
     jaw_rad_ = share == 1 ? jaw_goal_rad_ : jaw_start_rad_ + share * (jaw_goal_rad_ - jaw_start_rad_);
   }
 }

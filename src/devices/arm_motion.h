@@ -37,16 +37,16 @@ class ArmMotion {
 
   State state() const { return state_; }
   bool homed() const { return homed_; }
-  bool busy() const { return way_.duration_s > 0 || jaw_way_.duration_s > 0; }  ///< whether a move is in progress
-  bool moves() const { return busy() || velocity_left_s_ > 0; }                 ///< whether the setpoint changes
+  bool busy() const { return path_.duration_s > 0 || jaw_path_.duration_s > 0; }  ///< whether a move is in progress
+  bool moves() const { return busy() || velocity_left_s_ > 0; }                   ///< whether the setpoint changes
   const Pose& setpoint() const { return setpoint_; }
-  const Pose& goal() const { return way_.duration_s > 0 ? goal_ : setpoint_; }  ///< goal, or setpoint at rest
+  const Pose& goal() const { return path_.duration_s > 0 ? goal_ : setpoint_; }  ///< goal, or setpoint at rest
   double jaw_rad() const { return jaw_rad_; }
   static constexpr double kVelocityHolds_s = 0.1;  ///< duration of a velocity [s]: clients stream at 10 Hz or more
 
  private:
   /// Progress of a move.
-  struct Way {
+  struct Path {
     double duration_s = 0, done_s = 0;  ///< 0: there is no move
     void begin(double least_s);
     /// Advances the progress. @returns the share of the path; 1 at its end, which also ends the move
@@ -61,7 +61,7 @@ class ArmMotion {
   Vector3d linear_m_per_s_ = Vector3d::Zero(), angular_rad_per_s_ = Vector3d::Zero();
   double velocity_left_s_ = 0;
   double jaw_rad_, jaw_start_rad_ = 0, jaw_goal_rad_ = 0;
-  Way way_, jaw_way_;
+  Path path_, jaw_path_;
 };
 
 const char* text(ArmMotion::State state);  ///< name in CRTK: DISABLED, ENABLED, PAUSED

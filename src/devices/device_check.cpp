@@ -27,7 +27,7 @@ constexpr double kLost_s = 0.2;                        ///< time after which pos
 constexpr double kOldStamp_s = 0.2;
 constexpr double kTremble_m = 0.003;  ///< tremor of a device that is held still, RMS [m]
 constexpr double kNorm = 0.1;         ///< tolerance of a quaternion's norm, as in the simulator
-constexpr double kFelt_n = 0.05;
+constexpr double kLeastForce_n = 0.05;
 constexpr double kAgainst = 0.5;   ///< cosine
 constexpr double kBefore_s = 0.5;  ///< time before a touch in which the device approaches [s]
 
@@ -172,7 +172,7 @@ Verdict judgeButton(const std::vector<ReceivedButton>& events, const ButtonPort&
 }
 
 Verdict judgeForce(const std::vector<ReceivedForce>& forces, const std::vector<ReceivedPose>& heard) {
-  const auto placeAt = [&](double came_s) {
+  const auto positionAt = [&](double came_s) {
     Vector3d at = heard.empty() ? Vector3d(Vector3d::Zero()) : heard.front().pose.position_m;
     for (const ReceivedPose& it : heard) {
       if (it.came_s > came_s) break;
@@ -182,18 +182,18 @@ Verdict judgeForce(const std::vector<ReceivedForce>& forces, const std::vector<R
   };
   bool touches = false;
   double most_n = 0, begun_s = 0;
-  Vector3d way = Vector3d::Zero(), strongest_n = Vector3d::Zero();
+  Vector3d displacement = Vector3d::Zero(), strongest_n = Vector3d::Zero();
   for (const ReceivedForce& force : forces) {
     const double size_n = force.force_n.norm();
-    if (!std::exchange(touches, size_n >= kFelt_n) && touches) begun_s = force.came_s;
+    if (!std::exchange(touches, size_n >= kLeastForce_n) && touches) begun_s = force.came_s;
     if (size_n <= most_n) continue;
     most_n = size_n;
     strongest_n = force.force_n;
-    way = placeAt(force.came_s) - placeAt(begun_s - kBefore_s);
+    displacement = positionAt(force.came_s) - positionAt(begun_s - kBefore_s);
   }
-  const double cosine = strongest_n.dot(way) / std::max(most_n * way.norm(), 1e-300);
+  const double cosine = strongest_n.dot(displacement) / std::max(most_n * displacement.norm(), 1e-300);
   if (forces.empty()) return {Grade::kNote, "force: none was sent; does a simulator run with this device?"};
-  if (most_n < kFelt_n || way.norm() == 0)
+  if (most_n < kLeastForce_n || displacement.norm() == 0)
     return {Grade::kNote, "force: " + rounded(most_n, 2) + " N at most; the tip did not enter tissue"};
   const std::string text = "force: up to " + rounded(most_n, 2) + " N, ";
   if (cosine < -kAgainst) return {Grade::kRight, text + "against the motion, out of the tissue"};

@@ -38,34 +38,34 @@ struct Verdict {
 std::vector<Verdict> judgeStream(const std::vector<ReceivedPose>& heard, double span_s, const PosePort& port);
 
 /// Motion of a device during a recording, from its initial to its final pose.
-struct HandMotion {
-  Vector3d way = Vector3d::Zero();   ///< displacement, in the device's units and axes
-  Vector3d turn = Vector3d::Zero();  ///< rotation vector [rad], in the device's axes
+struct DeviceMotion {
+  Vector3d displacement = Vector3d::Zero();  ///< displacement, in the device's units and axes
+  Vector3d turn = Vector3d::Zero();          ///< rotation vector [rad], in the device's axes
   Pose end;
 };
 /// Returns the motion. @returns nothing if fewer than kFewestPoses valid poses were recorded
-std::optional<HandMotion> motionOf(const std::vector<ReceivedPose>& heard);
+std::optional<DeviceMotion> motionOf(const std::vector<ReceivedPose>& heard);
 constexpr size_t kFewestPoses = 5;
 
 /// Motion that the user is prompted for. In the tissue frame right is +x, up +z, towards the user -y.
 enum class Asked { kRight, kUp, kTowards, kTurnLeft, kTiltRight, kTiltAway };
 Vector3d directionOf(Asked asked);  ///< direction of the displacement, or rotation axis; tissue frame
-constexpr double kAskedWay_m = 0.1, kAskedTurn_rad = 0.8;
+constexpr double kAskedMotion_m = 0.1, kAskedTurn_rad = 0.8;
 
 /// Recorded motions; empty if the user skipped one.
-struct HandMotions {
-  std::optional<HandMotion> right, up, towards, turn_left, tilt_right, tilt_away;
-  std::optional<HandMotion>& of(Asked asked);
+struct DeviceMotions {
+  std::optional<DeviceMotion> right, up, towards, turn_left, tilt_right, tilt_away;
+  std::optional<DeviceMotion>& of(Asked asked);
 };
 
 /// Checks whether a motion is large enough to be judged. @returns an error, after which to prompt again
 /// @param tremble  tremor of a position that is held still, RMS, device's units
-std::optional<std::string> unclear(Asked asked, const HandMotion& motion, double tremble);
+std::optional<std::string> unclear(Asked asked, const DeviceMotion& motion, double tremble);
 double trembleOf(const std::vector<ReceivedPose>& still);
 
 /// Judges the motion of the tool under this profile: right, mirrored, along another axis, or oblique.
 /// @param base  rotation from the frame of the device's poses to the tissue frame
-Verdict judgeMotion(Asked asked, const HandMotion& motion, const DeviceProfile& profile, const Quaterniond& base);
+Verdict judgeMotion(Asked asked, const DeviceMotion& motion, const DeviceProfile& profile, const Quaterniond& base);
 
 /// Keys of a profile that fit all motions.
 struct FoundMap {
@@ -73,7 +73,7 @@ struct FoundMap {
   std::optional<std::string> axes, turn_axes;
   std::vector<Verdict> verdicts;  ///< verdicts on units, and on motions that no axes fit
 };
-FoundMap findMap(const HandMotions& motions, const DeviceProfile& profile, const Quaterniond& base);
+FoundMap findMap(const DeviceMotions& motions, const DeviceProfile& profile, const Quaterniond& base);
 
 /// Verdict on the shaft's direction for an upright handle under this profile, and the orientation of `tip` that
 /// corrects it, if any.

@@ -13,27 +13,27 @@ DeviceMap::DeviceMap(const DeviceProfile& device)
   if (device.base.given) base_ = device.base.pose();
 }
 
-DeviceMap::Place DeviceMap::placeOf(const Pose& device_pose) const {
-  const Pose hand = Pose{axes_ * (unit_m_ * device_pose.position_m), turns_ * device_pose.orientation} * tip_;
-  const Vector3d scaled_m = scale_ * hand.position_m;
-  if (clutched_ && last_m_) return {{*last_m_, hand.orientation}, *last_m_ - scaled_m};
-  return {{scaled_m + offset_m_, hand.orientation}, offset_m_};
+DeviceMap::TipPose DeviceMap::tipOf(const Pose& device_pose) const {
+  const Pose stylus = Pose{axes_ * (unit_m_ * device_pose.position_m), turns_ * device_pose.orientation} * tip_;
+  const Vector3d scaled_m = scale_ * stylus.position_m;
+  if (clutched_ && last_m_) return {{*last_m_, stylus.orientation}, *last_m_ - scaled_m};
+  return {{scaled_m + offset_m_, stylus.orientation}, offset_m_};
 }
 
-void DeviceMap::accept(const Place& place) {
-  last_m_ = place.tip.position_m;
-  offset_m_ = place.offset_m;
+void DeviceMap::accept(const TipPose& tip_pose) {
+  last_m_ = tip_pose.tip.position_m;
+  offset_m_ = tip_pose.offset_m;
 }
 
 Pose DeviceMap::toBase(const Pose& device_pose) {
-  const Place place = placeOf(device_pose);
-  accept(place);
-  return place.tip;
+  const TipPose tip_pose = tipOf(device_pose);
+  accept(tip_pose);
+  return tip_pose.tip;
 }
 
 Pose DeviceMap::fromBase(const Pose& tip) const {
-  const Pose hand = Pose{(tip.position_m - offset_m_) / scale_, tip.orientation} * tip_.inverse();
-  return {axes_.conjugate() * hand.position_m / unit_m_, turns_.conjugate() * hand.orientation};
+  const Pose stylus = Pose{(tip.position_m - offset_m_) / scale_, tip.orientation} * tip_.inverse();
+  return {axes_.conjugate() * stylus.position_m / unit_m_, turns_.conjugate() * stylus.orientation};
 }
 
 }  // namespace viscera

@@ -17,15 +17,15 @@ class DeviceMap {
   explicit DeviceMap(const DeviceProfile& device);
 
   /// Result for a pose of the device that is not yet accepted.
-  struct Place {
+  struct TipPose {
     Pose tip;                              ///< pose of the tip in the frame of the device's base
     Vector3d offset_m = Vector3d::Zero();  ///< offset of the clutch at this pose [m]
   };
   /// Maps a pose. While the clutch is pressed, the tip keeps its last accepted position and only rotates.
-  Place placeOf(const Pose& device_pose) const;
+  TipPose tipOf(const Pose& device_pose) const;
   /// Accepts a result; the clutch continues from its position.
-  void accept(const Place& place);
-  /// Maps and accepts a pose: placeOf() and accept().
+  void accept(const TipPose& tip_pose);
+  /// Maps and accepts a pose: tipOf() and accept().
   Pose toBase(const Pose& device_pose);
   /// Returns the device's pose that toBase() maps to this one.
   Pose fromBase(const Pose& tip) const;

@@ -51,11 +51,11 @@ const char* nameOf(Asked asked) {
 }
 
 /// Describes the direction of a displacement.
-std::string wayText(const Vector3d& way) {
+std::string directionText(const Vector3d& displacement) {
   const char* const words[3][2] = {{"left", "right"}, {"towards you", "away from you"}, {"down", "up"}};
   Eigen::Index axis;
-  way.cwiseAbs().maxCoeff(&axis);
-  return words[axis][way[axis] > 0];
+  displacement.cwiseAbs().maxCoeff(&axis);
+  return words[axis][displacement[axis] > 0];
 }
 
 /// Describes the rotation about an axis.
@@ -167,7 +167,7 @@ Vector3d directionOf(Asked asked) {
   return -Vector3d::UnitX();
 }
 
-std::optional<HandMotion>& HandMotions::of(Asked asked) {
+std::optional<DeviceMotion>& DeviceMotions::of(Asked asked) {
   switch (asked) {
     case Asked::kRight:
       return right;
@@ -185,7 +185,7 @@ std::optional<HandMotion>& HandMotions::of(Asked asked) {
   return tilt_away;
 }
 
-std::optional<HandMotion> motionOf(const std::vector<ReceivedPose>& heard) {
+std::optional<DeviceMotion> motionOf(const std::vector<ReceivedPose>& heard) {
   std::vector<Pose> good;
   for (const ReceivedPose& it : heard) {
     const double norm = it.pose.orientation.norm();
@@ -203,25 +203,25 @@ std::optional<HandMotion> motionOf(const std::vector<ReceivedPose>& heard) {
   Quaterniond turned = good.back().orientation * good.front().orientation.conjugate();
   if (turned.w() < 0) turned.coeffs() *= -1;
   const Eigen::AngleAxisd turn(turned);
-  return HandMotion{end - begin, turn.angle() * turn.axis(), {end, good.back().orientation}};
+  return DeviceMotion{end - begin, turn.angle() * turn.axis(), {end, good.back().orientation}};
 }
 
-std::optional<std::string> unclear(Asked asked, const HandMotion& motion, double tremble) {
+std::optional<std::string> unclear(Asked asked, const DeviceMotion& motion, double tremble) {
   if (isTurn(asked) && motion.turn.norm() < kLeastTurn_rad)
     return "it turned by " + rounded(kDegPerRad * motion.turn.norm(), 0) +
            " degrees only; about 45 are needed. If you turned it that far, the device sends no orientations";
-  if (!isTurn(asked) && motion.way.norm() < std::max(kUnsaid, kTrembles * tremble))
+  if (!isTurn(asked) && motion.displacement.norm() < std::max(kUnsaid, kTrembles * tremble))
     return std::string("its position did not change, or not more than its noise");
   return std::nullopt;
 }
 
-Verdict judgeMotion(Asked asked, const HandMotion& motion, const DeviceProfile& profile, const Quaterniond& base) {
+Verdict judgeMotion(Asked asked, const DeviceMotion& motion, const DeviceProfile& profile, const Quaterniond& base) {
   const bool turn = isTurn(asked);
   const Vector3d moved = turn ? Vector3d(base * (turnAxesOf(profile) * motion.turn))
-                              : Vector3d(base * (axesOf(profile.pose.axes, "pose.axes") * motion.way));
+                              : Vector3d(base * (axesOf(profile.pose.axes, "pose.axes") * motion.displacement));
   const double cosine = moved.normalized().dot(directionOf(asked));
   const std::string name = nameOf(asked);
-  const std::string does = turn ? turnText(moved) : "goes " + wayText(moved);
+  const std::string does = turn ? turnText(moved) : "goes " + directionText(moved);
   if (cosine >= kAlong) {
     const double size = profile.pose.unit_m * moved.norm();
     return {Grade::kRight, name + ": right, by " +
@@ -233,15 +233,16 @@ Verdict judgeMotion(Asked asked, const HandMotion& motion, const DeviceProfile& 
   return {Grade::kWrong, name + ": oblique, the tool moves " + degrees(cosine) + " off"};
 }
 
-FoundMap findMap(const HandMotions& motions, const DeviceProfile& profile, const Quaterniond& base) {
+FoundMap findMap(const DeviceMotions& motions, const DeviceProfile& profile, const Quaterniond& base) {
   FoundMap out;
-  std::vector<Pair> ways, turns;
+  std::vector<Pair> offsets, turns;
   std::vector<double> lengths;
-  const auto take = [&](const std::optional<HandMotion>& motion, Asked asked) {
+  const auto take = [&](const std::optional<DeviceMotion>& motion, Asked asked) {
     if (!motion) return;
     const Vector3d wanted = base.conjugate() * directionOf(asked);
-    (isTurn(asked) ? turns : ways).push_back({(isTurn(asked) ? motion->turn : motion->way).normalized(), wanted});
-    if (!isTurn(asked)) lengths.push_back(motion->way.norm());
+    (isTurn(asked) ? turns : offsets)
+        .push_back({(isTurn(asked) ? motion->turn : motion->displacement).normalized(), wanted});
+    if (!isTurn(asked)) lengths.push_back(motion->displacement.norm());
   };
   take(motions.right, Asked::kRight);
   take(motions.up, Asked::kUp);
@@ -249,12 +250,12 @@ FoundMap findMap(const HandMotions& motions, const DeviceProfile& profile, const
   take(motions.turn_left, Asked::kTurnLeft);
   take(motions.tilt_right, Asked::kTiltRight);
   take(motions.tilt_away, Asked::kTiltAway);
-  out.axes = axesFor(ways, axesOf(profile.pose.axes, "pose.axes"), "places", out.verdicts);
+  out.axes = axesFor(offsets, axesOf(profile.pose.axes, "pose.axes"), "places", out.verdicts);
   out.turn_axes = axesFor(turns, turnAxesOf(profile), "orientations", out.verdicts);
   if (lengths.empty()) return out;
   std::nth_element(lengths.begin(), lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2), lengths.end());
   const double length = lengths[lengths.size() / 2];
-  const auto off = [&](double unit_m) { return std::abs(std::log(length * unit_m / kAskedWay_m)); };
+  const auto off = [&](double unit_m) { return std::abs(std::log(length * unit_m / kAskedMotion_m)); };
   if (off(profile.pose.unit_m) < std::log(kUnitFactor)) {
     out.unit_m = profile.pose.unit_m;
     return out;
@@ -274,13 +275,13 @@ FoundMap findMap(const HandMotions& motions, const DeviceProfile& profile, const
 }
 
 FoundTip findTip(const Pose& upright, const DeviceProfile& profile, const Quaterniond& base) {
-  const Quaterniond hand = base * Quaterniond(turnAxesOf(profile)) * upright.orientation;
-  const Vector3d shaft = hand * profile.tip.orientation * Vector3d::UnitZ();
+  const Quaterniond device = base * Quaterniond(turnAxesOf(profile)) * upright.orientation;
+  const Vector3d shaft = device * profile.tip.orientation * Vector3d::UnitZ();
   if (shaft.z() >= kAlong) return {{Grade::kRight, "shaft of an upright handle: points up, right"}, std::nullopt};
-  const Vector3d up = hand.conjugate() * Vector3d::UnitZ();  // in the handle's frame
+  const Vector3d up = device.conjugate() * Vector3d::UnitZ();  // in the handle's frame
   Eigen::Index axis;
   const double along = up.cwiseAbs().maxCoeff(&axis);
-  const std::string said = "shaft of an upright handle: the tool's points " + wayText(shaft);
+  const std::string said = "shaft of an upright handle: the tool's points " + directionText(shaft);
   if (along < kAlong)
     return {{Grade::kWrong, said + ", and no axis of the handle's frame is parallel to it; was it upright?"},
             std::nullopt};

@@ -65,12 +65,12 @@ std::optional<double> distanceToSkin(const OrganSkin& skin, const Vector3d& poin
     // no point of a triangle is farther from its first corner than the longer edge from there
     const double reach = std::sqrt(std::max((b - a).squaredNorm(), (c - a).squaredNorm()));
     if ((a - point_m).squaredNorm() > (best_m + reach) * (best_m + reach)) continue;
-    const Vector3d way = point_m - nearestOf(a, b, c, point_m);
-    const double distance = way.norm();
+    const Vector3d offset = point_m - nearestOf(a, b, c, point_m);
+    const double distance = offset.norm();
     best_m = std::min(best_m, distance);
     if (distance > nearest + kTie) continue;
     // at an edge or a corner, the triangle with the largest distance of the point from its plane decides the side
-    const double side = (b - a).cross(c - a).normalized().dot(way);
+    const double side = (b - a).cross(c - a).normalized().dot(offset);
     if (distance < nearest - kTie || std::abs(side) > std::abs(sided)) sided = side;
     nearest = std::min(nearest, distance);
   }
@@ -95,7 +95,7 @@ Pose startBefore(const OrganSkin& skin, const Vector3d& side) {
   return {middle + (farthest_m + kStartGap_m) * out, Quaterniond(axes)};
 }
 
-Vector3d sideOfHand(bool left) {
+Vector3d sideOfTool(bool left) {
   const Vector3d to_viewer(std::cos(kViewYaw) * std::cos(kViewPitch), std::sin(kViewYaw) * std::cos(kViewPitch),
                            std::sin(kViewPitch));
   const Vector3d right = Vector3d::UnitZ().cross(to_viewer).normalized();

@@ -32,6 +32,6 @@ Pose startBefore(const OrganSkin& skin, const Vector3d& side);
 
 /// Returns `side` for a left or right tool in the view of config/viscera.rviz: in front of the organ, above it, and on
 /// the left or right of the image.
-Vector3d sideOfHand(bool left);
+Vector3d sideOfTool(bool left);
 
 }  // namespace viscera

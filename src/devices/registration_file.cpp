@@ -10,7 +10,7 @@
 namespace viscera {
 namespace {
 
-constexpr Range kPlace_m{-100, 100};
+constexpr Range kPosition_m{-100, 100};
 constexpr double kMostPoints = 1000;
 constexpr int kFileDigits = 9;           ///< YAML::Emitter would write numbers in the program's locale
 constexpr double kUnitTolerance = 1e-3;  ///< tolerance of a quaternion's norm: the user may leave out digits
@@ -38,12 +38,12 @@ struct FilePoints {
 };
 
 void visitFields(YamlReader& v, FileTip& c) {
-  v.vector("position_m", c.position_m, kPlace_m, "m", "position of the tip in the frame of the device's pose");
+  v.vector("position_m", c.position_m, kPosition_m, "m", "position of the tip in the frame of the device's pose");
 }
 
 void visitFields(YamlReader& v, FileBase& c) {
   c.line = v.line();
-  v.vector("position_m", c.position_m, kPlace_m, "m", "position of the device's base in the tissue frame");
+  v.vector("position_m", c.position_m, kPosition_m, "m", "position of the device's base in the tissue frame");
   v.numbers("orientation_xyzw", c.orientation_xyzw, {-1, 1}, "");
 }
 
@@ -57,7 +57,7 @@ void visitFields(YamlReader& v, FileRegistration& c) {
 
 void visitFields(YamlReader& v, FilePoint& c) {
   v.text("name", c.name, "name of the point");
-  v.vector("position_m", c.position_m, kPlace_m, "m", "position of the point in the tissue frame");
+  v.vector("position_m", c.position_m, kPosition_m, "m", "position of the point in the tissue frame");
 }
 
 void visitFields(YamlReader& v, FilePoints& c) {

@@ -69,7 +69,7 @@ void Exporter::addFile(const Session& session, const VisibleMesh& skin) {
   const std::string path = stem_ + numbered(session.tick());
   if (options_.format == ExportFormat::kGlb) return writeGlb(skin, path + ".glb");
   VisibleMesh moved = skin;
-  toFrame(options_.frame, session.scene().environment.scan_origin_m, Vectors::kPlaces, moved.positions_m);
+  toFrame(options_.frame, session.scene().environment.scan_origin_m, Vectors::kPositions, moved.positions_m);
   if (options_.frame == ExportFrame::kLpsMm) {
     for (uint32_t& normal : moved.normals) {
       const Vector3f n = unpackNormal(normal);

@@ -41,8 +41,8 @@ void forCells(const Body& body, uint32_t offset, const HostState& state, const V
     std::array<Vector3d, 8> u_m;
     const Vector3i at = body.lattice.nodeAt(slot);
     for (uint32_t c = 0; c < 8; ++c) {
-      const Vector3i way(static_cast<int>(c & 1), static_cast<int>(c >> 1 & 1), static_cast<int>(c >> 2 & 1));
-      cell.corners[c] = static_cast<uint32_t>(body.lattice.slotAt(at + way));
+      const Vector3i step(static_cast<int>(c & 1), static_cast<int>(c >> 1 & 1), static_cast<int>(c >> 2 & 1));
+      cell.corners[c] = static_cast<uint32_t>(body.lattice.slotAt(at + step));
       u_m[c] = xyz(state.displacement_m[offset + cell.corners[c]]);
     }
     cell.stress = stresses.at(slot, u_m);
@@ -77,13 +77,13 @@ NodeStrains nodeStrains(const Model& model, const HostState& state) {
 /// Points of nodes, with their fields.
 class NodePoints {
  public:
-  NodePoints(const Model& model, FieldMesh& mesh) : mesh_(mesh), place_(model.slots(), kNone) {
+  NodePoints(const Model& model, FieldMesh& mesh) : mesh_(mesh), position_(model.slots(), kNone) {
     mesh_.of_points = {{"displacement", 3, {}}, {"velocity", 3, {}}, {"body", 1, {}}, {"part", 1, {}}};
   }
   uint32_t of(const Body& body, size_t b, uint32_t offset, uint32_t slot, const HostState& state) {
-    uint32_t& place = place_[offset + slot];
-    if (place != kNone) return place;
-    place = static_cast<uint32_t>(mesh_.pointCount());
+    uint32_t& position = position_[offset + slot];
+    if (position != kNone) return position;
+    position = static_cast<uint32_t>(mesh_.pointCount());
     const Vector3d u = xyz(state.displacement_m[offset + slot]);
     add(mesh_.points, restPosition(body, slot) + u);
     add(mesh_.of_points[0].values, u);
@@ -91,13 +91,13 @@ class NodePoints {
     mesh_.of_points[2].values.push_back(static_cast<float>(b));
     const bool labelled = slot < body.lattice.labels.size();
     mesh_.of_points[3].values.push_back(labelled ? static_cast<float>(body.lattice.labels[slot]) : 0);
-    return place;
+    return position;
   }
 
  private:
   static constexpr uint32_t kNone = 0xffffffffu;
   FieldMesh& mesh_;
-  std::vector<uint32_t> place_;
+  std::vector<uint32_t> position_;
 };
 
 FieldMesh begun(const Session& session, uint32_t corners) {
@@ -201,9 +201,9 @@ FieldMesh networkFields(const Session& session) {
       if (state.spring_cut[index++] != 0) continue;
       mesh.cells.push_back(points.of(body, b, offset, spring.a, state));
       mesh.cells.push_back(points.of(body, b, offset, spring.b, state));
-      const Vector3d way = restPosition(body, spring.b) + xyz(state.displacement_m[offset + spring.b]) -
-                           restPosition(body, spring.a) - xyz(state.displacement_m[offset + spring.a]);
-      const double longer_m = way.norm() - spring.rest_length_m;
+      const Vector3d step = restPosition(body, spring.b) + xyz(state.displacement_m[offset + spring.b]) -
+                            restPosition(body, spring.a) - xyz(state.displacement_m[offset + spring.a]);
+      const double longer_m = step.norm() - spring.rest_length_m;
       mesh.of_cells[0].values.push_back(static_cast<float>(b));
       mesh.of_cells[1].values.push_back(static_cast<float>(0.5 * spring.stiffness_n_per_m * longer_m * longer_m));
       mesh.of_cells[2].values.push_back(static_cast<float>(spring.stiffness_n_per_m * longer_m));
@@ -224,13 +224,13 @@ FieldMesh sutureFields(const Session& session) {
   };
   for (size_t p = 0; p < suturePieces(session); ++p) {
     const size_t first = mesh.pointCount();
-    for (const Vector3d& place : suturePositions(session, p)) add(mesh.points, place);
+    for (const Vector3d& position : suturePositions(session, p)) add(mesh.points, position);
     const std::vector<double> tensions_n = sutureTensions_n(session, p);
     for (size_t i = 0; i < tensions_n.size(); ++i) link(sutureOf(session, p), first + i, tensions_n[i], false);
   }
   for (size_t t = 0; t < session.scene().sutures.size(); ++t) {
     const size_t tip = mesh.pointCount();
-    for (const Vector3d& place : needlePositions(session, t)) add(mesh.points, place);
+    for (const Vector3d& position : needlePositions(session, t)) add(mesh.points, position);
     for (size_t i = tip; i + 1 < mesh.pointCount(); ++i) link(t, i, 0, true);
   }
   if (mesh.cells.empty()) throw Error("--export sutures: the scene has no sutures; add sutures[]");
@@ -240,7 +240,7 @@ FieldMesh sutureFields(const Session& session) {
 void toFrame(ExportFrame frame, const Vector3d& scan_origin_m, Vectors what, std::vector<float>& vectors) {
   if (frame == ExportFrame::kRos) return;
   const double scale = what == Vectors::kDirections ? 1 : 1000;
-  const Vector3d origin = what == Vectors::kPlaces ? scan_origin_m : Vector3d::Zero();
+  const Vector3d origin = what == Vectors::kPositions ? scan_origin_m : Vector3d::Zero();
   for (size_t i = 0; i + 2 < vectors.size(); i += 3) {
     const Vector3d at = scale * (origin + Vector3d(vectors[i], vectors[i + 1], vectors[i + 2]));
     vectors[i] = static_cast<float>(at.y());
@@ -250,7 +250,7 @@ void toFrame(ExportFrame frame, const Vector3d& scan_origin_m, Vectors what, std
 }
 
 void toFrame(ExportFrame frame, const Vector3d& scan_origin_m, FieldMesh& mesh) {
-  toFrame(frame, scan_origin_m, Vectors::kPlaces, mesh.points);
+  toFrame(frame, scan_origin_m, Vectors::kPositions, mesh.points);
   for (MeshField& field : mesh.of_points) {
     if (field.components == 3 && field.name != "color")
       toFrame(frame, scan_origin_m, field.name == "normal" ? Vectors::kDirections : Vectors::kArrows, field.values);

@@ -44,7 +44,7 @@ FieldMesh networkFields(const Session& session);  ///< its uncut springs
 FieldMesh sutureFields(const Session& session);   ///< links of its sutures
 
 /// Kinds of vectors: all are rotated; arrows are also scaled, places also get an origin.
-enum class Vectors { kPlaces, kArrows, kDirections };
+enum class Vectors { kPositions, kArrows, kDirections };
 /// Converts vectors of the tissue frame. @param scan_origin_m  see environment.scan_origin_m
 void toFrame(ExportFrame frame, const Vector3d& scan_origin_m, Vectors what, std::vector<float>& vectors);
 /// Converts points, and the fields that are lengths or speeds.

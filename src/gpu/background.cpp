@@ -20,20 +20,20 @@ namespace {
 constexpr int kNice = 10;                         // about a tenth of the processor next to a busy thread
 constexpr const char* kRasteriser = "llvmpipe-";  // prefix of the names of its threads
 
-void giveWay(id_t thread) {
+void lowerPriority(id_t thread) {
   setpriority(PRIO_PROCESS, thread, std::max(kNice, getpriority(PRIO_PROCESS, thread)));
 }
 
 }  // namespace
 
 void drawInBackground() {
-  giveWay(static_cast<id_t>(syscall(SYS_gettid)));
+  lowerPriority(static_cast<id_t>(syscall(SYS_gettid)));
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator("/proc/self/task", none)) {
     std::string name;
     std::getline(std::ifstream(entry.path() / "comm"), name);
     if (name.rfind(kRasteriser, 0) == 0)
-      giveWay(static_cast<id_t>(std::strtoul(entry.path().filename().c_str(), nullptr, 10)));
+      lowerPriority(static_cast<id_t>(std::strtoul(entry.path().filename().c_str(), nullptr, 10)));
   }
 }
 

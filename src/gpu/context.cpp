@@ -157,7 +157,7 @@ std::string loadFunctions() {
   if (!glDispatchCompute || !glCreateBuffers || !glBufferStorage) return "the driver lacks OpenGL 4.5 entry points";
   while (glGetError() != GL_NO_ERROR) {
   }  // glewInit may leave GL_INVALID_ENUM behind on a core context
-  noteErrors();
+  recordErrors();
   // As many threads as the driver likes: all programs are started before any result is queried (gpu/program.h).
   if (glMaxShaderCompilerThreadsKHR) {
     glMaxShaderCompilerThreadsKHR(0xFFFFFFFF);

@@ -65,7 +65,7 @@ std::string takeSaid() {
 
 }  // namespace
 
-void noteErrors() {
+void recordErrors() {
   glEnable(GL_DEBUG_OUTPUT);
   glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_FALSE);
   glDebugMessageControl(GL_DONT_CARE, GL_DEBUG_TYPE_ERROR, GL_DONT_CARE, 0, nullptr, GL_TRUE);

@@ -14,7 +14,7 @@ std::string glErrorText(unsigned code);
 
 /// Makes checkErrors() include messages of the current context's driver. The driver reports them asynchronously, and
 /// only errors, so it costs nothing while there are none.
-void noteErrors();
+void recordErrors();
 /// Checks that the GPU was not reset. @param status  of glGetGraphicsResetStatus()   @throws GpuError  it was; `what`
 /// names the work done
 void requireNoReset(unsigned status, const char* what);

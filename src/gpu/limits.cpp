@@ -33,11 +33,11 @@ size_t groupsAlongX() {
 
 /// Returns the choice of $VISCERA_READS, `loads` or `texels`; without it the faster one.
 bool readsByLoads() {
-  const char* const told = std::getenv("VISCERA_READS");
-  if (!told) return !isSoftware();
-  if (std::strcmp(told, "loads") == 0) return true;
-  if (std::strcmp(told, "texels") == 0) return false;
-  throw GpuError(std::string("VISCERA_READS is '") + told + "' and must be loads or texels");
+  const char* const setting = std::getenv("VISCERA_READS");
+  if (!setting) return !isSoftware();
+  if (std::strcmp(setting, "loads") == 0) return true;
+  if (std::strcmp(setting, "texels") == 0) return false;
+  throw GpuError(std::string("VISCERA_READS is '") + setting + "' and must be loads or texels");
 }
 
 }  // namespace
@@ -89,19 +89,19 @@ void requireStorageBlocks(const Limits& driver, const std::string& kernel, size_
 
 void requireLimits(const Limits& driver, const Limits& needed) {
   std::string small;
-  const auto look = [&small](const char* name, size_t has, size_t wants) {
-    if (has >= wants) return;
+  const auto check = [&small](const char* name, size_t has, size_t wanted) {
+    if (has >= wanted) return;
     small += (small.empty() ? "" : ", ") + std::string(name) + " is " + std::to_string(has) + " and must be " +
-             std::to_string(wants);
+             std::to_string(wanted);
   };
-  look("GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS", driver.storage_bindings, needed.storage_bindings);
-  look("GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS", driver.storage_blocks, needed.storage_blocks);
-  look("GL_MAX_UNIFORM_BUFFER_BINDINGS", driver.uniform_bindings, needed.uniform_bindings);
-  look("GL_MAX_COMPUTE_TEXTURE_IMAGE_UNITS", driver.texture_units, needed.texture_units);
-  look("GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS", driver.invocations_per_group, needed.invocations_per_group);
-  look("GL_MAX_COMPUTE_WORK_GROUP_COUNT", driver.groups, needed.groups);
-  look("GL_MAX_SHADER_STORAGE_BLOCK_SIZE", driver.storage_block_bytes, needed.storage_block_bytes);
-  look("GL_MAX_TEXTURE_BUFFER_SIZE", driver.texels, needed.texels);
+  check("GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS", driver.storage_bindings, needed.storage_bindings);
+  check("GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS", driver.storage_blocks, needed.storage_blocks);
+  check("GL_MAX_UNIFORM_BUFFER_BINDINGS", driver.uniform_bindings, needed.uniform_bindings);
+  check("GL_MAX_COMPUTE_TEXTURE_IMAGE_UNITS", driver.texture_units, needed.texture_units);
+  check("GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS", driver.invocations_per_group, needed.invocations_per_group);
+  check("GL_MAX_COMPUTE_WORK_GROUP_COUNT", driver.groups, needed.groups);
+  check("GL_MAX_SHADER_STORAGE_BLOCK_SIZE", driver.storage_block_bytes, needed.storage_block_bytes);
+  check("GL_MAX_TEXTURE_BUFFER_SIZE", driver.texels, needed.texels);
   if (!small.empty()) throw GpuError("the driver's limits are too small for the kernels: " + small);
 }
 

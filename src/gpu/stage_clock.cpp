@@ -59,8 +59,8 @@ void StageClock::waitAndCount(int next) {
 
 void StageClock::mark(int stage) {
   if (waits_) return waitAndCount(stage);
-  Mark& mark = marks_[(oldest_ + under_way_) % marks_.size()];
-  ++under_way_;
+  Mark& mark = marks_[(oldest_ + in_flight_) % marks_.size()];
+  ++in_flight_;
   mark.stage = stage;
   glQueryCounter(mark.query, GL_TIMESTAMP);
 }
@@ -69,9 +69,9 @@ void StageClock::mark(int stage) {
 /// stages around it.
 bool StageClock::enter(Stage stage) {
   const size_t needed = waits_ ? 0 : stack_.size() + 2;
-  while (marks_.size() - under_way_ < needed && readOldest(false)) {
+  while (marks_.size() - in_flight_ < needed && readOldest(false)) {
   }
-  if (marks_.size() - under_way_ < needed) {
+  if (marks_.size() - in_flight_ < needed) {
     ++untimed_;
     return false;
   }
@@ -87,7 +87,7 @@ void StageClock::leave() {
 }
 
 bool StageClock::readOldest(bool wait) {
-  if (under_way_ == 0) return false;
+  if (in_flight_ == 0) return false;
   const Mark& mark = marks_[oldest_];
   GLint there = 0;
   if (!wait) glGetQueryObjectiv(mark.query, GL_QUERY_RESULT_AVAILABLE, &there);
@@ -100,12 +100,12 @@ bool StageClock::readOldest(bool wait) {
   last_ns_ = now_ns;
   last_stage_ = mark.stage;
   oldest_ = (oldest_ + 1) % marks_.size();
-  --under_way_;
+  --in_flight_;
   return true;
 }
 
 const std::array<StageClock::Time, kStages>& StageClock::collect(bool wait) {
-  if (wait && under_way_ > 0) awaitGpu("time stamps of its stages");
+  if (wait && in_flight_ > 0) awaitGpu("time stamps of its stages");
   while (readOldest(wait)) {
   }
   return times_;

@@ -71,7 +71,7 @@ class StageClock {
   bool readOldest(bool wait);
 
   std::vector<Mark> marks_;  ///< ring
-  size_t oldest_ = 0, under_way_ = 0;
+  size_t oldest_ = 0, in_flight_ = 0;
   bool waits_ = false;
   SteadyTime last_{};  ///< with waiting()
   uint64_t last_ns_ = 0;

@@ -14,9 +14,9 @@ std::vector<ForceLimits> limitsOf(const std::vector<ForceLoop::Stylus>& styluses
   return out;
 }
 
-HandsThere thereOf(const ForceLoop::Hands& hands) {
-  HandsThere there{};
-  for (size_t s = 0; s < hands.size(); ++s) there[s] = hands[s].feels();
+ListeningStyluses thereOf(const ForceLoop::Inputs& inputs) {
+  ListeningStyluses there{};
+  for (size_t s = 0; s < inputs.size(); ++s) there[s] = inputs[s].isActive();
   return there;
 }
 
@@ -25,14 +25,14 @@ HandsThere thereOf(const ForceLoop::Hands& hands) {
 ForceLoop::ForceLoop(const std::vector<Stylus>& styluses, bool between_ticks, double stall_s)
     : between_ticks_(between_ticks && !styluses.empty()),
       schedule_(limitsOf(styluses), stall_s),
-      answers_(styluses.size(), 0) {
+      updates_(styluses.size(), 0) {
   if (!between_ticks_) return;
   for (const Stylus& stylus : styluses) servos_.emplace_back(stylus.servo);
   period_ =
       std::chrono::duration_cast<SteadyTime::duration>(std::chrono::duration<double>(styluses.front().servo.period_s));
 }
 
-void ForceLoop::put(const Ticks& ticks, const Hands& hands, SteadyTime now) {
+void ForceLoop::put(const Ticks& ticks, const Inputs& inputs, SteadyTime now) {
   schedule_.tick(now);
   for (size_t s = 0; s < servos_.size(); ++s) {
     if (ticks[s].tracked)
@@ -40,14 +40,14 @@ void ForceLoop::put(const Ticks& ticks, const Hands& hands, SteadyTime now) {
     else
       servos_[s].clear(seconds(now));
   }
-  if (answering_) return;
+  if (updating_) return;
   Wrenches wanted;
-  HandsThere there{};
+  ListeningStyluses there{};
   for (size_t s = 0; s < ticks.size(); ++s) {
     wanted[s] = ticks[s].reaction;
-    there[s] = ticks[s].tracked && hands[s].feels();
+    there[s] = ticks[s].tracked && inputs[s].isActive();
   }
-  schedule_.want(wanted, there, now);
+  schedule_.request(wanted, there, now);
 }
 
 void ForceLoop::rest(SteadyTime now) {
@@ -73,32 +73,32 @@ void ForceLoop::clear(SteadyTime now) {
 }
 
 SteadyTime ForceLoop::due() const {
-  return answering_ ? std::min(period_due_, schedule_.due()) : schedule_.due();
+  return updating_ ? std::min(period_due_, schedule_.due()) : schedule_.due();
 }
 
 /// Starts or stops evaluation, depending on tracked styluses that subscribe. Discards the motion of devices when it
 /// stops.
-void ForceLoop::updateListeners(const Hands& hands, SteadyTime now) {
-  const HandsThere there = thereOf(hands);
-  const bool answers = between_ticks_ && schedule_.live() && std::find(there.begin(), there.end(), true) != there.end();
-  if (answers == answering_) return;
-  answering_ = answers;
+void ForceLoop::updateListeners(const Inputs& inputs, SteadyTime now) {
+  const ListeningStyluses there = thereOf(inputs);
+  const bool updates = between_ticks_ && schedule_.live() && std::find(there.begin(), there.end(), true) != there.end();
+  if (updates == updating_) return;
+  updating_ = updates;
   period_due_ = now;
-  if (answering_) return;
+  if (updating_) return;
   for (HapticServo& servo : servos_) servo.leave();
-  schedule_.want({}, {}, now);
+  schedule_.request({}, {}, now);
 }
 
-Wrenches ForceLoop::next(const Hands& hands, SteadyTime now) {
-  updateListeners(hands, now);
-  if (answering_ && now >= period_due_) {
-    answer(hands, now);
+Wrenches ForceLoop::next(const Inputs& inputs, SteadyTime now) {
+  updateListeners(inputs, now);
+  if (updating_ && now >= period_due_) {
+    update(inputs, now);
     period_due_ += (1 + (now - period_due_) / period_) * period_;  // missed periods are skipped
   }
   Wrenches out = schedule_.next(now);
-  if (!answering_ || !schedule_.live()) return out;
+  if (!updating_ || !schedule_.live()) return out;
   for (size_t s = 0; s < servos_.size(); ++s) {
-    if (!hands[s].feels()) continue;
+    if (!inputs[s].isActive()) continue;
     out[s].force_n = servos_[s].damped(out[s].force_n, seconds(now));
     schedule_.lessened(s, out[s].force_n);
   }
@@ -106,31 +106,31 @@ Wrenches ForceLoop::next(const Hands& hands, SteadyTime now) {
 }
 
 /// Evaluates the local models at the newest poses.
-void ForceLoop::answer(const Hands& hands, SteadyTime now) {
+void ForceLoop::update(const Inputs& inputs, SteadyTime now) {
   Wrenches wanted;
   for (size_t s = 0; s < servos_.size(); ++s) {
-    if (!hands[s].feels()) {
-      if (hands[s].tracked)
+    if (!inputs[s].isActive()) {
+      if (inputs[s].tracked)
         servos_[s].leave();
       else
         servos_[s].clear(seconds(now));
       continue;
     }
-    wanted[s] = servos_[s].step(hands[s].tip_m, seconds(hands[s].told), seconds(now));
-    ++answers_[s];
+    wanted[s] = servos_[s].step(inputs[s].tip_m, seconds(inputs[s].pose_time), seconds(now));
+    ++updates_[s];
   }
-  schedule_.want(wanted, thereOf(hands), now);
+  schedule_.request(wanted, thereOf(inputs), now);
 }
 
-void ForceLoop::sent(const std::array<Vector3d, layout::kMaxStyluses>& hand_forces_n, SteadyTime now) {
-  if (!answering_) return;
-  for (size_t s = 0; s < servos_.size(); ++s) servos_[s].sent(hand_forces_n[s], seconds(now));
+void ForceLoop::sent(const std::array<Vector3d, layout::kMaxStyluses>& device_forces_n, SteadyTime now) {
+  if (!updating_) return;
+  for (size_t s = 0; s < servos_.size(); ++s) servos_[s].sent(device_forces_n[s], seconds(now));
 }
 
-ForceLoop::HapticStats ForceLoop::felt(size_t stylus) const {
+ForceLoop::HapticStats ForceLoop::stats(size_t stylus) const {
   if (!between_ticks_) return {};
   const HapticServo& servo = servos_[stylus];
-  return {servo.passivity().energy_j(), servo.passivity().least_j(), servo.share(), answers_[stylus]};
+  return {servo.passivity().energy_j(), servo.passivity().least_j(), servo.share(), updates_[stylus]};
 }
 
 }  // namespace viscera

@@ -28,19 +28,19 @@ class ForceLoop {
   };
   using Ticks = std::array<Tick, layout::kMaxStyluses>;
   /// Current input of a stylus.
-  struct Hand {
-    bool tracked = false;  ///< whether it is tracked and moves the tool
-    bool listens = false;  ///< whether its device subscribes to forces
+  struct Input {
+    bool tracked = false;        ///< whether it is tracked and moves the tool
+    bool accepts_force = false;  ///< whether its device subscribes to forces
     Vector3d tip_m = Vector3d::Zero();
-    SteadyTime told{};  ///< arrival of its newest pose
-    bool feels() const { return tracked && listens; }
+    SteadyTime pose_time{};  ///< arrival of its newest pose
+    bool isActive() const { return tracked && accepts_force; }
   };
-  using Hands = std::array<Hand, layout::kMaxStyluses>;
+  using Inputs = std::array<Input, layout::kMaxStyluses>;
   /// Statistics of a stylus since the start, for the diagnostics. Energies are at the device.
   struct HapticStats {
     double energy_j = 0, least_j = 0;  ///< energy given by the user, from the passivity observer, and its minimum [J]
-    double share = 1;                  ///< share of the stiffness that acts on fast motion
-    uint64_t answers = 0;              ///< number of evaluated periods
+    double stiffness_scale = 1;        ///< share of the stiffness that acts on fast motion
+    uint64_t updates = 0;              ///< number of evaluated periods
   };
 
   /// @param styluses  all with the same period   @param between_ticks  false: forces once per tick
@@ -50,7 +50,7 @@ class ForceLoop {
   bool betweenTicks() const { return between_ticks_; }
   void setLimits(size_t stylus, const ForceLimits& limits) { schedule_.setLimits(stylus, limits); }
   /// Updates the models with a tick. @param hands  in next()
-  void put(const Ticks& ticks, const Hands& hands, SteadyTime now);
+  void put(const Ticks& ticks, const Inputs& inputs, SteadyTime now);
   /// Stops forces because there are no ticks. Everything is reset until the next one.
   void rest(SteadyTime now);
   /// Sends zero from now on.
@@ -62,30 +62,30 @@ class ForceLoop {
   /// Returns the latest time for the next call of next().
   SteadyTime due() const;
   /// Returns the wrenches to send now, before a device's own scale and limits.
-  Wrenches next(const Hands& hands, SteadyTime now);
+  Wrenches next(const Inputs& inputs, SteadyTime now);
   /// Records the forces that act from now on: forces of the motors, axes of the tissue frame; zero for a device that
   /// does not subscribe.
-  void sent(const std::array<Vector3d, layout::kMaxStyluses>& hand_forces_n, SteadyTime now);
+  void sent(const std::array<Vector3d, layout::kMaxStyluses>& device_forces_n, SteadyTime now);
   /// Returns whether periods are evaluated: ticks come in time, and some device subscribes.
-  bool answering() const { return answering_; }
+  bool updating() const { return updating_; }
 
   const WrenchSchedule& schedule() const { return schedule_; }
   const HapticServo& servo(size_t stylus) const { return servos_[stylus]; }
-  HapticStats felt(size_t stylus) const;
+  HapticStats stats(size_t stylus) const;
 
  private:
   double seconds(SteadyTime now) const { return std::chrono::duration<double>(now - SteadyTime{}).count(); }
-  void answer(const Hands& hands, SteadyTime now);
+  void update(const Inputs& inputs, SteadyTime now);
   void clear(SteadyTime now);
-  void updateListeners(const Hands& hands, SteadyTime now);
+  void updateListeners(const Inputs& inputs, SteadyTime now);
 
   const bool between_ticks_;
   SteadyTime::duration period_{};
   WrenchSchedule schedule_;
   std::vector<HapticServo> servos_;  ///< [styluses]
-  std::vector<uint64_t> answers_;
+  std::vector<uint64_t> updates_;
   SteadyTime period_due_{};
-  bool answering_ = false;
+  bool updating_ = false;
 };
 
 }  // namespace viscera

@@ -11,7 +11,7 @@ namespace {
 /// Time constant of the velocity for damping: long enough to smooth the encoder's steps.
 constexpr double kVelocityTime_s = 3e-3;
 /// Time constant for estimating the loop's own damping: some cycles of a light device's oscillation.
-constexpr double kLookTime_s = 0.1;
+constexpr double kVelocityWindow_s = 0.1;
 /// Time constant above which changes of force are not oscillations.
 constexpr double kSwingTime_s = 0.03;
 /// Damping that a user's hand certainly provides [N s/m].
@@ -69,18 +69,18 @@ void HapticServo::leave() {
 
 /// Updates the motion of the device. The velocity is kept until the next position arrives, since a device may be slower
 /// than the loop. A displacement across a gap is not motion.
-void HapticServo::follow(const Vector3d& tip_m, double told_s) {
+void HapticServo::follow(const Vector3d& tip_m, double pose_time_s) {
   const Vector3d at_m = tip_m / config_.motion_scale;
   moved_m_.setZero();
-  const double span_s = told_s - told_s_;
+  const double span_s = pose_time_s - pose_time_s_;
   if (placed_ && !(span_s > 0)) return;
-  const Vector3d way_m = at_m - at_m_;
+  const Vector3d offset_m = at_m - at_m_;
   const std::optional<Vector3d> acted_n =
-      placed_ ? passivity_.moved(way_m, told_s_, told_s) : std::optional<Vector3d>();
+      placed_ ? passivity_.moved(offset_m, pose_time_s_, pose_time_s) : std::optional<Vector3d>();
   if (acted_n) {
-    moved_m_ = way_m;
+    moved_m_ = offset_m;
     acting_n_ = *acted_n;
-    const Vector3d change = (way_m - span_s * velocity_) / (span_s + kVelocityTime_s);
+    const Vector3d change = (offset_m - span_s * velocity_) / (span_s + kVelocityTime_s);
     velocity_ += change;
     acceleration_ = change / std::max(span_s, config_.period_s);
     between_poses_s_ += (span_s - between_poses_s_) / kPosesLookedAt;
@@ -89,7 +89,7 @@ void HapticServo::follow(const Vector3d& tip_m, double told_s) {
   }
   placed_ = true;
   at_m_ = at_m;
-  told_s_ = told_s;
+  pose_time_s_ = pose_time_s;
 }
 
 /// Reduces the stiffness if the loop feeds an oscillation. The damping over the last cycles is
@@ -98,22 +98,22 @@ void HapticServo::follow(const Vector3d& tip_m, double told_s) {
 void HapticServo::judge() {
   const double dt = config_.period_s;
   approach(mean_n_, acting_n_, dt, kSwingTime_s);
-  approach(power_, -(acting_n_ - mean_n_).dot(moved_m_) / dt, dt, kLookTime_s);
-  approach(speed2_, velocity_.squaredNorm(), dt, kLookTime_s);
-  approach(acceleration2_, acceleration_.squaredNorm(), dt, kLookTime_s);
+  approach(power_, -(acting_n_ - mean_n_).dot(moved_m_) / dt, dt, kVelocityWindow_s);
+  approach(speed2_, velocity_.squaredNorm(), dt, kVelocityWindow_s);
+  approach(acceleration2_, acceleration_.squaredNorm(), dt, kVelocityWindow_s);
   const bool free = !(last_.force_n.squaredNorm() > 0);
   if (free) approach(share_, 1.0, dt, kStiffenTime_s);
   if (!(speed2_ > kJudged_m_per_s * kJudged_m_per_s)) return;
   const double omega2 = acceleration2_ / speed2_;
-  const double k = felt_n_per_m();
-  const double allowed = kAllowed_n_s_per_m + k / (omega2 * kLookTime_s);
+  const double k = device_stiffness_n_per_m();
+  const double allowed = kAllowed_n_s_per_m + k / (omega2 * kVelocityWindow_s);
   if (power_ < -allowed * speed2_) share_ = std::max(share_ - dt / kSoftenTime_s * share_, kLeastShare);
 }
 
 /// Returns the model's force; only a share of it follows fast motion. When the force has changed direction, the
 /// component along its former direction is removed.
 Vector3d HapticServo::softened(const Vector3d& wanted_n) {
-  const double k = felt_n_per_m();
+  const double k = device_stiffness_n_per_m();
   if (share_ * k * late_s() > kBearable_n_s_per_m) share_ = kBearable_n_s_per_m / (k * late_s());
   // A lagging force is negative damping: (1 - share) K / (omega^2 time) after one stage, and 16 / (omega time)^2 of
   // that after two stages of half the time each. Heavy devices oscillate slowly.
@@ -141,7 +141,7 @@ Vector3d HapticServo::softened(const Vector3d& wanted_n) {
 }
 
 /// Returns an upper bound of the full model's stiffness at the device [N/m].
-double HapticServo::felt_n_per_m() const {
+double HapticServo::device_stiffness_n_per_m() const {
   return config_.motion_scale * config_.force_scale * last_.stiffness_n_per_m.norm();
 }
 
@@ -149,10 +149,10 @@ double HapticServo::late_s() const {
   return lead_s_ + between_poses_s_;
 }
 
-Reaction HapticServo::step(const Vector3d& tip_m, double told_s, double now_s) {
-  follow(tip_m, told_s);
+Reaction HapticServo::step(const Vector3d& tip_m, double pose_time_s, double now_s) {
+  follow(tip_m, pose_time_s);
   judge();
-  const double age_s = std::min(now_s - told_s_, kMostPosesAhead * between_poses_s_);
+  const double age_s = std::min(now_s - pose_time_s_, kMostPosesAhead * between_poses_s_);
   last_ = model_.at(tip_m + (age_s + lead_s_) * config_.motion_scale * velocity_, now_s);
   const double force2 = last_.force_n.squaredNorm();
   const double k = force2 > 0 ? last_.force_n.dot(last_.stiffness_n_per_m * last_.force_n) / force2 : 0;
@@ -164,9 +164,10 @@ Vector3d HapticServo::damped(const Vector3d& limited_n, double now_s) {
   if (!(config_.force_scale > 0)) return limited_n;
   // A late damper excites a light mass: for mass m and delay t it may be m / 2t at most. The oscillation shows
   // m > K / omega^2.
-  const double least_kg = speed2_ > 0 && acceleration2_ > 0 ? share_ * felt_n_per_m() * speed2_ / acceleration2_ : 0;
+  const double least_kg =
+      speed2_ > 0 && acceleration2_ > 0 ? share_ * device_stiffness_n_per_m() * speed2_ / acceleration2_ : 0;
   const double sure = 0.5 * least_kg / late_s();
-  return passivity_.damped(velocity_, config_.force_scale * limited_n, stored_j_, told_s_, now_s, share_, sure) /
+  return passivity_.damped(velocity_, config_.force_scale * limited_n, stored_j_, pose_time_s_, now_s, share_, sure) /
          config_.force_scale;
 }
 

@@ -45,36 +45,36 @@ std::optional<Vector3d> SentForces::between(double from_s, double to_s) const {
 }
 
 PassivityControl::PassivityControl(const PassivityLimits& limits)
-    : limits_(limits), sent_(limits.round_trip_s + kLongestWay_s, limits.period_s) {}
+    : limits_(limits), sent_(limits.round_trip_s + kLongestTransit_s, limits.period_s) {}
 
 void PassivityControl::clear() {
   sent_.clear();
   budget_j_ = damping_ = 0;
 }
 
-std::optional<Vector3d> PassivityControl::moved(const Vector3d& way_m, double from_s, double to_s) {
+std::optional<Vector3d> PassivityControl::moved(const Vector3d& offset_m, double from_s, double to_s) {
   const std::optional<Vector3d> sum = sent_.between(from_s - limits_.round_trip_s, to_s - limits_.round_trip_s);
   if (!sum) {
     budget_j_ = 0;
     return std::nullopt;
   }
   const Vector3d acted_n = *sum / (to_s - from_s);
-  const double given_j = -acted_n.dot(way_m);
+  const double given_j = -acted_n.dot(offset_m);
   energy_j_ += given_j;
   least_j_ = std::min(least_j_, energy_j_);
   budget_j_ += given_j;
   return acted_n;
 }
 
-Vector3d PassivityControl::damped(const Vector3d& velocity, const Vector3d& wanted_n, double stored_j, double told_s,
-                                  double now_s, double strength, double sure) {
+Vector3d PassivityControl::damped(const Vector3d& velocity, const Vector3d& wanted_n, double stored_j,
+                                  double pose_time_s, double now_s, double strength, double sure) {
   const double speed = velocity.norm(), stored = kStoredMargin * stored_j;
   budget_j_ = std::min(budget_j_, stored + limits_.most_reserve_j);
   damping_ = 0;
   const double out_n = speed > 0 ? wanted_n.dot(velocity) / speed : 0;
   // The work of forces in transit on the device if it keeps its velocity.
-  const Vector3d under_way_n_s = sent_.between(told_s - limits_.round_trip_s, now_s).value_or(Vector3d::Zero());
-  const double left_j = std::max(budget_j_ - under_way_n_s.dot(velocity), 0.0);
+  const Vector3d in_transit_n_s = sent_.between(pose_time_s - limits_.round_trip_s, now_s).value_or(Vector3d::Zero());
+  const double left_j = std::max(budget_j_ - in_transit_n_s.dot(velocity), 0.0);
   if (out_n > 0 && left_j < stored)
     damping_ = (1 - left_j / stored) * out_n * speed / (speed * speed + kSlow_m_per_s * kSlow_m_per_s);
   damping_ = std::max(strength * damping_, std::min(damping_, sure));

@@ -24,9 +24,9 @@ size_t periods(double span_s, double period_s) {
 }  // namespace
 
 SimulatedDevice::SimulatedDevice(const SimulatedDeviceConfig& config, const Vector3d& at_m)
-    : config_(config), at_m_(at_m), hand_m_(at_m), told_m_(inSteps(at_m, config.encoder_m)) {
+    : config_(config), at_m_(at_m), user_m_(at_m), reported_m_(inSteps(at_m, config.encoder_m)) {
   const size_t all = periods(config.delay_s, config.period_s);
-  measured_.assign(all / 2 + 1, told_m_);
+  measured_.assign(all / 2 + 1, reported_m_);
   commanded_.assign(all - all / 2, Vector3d::Zero());
 }
 
@@ -36,7 +36,7 @@ Vector3d SimulatedDevice::tremor() const {
   return out;
 }
 
-void SimulatedDevice::step(const Vector3d& force_n, const Vector3d& hand_m) {
+void SimulatedDevice::step(const Vector3d& force_n, const Vector3d& user_m) {
   acting_n_ = force_n;
   if (!commanded_.empty()) {
     acting_n_ = commanded_[next_commanded_];
@@ -47,8 +47,8 @@ void SimulatedDevice::step(const Vector3d& force_n, const Vector3d& hand_m) {
   if (size > config_.most_force_n) acting_n_ *= config_.most_force_n / size;
 
   const double dt = config_.period_s / kSubsteps;
-  const Vector3d hand_before = hand_m_;
-  const Vector3d hand_velocity = (hand_m - hand_before) / config_.period_s;
+  const Vector3d hand_before = user_m_;
+  const Vector3d hand_velocity = (user_m - hand_before) / config_.period_s;
   const double drag = config_.damping_n_s_per_m + config_.hand_damping_n_s_per_m;
   for (int i = 1; i <= kSubsteps; ++i) {
     time_s_ += dt;
@@ -59,9 +59,9 @@ void SimulatedDevice::step(const Vector3d& force_n, const Vector3d& hand_m) {
     at_m_ += dt * velocity_;
     energy_j_ -= dt * acting_n_.dot(velocity_);
   }
-  hand_m_ = hand_m;
-  told_m_ = inSteps(at_m_, config_.encoder_m);
-  measured_[next_measured_] = told_m_;
+  user_m_ = user_m;
+  reported_m_ = inSteps(at_m_, config_.encoder_m);
+  measured_[next_measured_] = reported_m_;
   next_measured_ = (next_measured_ + 1) % measured_.size();
 }
 

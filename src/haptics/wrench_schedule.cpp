@@ -50,7 +50,7 @@ void WrenchSchedule::tick(Time now) {
   last_tick_ = now;
 }
 
-void WrenchSchedule::want(const Wrenches& wanted, const HandsThere& there, Time now) {
+void WrenchSchedule::request(const Wrenches& wanted, const ListeningStyluses& there, Time now) {
   if (mode_ != Mode::kLive) return;
   for (size_t s = 0; s < limiters_.size(); ++s) {
     wanted_[s] = there[s] ? wanted[s] : Reaction{};

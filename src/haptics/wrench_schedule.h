@@ -14,7 +14,7 @@ namespace viscera {
 
 using Wrenches = std::array<Reaction, layout::kMaxStyluses>;
 /// Which styluses are tracked and subscribe to forces; the forces of others fade out.
-using HandsThere = std::array<bool, layout::kMaxStyluses>;
+using ListeningStyluses = std::array<bool, layout::kMaxStyluses>;
 
 /// Decides what devices receive, and when: the simulation's forces, limited in size and slew rate in wall-clock time,
 /// and zero while ticks are late, paused or have ended. It depends neither on ROS nor on threads. The caller supplies
@@ -44,7 +44,7 @@ class WrenchSchedule {
   /// Records the arrival of a tick.
   void tick(Time now);
   /// Sets the desired wrenches; ignored unless ticks come in time.
-  void want(const Wrenches& wanted, const HandsThere& there, Time now);
+  void request(const Wrenches& wanted, const ListeningStyluses& there, Time now);
   bool live() const { return mode_ == Mode::kLive; }
   /// Stops forces until the next tick(), because the simulation is paused or has not begun.
   void rest(Time now);

@@ -61,11 +61,11 @@ std::string headOf(const std::string& path) {
 }
 
 /// Returns a unique name: processes of several hosts or containers may share a folder and have the same process number.
-std::string draftOf(const std::string& place) {
+std::string draftOf(const std::string& target) {
   static thread_local std::random_device random;
   char host[256] = "";
   gethostname(host, sizeof host - 1);
-  const fs::path at(place);
+  const fs::path at(target);
   const std::string name = at.filename().string().substr(0, kLongestName) + "." +
                            std::string(host).substr(0, kLongestName) + "." + std::to_string(getpid()) + "." +
                            std::to_string(random()) + ".draft";
@@ -78,8 +78,8 @@ bool isPlain(const std::string& path, bool& exists) {
   return !exists || S_ISREG(status.st_mode);
 }
 
-void syncFolderOf(const std::string& place) {
-  const std::string folder = fs::path(place).parent_path().string();
+void syncFolderOf(const std::string& target) {
+  const std::string folder = fs::path(target).parent_path().string();
   const int fd = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (fd < 0) return;
   fsync(fd);
@@ -88,7 +88,7 @@ void syncFolderOf(const std::string& place) {
 
 }  // namespace
 
-void noteRead(const std::string& path) {
+void recordRead(const std::string& path) {
   FileId id;
   if (!idOf(path, id)) return;
   std::error_code error;
@@ -139,16 +139,16 @@ OutFile::OutFile(const std::string& path, FileKind kind, bool updates) : path_(p
     return;
   }
   const fs::path resolved = exists ? fs::canonical(path, error) : fs::path(path);
-  place_ = error ? path : resolved.string();
+  target_ = error ? path : resolved.string();
   constexpr int kTries = 100;
   for (int i = 0; i < kTries && fd_ < 0; ++i) {
-    draft_ = draftOf(place_);
+    draft_ = draftOf(target_);
     fd_ = open(draft_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (fd_ < 0 && errno != EEXIST) break;
   }
   if (fd_ < 0) fail();
   struct stat status = {};
-  if (exists && stat(place_.c_str(), &status) == 0) fchmod(fd_, status.st_mode & 0777U);
+  if (exists && stat(target_.c_str(), &status) == 0) fchmod(fd_, status.st_mode & 0777U);
 }
 
 OutFile::~OutFile() {
@@ -201,13 +201,13 @@ void OutFile::keep(bool durable) {
   const int fd = std::exchange(fd_, -1);
   const bool closed = close(fd) == 0;
   if (draft_.empty()) return closed ? void() : fail();
-  if (!closed || std::rename(draft_.c_str(), place_.c_str()) != 0) {
+  if (!closed || std::rename(draft_.c_str(), target_.c_str()) != 0) {
     const int why = errno;
     unlink(draft_.c_str());
     errno = why;
     fail();
   }
-  if (durable) syncFolderOf(place_);
+  if (durable) syncFolderOf(target_);
 }
 
 void writeFile(const std::string& path, FileKind kind, std::string_view bytes) {

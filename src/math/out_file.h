@@ -35,8 +35,8 @@ enum class FileKind {
 };
 
 /// Notes that this process reads the file. No writer replaces it after that. A path without a file is no error.
-void noteRead(const std::string& path);
-/// Returns whether noteRead() was called for this very file, whatever its name.
+void recordRead(const std::string& path);
+/// Returns whether recordRead() was called for this very file, whatever its name.
 bool isRead(const std::string& path);
 
 /// Checks that the file may be made or replaced, before anything is computed for it. States and registrations may
@@ -75,7 +75,7 @@ class OutFile {
   void writeDirectly(const char* data, size_t bytes) const;
   void flush();
 
-  std::string path_, place_, draft_, buffer_;  ///< place: without links; draft: empty where written directly
+  std::string path_, target_, draft_, buffer_;  ///< place: without links; draft: empty where written directly
   int fd_ = -1;
 };
 

@@ -136,7 +136,7 @@ void followTools(const OrganFit& fit, const Scene& made, const BodyConfig& is, K
   const bool is_set = hasSpacing(was) && hasSpacing(is) && is.spacing_m != was.spacing_m;
   const double cells = is_set ? is.spacing_m / was.spacing_m : cellScale(fit);
   for (size_t i = 0; i < made.styluses.size(); ++i) {
-    StylusConfig stylus = scaledTools(made.styluses[i], fit.hand_scale, cells);
+    StylusConfig stylus = scaledTools(made.styluses[i], fit.tool_scale, cells);
     for (const ToolSize& size : kToolSizes) keys.set(item("styluses", i) + size.key, size.of(stylus));
   }
 }

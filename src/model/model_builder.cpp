@@ -16,7 +16,7 @@
 #include "model/fracture/tearing.h"
 #include "model/fracture/toughness.h"
 #include "model/scene/host_memory.h"
-#include "model/scene/key_place.h"
+#include "model/scene/key_location.h"
 #include "model/scene/structure_rules.h"
 #include "model/scene/tissue_presets.h"
 #include "model/scene/tool_kinds.h"
@@ -130,11 +130,11 @@ bool isTooWide(const BodyConfig& config, const Tissue& tissue) {
 }
 
 Body buildBody(const BodyConfig& config, const Scene& scene, bool can_be_cut, const Progress& all_progress) {
-  const Progress told = progressOf(config, all_progress);
+  const Progress body_progress = progressOf(config, all_progress);
   std::string stage = "read";
   const Progress progress = [&](const std::string& name, double fraction) {
     stage = name;
-    if (told) told(name, fraction);
+    if (body_progress) body_progress(name, fraction);
   };
   std::unique_ptr<Tissue> tissue;
   const auto build = [&] {
@@ -173,7 +173,7 @@ Model buildModel(const Scene& scene, const Progress& progress) {
     BodyConfig config = scene.bodies[b];
     config.material.law = lawOf(config, scene.solver.integrator);
     try {
-      model.bodies.push_back(withPlace(scene, b, [&] { return buildBody(config, scene, can_be_cut, progress); }));
+      model.bodies.push_back(withLocation(scene, b, [&] { return buildBody(config, scene, can_be_cut, progress); }));
     } catch (const PlacedError&) {
       throw;
     } catch (const SceneError& error) {  // names the body already

@@ -63,13 +63,13 @@ void Stepped::close() {
   core_.reset();
 }
 
-void Stepped::step(const StylusSamples& hands, int64_t ticks) const {
+void Stepped::step(const StylusSamples& samples, int64_t ticks) const {
   with([&](Core& core) {
     auto heard = std::chrono::steady_clock::now();
     const FrameRequest nothing;
     for (int64_t t = 0; t < ticks; ++t) {
       core.nodes.reset();
-      core.last = core.session->step(hands, nothing);
+      core.last = core.session->step(samples, nothing);
       const auto now = std::chrono::steady_clock::now();
       if (now - heard < kSignalsEvery || t + 1 == ticks) continue;
       heard = now;
@@ -123,9 +123,9 @@ std::shared_ptr<const HostState> Stepped::nodes() const {
 
 std::shared_ptr<const SurfaceFrame> Stepped::skin() const {
   return with([](Core& core) {
-    FrameRequest wants;
-    wants.surface = true;
-    Pictures pictures = core.session->show(wants);
+    FrameRequest outputs;
+    outputs.surface = true;
+    Pictures pictures = core.session->show(outputs);
     if (!pictures.surface) throw Error("the skin of tick " + std::to_string(core.session->tick()) + " is missing");
     return std::shared_ptr<const SurfaceFrame>(std::move(pictures.surface));
   });
@@ -139,11 +139,11 @@ ImageFrame Stepped::picture(size_t camera, PictureKind kind) const {
     if (camera >= cameras)
       throw Error("picture: there is no camera " + std::to_string(camera) + "; the scene has " +
                   std::to_string(cameras));
-    FrameRequest wants;
-    wants.every_image = true;
-    wants.of(kind).resize(cameras);
-    wants.of(kind)[camera] = true;
-    Pictures pictures = core.session->show(wants);
+    FrameRequest outputs;
+    outputs.every_image = true;
+    outputs.of(kind).resize(cameras);
+    outputs.of(kind)[camera] = true;
+    Pictures pictures = core.session->show(outputs);
     for (ImageFrame& image : pictures.images) {
       if (image.camera == camera && image.kind == kind) return std::move(image);
     }

@@ -86,7 +86,7 @@ class Stepped {
 
   /// Steps n ticks with the same samples. Handles signals such as Ctrl-C; their handlers may use the session.
   /// @throws Error, and exceptions of Python's handlers
-  void step(const StylusSamples& hands, int64_t ticks) const;
+  void step(const StylusSamples& samples, int64_t ticks) const;
   void reset() const;
   /// Returns a saved state as bytes. @throws Error
   std::string state() const;

@@ -57,7 +57,7 @@ std::shared_ptr<const SteppedVector::Group> SteppedVector::group() const {
   return out;
 }
 
-void SteppedVector::step(const std::vector<StylusSamples>& hands, std::vector<int64_t> left) const {
+void SteppedVector::step(const std::vector<StylusSamples>& samples, std::vector<int64_t> left) const {
   const std::shared_ptr<const Group> group = this->group();
   const py::gil_scoped_release released;
   const size_t sessions = group->cores.size();
@@ -75,7 +75,7 @@ void SteppedVector::step(const std::vector<StylusSamples>& hands, std::vector<in
       const auto until = SteadyClock::now() + share;
       core.nodes.reset();
       numbered(s, [&] {
-        do core.last = core.session->step(hands[s], nothing);
+        do core.last = core.session->step(samples[s], nothing);
         while (--left[s] > 0 && SteadyClock::now() < until);
       });
     });

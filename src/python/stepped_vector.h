@@ -32,7 +32,7 @@ class SteppedVector {
 
   /// Steps session s by ticks[s] ticks with hands[s]. Handles signals such as Ctrl-C. Releases the GIL.
   /// @throws Error  of one session, with its number; the others have been stepped
-  void step(const std::vector<StylusSamples>& hands, std::vector<int64_t> ticks) const;
+  void step(const std::vector<StylusSamples>& samples, std::vector<int64_t> ticks) const;
   /// Runs work(core, s) for each of these sessions in parallel, without the GIL.
   /// @throws Error  closed, or an error of work
   void each(const std::vector<size_t>& which, const std::function<void(Stepped::Core&, size_t)>& work) const;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kMostSessions = 4096, kMostVectorThreads = 1024;
 constexpr int64_t kMostVectorTicks = 1'000'000'000;  // limit of one call: eleven days at 1 kHz
-constexpr py::ssize_t kPlaceNumbers = 3, kPoseNumbers = 7, kVectorButtons = 2;
+constexpr py::ssize_t kPositionNumbers = 3, kPoseNumbers = 7, kVectorButtons = 2;
 
 using VectorClass = py::class_<SteppedVector>;
 using Group = SteppedVector::Group;
@@ -48,8 +48,8 @@ Given<T> shaped(const py::object& given, const std::vector<py::ssize_t>& shape, 
   return out;
 }
 
-std::vector<StylusSamples> handsOf(const Group& group, const py::object& poses, const py::object& buttons,
-                                   const py::object& present) {
+std::vector<StylusSamples> samplesOf(const Group& group, const py::object& poses, const py::object& buttons,
+                                     const py::object& present) {
   std::vector<StylusSamples> out(group.cores.size());
   if (poses.is_none()) {
     if (!buttons.is_none() || !present.is_none()) throw py::value_error("buttons, present: given without poses");
@@ -63,7 +63,7 @@ std::vector<StylusSamples> handsOf(const Group& group, const py::object& poses, 
     throw py::type_error("poses: must be an array of numbers");
   }
   const py::ssize_t width = numbers.ndim() == 3 ? numbers.shape(2) : 0;
-  if ((width != kPlaceNumbers && width != kPoseNumbers) || numbers.shape(0) != count || numbers.shape(1) != styluses)
+  if ((width != kPositionNumbers && width != kPoseNumbers) || numbers.shape(0) != count || numbers.shape(1) != styluses)
     throw py::value_error("poses: must have shape (" + std::to_string(count) + ", " + std::to_string(styluses) +
                           ", 3 or 7); found " + shapeOf(numbers.shape()));
   Given<bool> pressed, there;
@@ -75,7 +75,7 @@ std::vector<StylusSamples> handsOf(const Group& group, const py::object& poses, 
       if (!present.is_none() && !there.at(n, s)) continue;
       const double* pose = numbers.data(n, s, 0);
       StylusSample& sample = out[static_cast<size_t>(n)][static_cast<size_t>(s)];
-      sample = sampleOf(pose, width == kPoseNumbers ? pose + kPlaceNumbers : kUpright);
+      sample = sampleOf(pose, width == kPoseNumbers ? pose + kPositionNumbers : kUpright);
       if (!buttons.is_none()) sample.button1 = pressed.at(n, s, 0), sample.button2 = pressed.at(n, s, 1);
     }
   }
@@ -157,7 +157,7 @@ void bindVectorSteps(VectorClass& vector) {
       [](const SteppedVector& v, const py::object& poses, const py::object& buttons, const py::object& present,
          const py::object& n) {
         const auto group = v.group();
-        v.step(handsOf(*group, poses, buttons, present), ticksOf(*group, n));
+        v.step(samplesOf(*group, poses, buttons, present), ticksOf(*group, n));
       },
       py::arg("poses") = py::none(), py::arg("buttons") = py::none(), py::arg("present") = py::none(), py::arg("n") = 1,
       "Steps all sessions, side by side, with styluses that stay where they are; the GIL is released.\n"

@@ -12,7 +12,7 @@ namespace {
 constexpr double kNearOverDistance = 0.01;
 constexpr double kFarOverDistance = 100;
 constexpr double kSmallestSine = 1e-6;  // between `up` and the line of sight; below it no direction is upright
-constexpr double kSamePlace = 1e-9;     // tangent: where an image folds over, it shows other points as well
+constexpr double kSamePosition = 1e-9;  // tangent: where an image folds over, it shows other points as well
 constexpr int kBeside_px = 1;           // margin, so that interpolation at a border uses pixels of the image only
 }  // namespace
 
@@ -25,21 +25,21 @@ Intrinsics intrinsics(const CameraConfig& camera) {
 std::optional<Eigen::Vector2d> pixelOf(const CameraConfig& camera, const Vector3d& optical) {
   if (!(optical.z() > 0)) return std::nullopt;
   const Intrinsics k = intrinsics(camera);
-  Eigen::Vector2d place = optical.hnormalized();
+  Eigen::Vector2d position = optical.hnormalized();
   if (camera.distortion.any()) {
-    const Eigen::Vector2d shown = distorted(camera.distortion, place);
+    const Eigen::Vector2d shown = distorted(camera.distortion, position);
     const auto seen = undistorted(camera.distortion, shown);
-    if (!seen || !((*seen - place).norm() < kSamePlace)) return std::nullopt;
-    place = shown;
+    if (!seen || !((*seen - position).norm() < kSamePosition)) return std::nullopt;
+    position = shown;
   }
-  return Eigen::Vector2d(k.fx * place.x() + k.cx, k.fy * place.y() + k.cy);
+  return Eigen::Vector2d(k.fx * position.x() + k.cx, k.fy * position.y() + k.cy);
 }
 
 Vector3d lineOfSight(const CameraConfig& camera, const Eigen::Vector2d& pixel) {
   const Intrinsics k = intrinsics(camera);
-  const Eigen::Vector2d place((pixel.x() - k.cx) / k.fx, (pixel.y() - k.cy) / k.fy);
-  if (!camera.distortion.any()) return place.homogeneous();
-  const auto seen = undistorted(camera.distortion, place);
+  const Eigen::Vector2d position((pixel.x() - k.cx) / k.fx, (pixel.y() - k.cy) / k.fy);
+  if (!camera.distortion.any()) return position.homogeneous();
+  const auto seen = undistorted(camera.distortion, position);
   if (!seen) throw SceneError("camera '" + camera.name + "': distortion leaves a pixel without a line of sight");
   return seen->homogeneous();
 }

@@ -42,14 +42,14 @@ uint32_t makeTexture(uint32_t format, int width, int height, uint32_t filter) {
 
 GBuffer::GBuffer(int width, int height) : width_(width), height_(height) {
   const int columns = kSeenSamples * width, rows = kSeenSamples * height;
-  places_ = makeTexture(GL_RGBA32UI, columns, rows, GL_NEAREST);
+  positions_ = makeTexture(GL_RGBA32UI, columns, rows, GL_NEAREST);
   finishes_ = makeTexture(GL_RG32UI, columns, rows, GL_NEAREST);
   depths_ = makeTexture(GL_DEPTH_COMPONENT24, columns, rows, GL_NEAREST);
   over_color_ = makeTexture(GL_SRGB8_ALPHA8, columns, rows, GL_LINEAR);
   image_color_ = makeRenderbuffer(GL_SRGB8_ALPHA8, width, height);
   parts_ = makeRenderbuffer(GL_DEPTH_COMPONENT24, width, height);
   seen_ = makeFramebuffer();
-  glNamedFramebufferTexture(seen_, GL_COLOR_ATTACHMENT0, places_, 0);
+  glNamedFramebufferTexture(seen_, GL_COLOR_ATTACHMENT0, positions_, 0);
   glNamedFramebufferTexture(seen_, GL_COLOR_ATTACHMENT1, finishes_, 0);
   glNamedFramebufferTexture(seen_, GL_DEPTH_ATTACHMENT, depths_, 0);
   const GLenum both[] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
@@ -76,7 +76,7 @@ GBuffer::~GBuffer() {
 }
 
 void GBuffer::remove() {
-  const uint32_t framebuffers[] = {seen_, over_, image_}, textures[] = {places_, finishes_, depths_, over_color_},
+  const uint32_t framebuffers[] = {seen_, over_, image_}, textures[] = {positions_, finishes_, depths_, over_color_},
                  buffers[] = {image_color_, parts_};
   glDeleteFramebuffers(3, framebuffers);
   glDeleteTextures(4, textures);
@@ -94,7 +94,7 @@ void GBuffer::bindImage() const {
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, image_);
   glViewport(0, 0, width_, height_);
   glBindTextureUnit(layout::kUnitSeenDepths, depths_);
-  glBindTextureUnit(layout::kUnitSeenPlaces, places_);
+  glBindTextureUnit(layout::kUnitSeenPositions, positions_);
   glBindTextureUnit(layout::kUnitSeenFinishes, finishes_);
 }
 

@@ -39,9 +39,9 @@ class GBuffer {
   void remove();
 
   int width_, height_;
-  uint32_t places_ = 0, finishes_ = 0, depths_ = 0, over_color_ = 0;  ///< textures
-  uint32_t image_color_ = 0, parts_ = 0;                              ///< renderbuffers
-  uint32_t seen_ = 0, over_ = 0, image_ = 0;                          ///< framebuffers
+  uint32_t positions_ = 0, finishes_ = 0, depths_ = 0, over_color_ = 0;  ///< textures
+  uint32_t image_color_ = 0, parts_ = 0;                                 ///< renderbuffers
+  uint32_t seen_ = 0, over_ = 0, image_ = 0;                             ///< framebuffers
 };
 
 }  // namespace viscera

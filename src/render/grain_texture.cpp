@@ -30,23 +30,23 @@ void addNoise(std::vector<float>& sums, int side, const std::array<uint32_t, 3>&
   for (uint32_t z = 0; z < cells[2]; ++z)
     for (uint32_t y = 0; y < cells[1]; ++y)
       for (uint32_t x = 0; x < cells[0]; ++x) corners.push_back(hashed(x, y, z, seed));
-  struct Place {
+  struct Position {
     std::array<size_t, 2> corner;  ///< below and above
     std::array<float, 2> weight;
   };
-  std::array<std::vector<Place>, 3> places;  // [side] along each axis
+  std::array<std::vector<Position>, 3> positions;  // [side] along each axis
   for (size_t axis = 0, stride = 1; axis < 3; stride *= cells[axis++]) {
     for (int i = 0; i < side; ++i) {
-      const float place = static_cast<float>(i) / static_cast<float>(side) * static_cast<float>(cells[axis]);
-      const auto low = static_cast<uint32_t>(place);
-      const float f = place - static_cast<float>(low), share = f * f * f * (f * (6 * f - 15) + 10);
-      places[axis].push_back({{low % cells[axis] * stride, (low + 1) % cells[axis] * stride}, {1 - share, share}});
+      const float position = static_cast<float>(i) / static_cast<float>(side) * static_cast<float>(cells[axis]);
+      const auto low = static_cast<uint32_t>(position);
+      const float f = position - static_cast<float>(low), share = f * f * f * (f * (6 * f - 15) + 10);
+      positions[axis].push_back({{low % cells[axis] * stride, (low + 1) % cells[axis] * stride}, {1 - share, share}});
     }
   }
   size_t texel = 0;
-  for (const Place& z : places[2]) {
-    for (const Place& y : places[1]) {
-      for (const Place& x : places[0]) {
+  for (const Position& z : positions[2]) {
+    for (const Position& y : positions[1]) {
+      for (const Position& x : positions[0]) {
         float sum = 0;
         for (uint32_t corner = 0; corner < 8; ++corner) {
           const uint32_t i = corner & 1U, j = corner >> 1U & 1U, k = corner >> 2U;

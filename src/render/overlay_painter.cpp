@@ -85,14 +85,14 @@ OverlayPainter::OverlayPainter(const Model& model)
   glVertexArrayElementBuffer(arrow_inputs_.id(), arrow_indices_.id());
 }
 
-void OverlayPainter::follow(const OverlayStyle& look) {
-  if (look.capture != 0 && std::exchange(capture_, look.capture) == look.capture) return;
-  nodes_.follow(look.state, *look.surface);
+void OverlayPainter::follow(const OverlayStyle& style) {
+  if (style.capture != 0 && std::exchange(capture_, style.capture) == style.capture) return;
+  nodes_.follow(style.state, *style.surface);
 }
 
-void OverlayPainter::drawStrain(const OverlayStyle& look, const MeshView& mesh, const Pose& optical_from_tissue,
+void OverlayPainter::drawStrain(const OverlayStyle& style, const MeshView& mesh, const Pose& optical_from_tissue,
                                 const Eigen::Matrix4f& clip_from_optical) {
-  nodes_.makeColors(*look.surface, look.strain_range);
+  nodes_.makeColors(*style.surface, style.strain_range);
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);
   glVertexArrayVertexBuffer(mesh_inputs_.id(), kPositionInput, mesh.positions, 0, 3 * sizeof(float));
   glVertexArrayVertexBuffer(mesh_inputs_.id(), kNormalInput, mesh.normals, 0, sizeof(uint32_t));
@@ -104,23 +104,23 @@ void OverlayPainter::drawStrain(const OverlayStyle& look, const MeshView& mesh, 
   glBindVertexArray(0);
 }
 
-void OverlayPainter::draw(const OverlayStyle& look, int supersampling, const Pose& optical_from_tissue,
+void OverlayPainter::draw(const OverlayStyle& style, int supersampling, const Pose& optical_from_tissue,
                           const Eigen::Matrix4f& clip_from_optical) {
-  if (look.shown.has(Overlay::kForces) || look.shown.has(Overlay::kWind))
-    drawArrows(look, optical_from_tissue, clip_from_optical);
+  if (style.shown.has(Overlay::kForces) || style.shown.has(Overlay::kWind))
+    drawArrows(style, optical_from_tissue, clip_from_optical);
   blend();
   glDepthMask(GL_FALSE);
   std::array<float, 2> widths{};
   glGetFloatv(GL_ALIASED_LINE_WIDTH_RANGE, widths.data());
   glLineWidth(std::clamp(static_cast<float>(supersampling), widths[0], widths[1]));
   setMeshMatrices(line_, optical_from_tissue, clip_from_optical);
-  if (look.shown.has(Overlay::kLattice) || look.shown.has(Overlay::kSprings)) drawSprings(look);
-  if (look.shown.has(Overlay::kNormals)) {
-    nodes_.makeNormals(look.state, *look.surface);
+  if (style.shown.has(Overlay::kLattice) || style.shown.has(Overlay::kSprings)) drawSprings(style);
+  if (style.shown.has(Overlay::kNormals)) {
+    nodes_.makeNormals(style.state, *style.surface);
     drawSpikes(nodes_.normals(), kNormalColor);
   }
-  if (look.shown.has(Overlay::kForces) && nodes_.anyForces()) {
-    nodes_.makeForces(*look.surface);
+  if (style.shown.has(Overlay::kForces) && nodes_.anyForces()) {
+    nodes_.makeForces(*style.surface);
     drawSpikes(nodes_.forces(), kForceColor);
   }
   glLineWidth(1);
@@ -143,8 +143,8 @@ void OverlayPainter::drawThrough(const Color& color, DrawLines drawLines) {
   glDepthFunc(GL_LESS);
 }
 
-void OverlayPainter::drawSprings(const OverlayStyle& look) {
-  const size_t count = nodes_.makeLines(look.state, look.shown.has(Overlay::kSprings));
+void OverlayPainter::drawSprings(const OverlayStyle& style) {
+  const size_t count = nodes_.makeLines(style.state, style.shown.has(Overlay::kSprings));
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);
   glVertexArrayVertexBuffer(line_inputs_.id(), 0, nodes_.nodes().id(), 0, sizeof(layout::vec4));
   glVertexArrayElementBuffer(line_inputs_.id(), nodes_.lines().id());
@@ -159,15 +159,15 @@ void OverlayPainter::drawSpikes(const gpu::Buffer<layout::vec4>& ends, const Col
   drawThrough(color, [&] { glDrawArrays(GL_LINES, 0, static_cast<GLsizei>(ends.size())); });
 }
 
-void OverlayPainter::drawArrows(const OverlayStyle& look, const Pose& optical_from_tissue,
+void OverlayPainter::drawArrows(const OverlayStyle& style, const Pose& optical_from_tissue,
                                 const Eigen::Matrix4f& clip_from_optical) {
   glBindVertexArray(arrow_inputs_.id());
   arrow_.use();
   glDepthRange(0, kNearestDepths);
-  for (const Arrow& arrow : *look.arrows) {
+  for (const Arrow& arrow : *style.arrows) {
     const bool force = arrow.kind == Arrow::Kind::kForce;
     const double length = arrow.along_m.norm();
-    if (!look.shown.has(force ? Overlay::kForces : Overlay::kWind) || !(length > 0)) continue;
+    if (!style.shown.has(force ? Overlay::kForces : Overlay::kWind) || !(length > 0)) continue;
     Eigen::Matrix4f placed =
         poseMatrix(optical_from_tissue * Pose{arrow.from_m, rotationBetween(Vector3d::UnitZ(), arrow.along_m)});
     placed.topLeftCorner<3, 3>() *= static_cast<float>(length);
@@ -186,7 +186,7 @@ void OverlayPainter::drawLegend(double strain_range) {
   glDisable(GL_DEPTH_TEST);
   glBindVertexArray(no_inputs_.id());
   legend_.use();
-  legend_.setVectors("place", kLegend.data(), 4, 1);
+  legend_.setVectors("position", kLegend.data(), 4, 1);
   legend_.setVectors("digits", digitsOf(strain_range).data(), 4, 1);
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
   glEnable(GL_DEPTH_TEST);

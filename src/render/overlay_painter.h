@@ -35,12 +35,12 @@ class OverlayPainter {
   explicit OverlayPainter(const Model& model);
 
   /// Updates nodes to the state, before anything is drawn.
-  void follow(const OverlayStyle& look);
+  void follow(const OverlayStyle& style);
   /// Draws the surface in the colours of strain, in place of the tissue's. @param mesh  of look.surface
-  void drawStrain(const OverlayStyle& look, const MeshView& mesh, const Pose& optical_from_tissue,
+  void drawStrain(const OverlayStyle& style, const MeshView& mesh, const Pose& optical_from_tissue,
                   const Eigen::Matrix4f& clip_from_optical);
   /// Draws all others but the legend over the image. @param supersampling  of the image, for the width of lines
-  void draw(const OverlayStyle& look, int supersampling, const Pose& optical_from_tissue,
+  void draw(const OverlayStyle& style, int supersampling, const Pose& optical_from_tissue,
             const Eigen::Matrix4f& clip_from_optical);
   /// Draws the scale of strain at the right of the image.
   void drawLegend(double strain_range);
@@ -49,9 +49,9 @@ class OverlayPainter {
   using Color = std::array<float, 4>;
   template <class DrawLines>
   void drawThrough(const Color& color, DrawLines drawLines);
-  void drawSprings(const OverlayStyle& look);
+  void drawSprings(const OverlayStyle& style);
   void drawSpikes(const gpu::Buffer<layout::vec4>& ends, const Color& color);
-  void drawArrows(const OverlayStyle& look, const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical);
+  void drawArrows(const OverlayStyle& style, const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical);
 
   NodeOverlay nodes_;
   uint64_t capture_ = 0;  ///< capture of nodes_

@@ -64,10 +64,10 @@ Renderer::Renderer(const std::vector<CameraConfig>& cameras, const std::vector<S
   const auto any = [this](auto asks) { return std::any_of(cameras_.begin(), cameras_.end(), asks); };
   if (any([](const CameraConfig& camera) { return camera.light == CameraLight::kLens; }))
     light_features_.emplace_back("LENS_LIGHT");
-  std::vector<std::string> looks = light_features_;
-  if (any([](const CameraConfig& camera) { return camera.contact_shadows > 0; })) looks.emplace_back("CONTACTS");
+  std::vector<std::string> features = light_features_;
+  if (any([](const CameraConfig& camera) { return camera.contact_shadows > 0; })) features.emplace_back("CONTACTS");
   tissue_ = std::make_unique<TissuePainter>(model, !std::all_of(cameras_.begin(), cameras_.end(), lightsPixels),
-                                            std::any_of(cameras_.begin(), cameras_.end(), lightsPixels), looks);
+                                            std::any_of(cameras_.begin(), cameras_.end(), lightsPixels), features);
   tools_ = std::make_unique<ToolPainter>(styluses, light_features_);
   if (!obstacles.empty()) obstacles_ = std::make_unique<ObstaclePainter>(obstacles, light_features_);
   for (CameraConfig& camera : cameras_) {
@@ -103,23 +103,23 @@ void Renderer::draw(size_t camera, const MeshView& mesh, const ToolMotions& moti
   drawImage(camera, mesh, motions, true, Nothing{});
 }
 
-void Renderer::draw(size_t camera, const Model& model, const OverlayStyle& look, const ToolMotions& motions) {
+void Renderer::draw(size_t camera, const Model& model, const OverlayStyle& style, const ToolMotions& motions) {
   if (!overlays_) overlays_ = std::make_unique<OverlayPainter>(model);
-  overlays_->follow(look);
-  const MeshView mesh = meshOf(*look.surface, look.runs);
-  const bool strain = look.shown.has(Overlay::kStrain);
+  overlays_->follow(style);
+  const MeshView mesh = meshOf(*style.surface, style.runs);
+  const bool strain = style.shown.has(Overlay::kStrain);
   const Lens* lens = lenses_[camera].get();  // not for legends
   drawImage(camera, mesh, motions, !strain, [&](const View& view, bool before_tools) {
     if (before_tools) {
-      if (strain) overlays_->drawStrain(look, mesh, view.optical_from_tissue, view.clip_from_optical);
+      if (strain) overlays_->drawStrain(style, mesh, view.optical_from_tissue, view.clip_from_optical);
     } else {
-      overlays_->draw(look, cameras_[camera].supersampling, view.optical_from_tissue, view.clip_from_optical);
-      if (strain && !lens) overlays_->drawLegend(look.strain_range);
+      overlays_->draw(style, cameras_[camera].supersampling, view.optical_from_tissue, view.clip_from_optical);
+      if (strain && !lens) overlays_->drawLegend(style.strain_range);
     }
   });
   if (!strain || !lens) return;
   lens->bindForDrawing();
-  overlays_->drawLegend(look.strain_range);
+  overlays_->drawLegend(style.strain_range);
 }
 
 MeshView Renderer::meshOf(const Surface& surface, const IndexRuns* runs) const {

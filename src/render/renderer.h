@@ -66,7 +66,7 @@ class Renderer {
   void draw(size_t camera, const MeshView& mesh, const ToolMotions& motions);
   /// Draws as draw() does, with overlays. Makes what they need on the first call. @param model  of look.surface, must
   /// outlive this
-  void draw(size_t camera, const Model& model, const OverlayStyle& look, const ToolMotions& motions);
+  void draw(size_t camera, const Model& model, const OverlayStyle& style, const ToolMotions& motions);
   /// Sets the obstacles for later images. @param poses  [obstacles] tissue frame; without a call there are none
   void placeObstacles(const std::vector<Pose>& poses) { obstacle_poses_ = poses; }
   /// Sets the colours of surfaces for later images, one per vertex; 0: their own.

@@ -79,8 +79,9 @@ TissuePainter::TissuePainter(const Model* model, bool samples, bool pixels, std:
   describe(tissue_inputs_);
   tissue_inputs_.describe(kRestInput, kRestInput, 4, GL_FLOAT, GL_FALSE, 0);
   if (grain_) features.emplace_back("GRAIN");
-  const auto any = [model](double Body::*look) {
-    return std::any_of(model->bodies.begin(), model->bodies.end(), [look](const Body& body) { return body.*look > 0; });
+  const auto any = [model](double Body::*finish) {
+    return std::any_of(model->bodies.begin(), model->bodies.end(),
+                       [finish](const Body& body) { return body.*finish > 0; });
   };
   if (any(&Body::specular_wetness)) features.emplace_back("FILM");
   if (any(&Body::cut_wall_texture)) features.emplace_back("WALL_GRAIN");

@@ -43,14 +43,14 @@ TubePainter::TubePainter(std::vector<TubeStyle> sutures, const std::vector<std::
 }
 
 /// Makes the tube of a suture in the optical frame of a camera.
-void TubePainter::shape(const TubeStyle& suture, const std::vector<Vector3d>& places_m, const Pose& optical_from_tissue,
-                        double pixel) {
+void TubePainter::shape(const TubeStyle& suture, const std::vector<Vector3d>& positions_m,
+                        const Pose& optical_from_tissue, double pixel) {
   points_m_.clear();
   radii_m_.clear();
   tube_.vertices.clear();
   tube_.indices.clear();
-  for (const Vector3d& place_m : places_m) {
-    const Vector3d at_m = optical_from_tissue * place_m;
+  for (const Vector3d& position_m : positions_m) {
+    const Vector3d at_m = optical_from_tissue * position_m;
     points_m_.push_back(at_m.cast<float>());
     radii_m_.push_back(static_cast<float>(std::max(suture.radius_m, kLeastRadius_px * pixel * at_m.z())));
   }
@@ -66,15 +66,15 @@ void TubePainter::drawWith(const gpu::Program& program, const VisibleTubes& show
   setMeshMatrices(program, Pose{}, clip_from_optical);
   size_t first_vertex = 0;
   for (const VisibleTube& piece : shown) {
-    const auto look = std::find_if(sutures_.begin(), sutures_.end(), [&](const TubeStyle& suture) {
+    const auto style = std::find_if(sutures_.begin(), sutures_.end(), [&](const TubeStyle& suture) {
       return suture.suture == piece.suture && suture.part == piece.part;
     });
-    if (look == sutures_.end() || piece.places_m.size() < 2 || piece.places_m.size() > look->nodes) continue;
-    shape(*look, piece.places_m, optical_from_tissue, pixel);
+    if (style == sutures_.end() || piece.positions_m.size() < 2 || piece.positions_m.size() > style->nodes) continue;
+    shape(*style, piece.positions_m, optical_from_tissue, pixel);
     const size_t first = first_vertex;
     first_vertex += tube_.vertices.size();
     vertices_.write(tube_.vertices, first);
-    before(*look);
+    before(*style);
     glDrawElementsBaseVertex(GL_TRIANGLES, static_cast<GLsizei>(tube_.indices.size()), GL_UNSIGNED_INT, nullptr,
                              static_cast<GLint>(first));
   }
@@ -88,9 +88,9 @@ void TubePainter::draw(const VisibleTubes& shown, const Pose& optical_from_tissu
 
 void TubePainter::drawGeometry(const gpu::Program& program, const VisibleTubes& shown, const Pose& optical_from_tissue,
                                const Eigen::Matrix4f& clip_from_optical, double pixel) {
-  drawWith(program, shown, optical_from_tissue, clip_from_optical, pixel, [&](const TubeStyle& look) {
-    const auto of_suture = static_cast<uint32_t>(layout::kFirstSutureLabel + look.suture);
-    program.set("label", look.part == TubeKind::kClip ? layout::kClipLabel : of_suture);
+  drawWith(program, shown, optical_from_tissue, clip_from_optical, pixel, [&](const TubeStyle& style) {
+    const auto of_suture = static_cast<uint32_t>(layout::kFirstSutureLabel + style.suture);
+    program.set("label", style.part == TubeKind::kClip ? layout::kClipLabel : of_suture);
   });
 }
 

@@ -44,7 +44,7 @@ class TubePainter {
   template <class Before>
   void drawWith(const gpu::Program& program, const VisibleTubes& shown, const Pose& optical_from_tissue,
                 const Eigen::Matrix4f& clip_from_optical, double pixel, Before before);
-  void shape(const TubeStyle& suture, const std::vector<Vector3d>& places_m, const Pose& optical_from_tissue,
+  void shape(const TubeStyle& suture, const std::vector<Vector3d>& positions_m, const Pose& optical_from_tissue,
              double pixel);
 
   std::vector<TubeStyle> sutures_;

@@ -46,23 +46,23 @@ std::vector<DiscoveredSimulator> DiscoveredSimulators::at(Time now) const {
     const auto simulation = parts.find("simulation");
     if (simulation == parts.end() || now - simulation->second.at > kSilence) continue;
     const Status& whole = simulation->second.status;
-    DiscoveredSimulator told;
-    told.node = node;
-    told.scene = valueOf(whole, "scene");
-    told.state = whole.message;
-    told.tick = valueOf(whole, "tick");
-    told.paused = valueOf(whole, "paused") == "True";
-    told.preparing_percent = valueOf(whole, "preparing_percent");
-    told.recording = valueOf(whole, "recording");
-    told.springs_cut = valueOf(whole, "springs_cut");
-    told.max_stretch = valueOf(whole, "max_stretch");
+    DiscoveredSimulator found;
+    found.node = node;
+    found.scene = valueOf(whole, "scene");
+    found.state = whole.message;
+    found.tick = valueOf(whole, "tick");
+    found.paused = valueOf(whole, "paused") == "True";
+    found.preparing_percent = valueOf(whole, "preparing_percent");
+    found.recording = valueOf(whole, "recording");
+    found.springs_cut = valueOf(whole, "springs_cut");
+    found.max_stretch = valueOf(whole, "max_stretch");
     for (const auto& [name, part] : parts) {
       if (now - part.at > kSilence) continue;
-      if (part.status.level != Status::OK) told.warnings.push_back(name + ": " + part.status.message);
-      if (name == "pace") told.real_time_factor = valueOf(part.status, "real_time_factor");
-      if (!valueOf(part.status, "poses_accepted").empty()) told.styluses.push_back(stylusOf(name, part.status));
+      if (part.status.level != Status::OK) found.warnings.push_back(name + ": " + part.status.message);
+      if (name == "pace") found.real_time_factor = valueOf(part.status, "real_time_factor");
+      if (!valueOf(part.status, "poses_accepted").empty()) found.styluses.push_back(stylusOf(name, part.status));
     }
-    out.push_back(std::move(told));
+    out.push_back(std::move(found));
   }
   return out;
 }

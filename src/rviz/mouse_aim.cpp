@@ -33,8 +33,8 @@ std::optional<Pose> MouseAim::at(const ScreenRay& ray, const SentSurface& live, 
   if (!distance_m_) distance_m_ = middleAlong(ray, vertices_->positions_m);
   Pose pose;
   pose.position_m = ray.origin_m + (*distance_m_ + depth_m) * ray.direction;
-  const Vector3d hand = (ray.right - ray.up).normalized();  // the shaft's upper end is at the lower right
-  const Vector3d z = -std::cos(tilt_rad) * ray.direction + std::sin(tilt_rad) * hand;
+  const Vector3d shaft = (ray.right - ray.up).normalized();  // the shaft's upper end is at the lower right
+  const Vector3d z = -std::cos(tilt_rad) * ray.direction + std::sin(tilt_rad) * shaft;
   const Vector3d y = z.cross(ray.right).normalized();
   Eigen::Matrix3d axes;
   axes << y.cross(z), y, z;

@@ -72,7 +72,7 @@ void MouseTool::onInitialize() {
 
 void MouseTool::activate() {
   active_ = true;
-  place_.reset();
+  position_.reset();
   follow();
 }
 
@@ -107,8 +107,8 @@ std::array<bool, 2> MouseTool::pressed() const {
 }
 
 void MouseTool::tell(const QString& text) {
-  if (text != told_) setStatus(text);
-  told_ = text;
+  if (text != last_) setStatus(text);
+  last_ = text;
 }
 
 void MouseTool::update(float, float) {
@@ -130,7 +130,7 @@ void MouseTool::update(float, float) {
   wanted.tip = *tip;
   wanted.buttons = pressed();
   wanted.speed_m_per_s = speed_->getFloat();
-  sender_->want(wanted);
+  sender_->request(wanted);
   const double depth_mm = 1e3 * static_cast<double>(depth_->getFloat());
   tell(QString("%1: %2 mm %3 the skin%4%5. Wheel: depth (Control: fine). Left, 1: button 1. Right, 2: button 2. "
                "Shift: camera.")
@@ -158,7 +158,7 @@ std::optional<Pose> MouseTool::aim() {
     tell(QString("tf does not know ") + QString::fromStdString(vertices->header.frame_id));
     return std::nullopt;
   }
-  if (!place_) {
+  if (!position_) {
     tell("point at the tissue");
     return std::nullopt;
   }
@@ -167,8 +167,8 @@ std::optional<Pose> MouseTool::aim() {
   const Ogre::Viewport* view = panel->getViewport();
   if (!camera || !view) return std::nullopt;
   const Ogre::Ray seen = camera->getCameraToViewportRay(
-      static_cast<float>(place_->x) / static_cast<float>(std::max(view->getActualWidth(), 1)),
-      static_cast<float>(place_->y) / static_cast<float>(std::max(view->getActualHeight(), 1)));
+      static_cast<float>(position_->x) / static_cast<float>(std::max(view->getActualWidth(), 1)),
+      static_cast<float>(position_->y) / static_cast<float>(std::max(view->getActualHeight(), 1)));
   const Ogre::Quaternion back = orientation.Inverse();
   const auto turned = [&back](const Ogre::Vector3& v) { return vector(back * v).normalized().eval(); };
   ScreenRay ray;
@@ -182,7 +182,7 @@ std::optional<Pose> MouseTool::aim() {
 
 int MouseTool::processMouseEvent(rviz::ViewportMouseEvent& event) {
   if (event.panel != context_->getViewManager()->getRenderPanel()) return 0;
-  place_ = Place{event.x, event.y};
+  position_ = ScreenPoint{event.x, event.y};
   if (event.shift()) {
     mouse_ = {};
     event.panel->getViewController()->handleMouseEvent(event);

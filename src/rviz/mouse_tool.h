@@ -37,7 +37,7 @@ class MouseTool : public rviz::Tool {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  struct Place {
+  struct ScreenPoint {
     int x = 0, y = 0;  ///< screen coordinates [pixels]
   };
   bool press(const QKeyEvent& event, bool down);
@@ -50,10 +50,10 @@ class MouseTool : public rviz::Tool {
   rviz::FloatProperty *depth_, *step_, *speed_, *tilt_;
   SurfaceFeed feed_;
   MouseAim aim_;
-  std::optional<Place> place_;  ///< mouse position; empty before the mouse entered the window
+  std::optional<ScreenPoint> position_;  ///< mouse position; empty before the mouse entered the window
   std::array<bool, 2> keys_{}, mouse_{};
   bool active_ = false;
-  QString told_;
+  QString last_;
   std::string topics_;  ///< prefix of the simulator's topics, with a slash at its end; empty: the name is invalid
   std::unique_ptr<StylusSender> sender_;
 };

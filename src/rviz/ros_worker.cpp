@@ -15,8 +15,8 @@ constexpr std::chrono::milliseconds kCloseAgain{20};  // retries to close a call
 
 }  // namespace
 
-RosWorker::RosWorker(std::function<void(const std::string&)> told)
-    : told_(std::move(told)), thread_([this] { main(); }) {}
+RosWorker::RosWorker(std::function<void(const std::string&)> report)
+    : report_(std::move(report)), thread_([this] { main(); }) {}
 
 RosWorker::~RosWorker() {
   {
@@ -59,7 +59,7 @@ void RosWorker::main() {
     client_ = ros::ServiceClient();
     if (ending_) break;
     lock.unlock();
-    if (!answer.empty()) told_(answer);
+    if (!answer.empty()) report_(answer);
     lock.lock();
   }
   ended_ = true;

@@ -19,7 +19,7 @@ namespace viscera::rviz_plugin {
 class RosWorker {
  public:
   /// The callback gets texts for the user, on that thread: that a call waits, and its result.
-  explicit RosWorker(std::function<void(const std::string&)> told);
+  explicit RosWorker(std::function<void(const std::string&)> report);
   /// Ends without waiting for answers.
   ~RosWorker();
 
@@ -35,7 +35,7 @@ class RosWorker {
   /// Calls a service and waits for its answer. Call it within a job.
   template <class Service>
   Answer ask(const std::string& service, const typename Service::Request& request) {
-    told_(service + " ...");
+    report_(service + " ...");
     ros::ServiceClient client = hold<Service>(service);
     typename Service::Response response;
     if (!client.isValid()) return {false, "no service " + service};
@@ -57,7 +57,7 @@ class RosWorker {
     return client;
   }
 
-  const std::function<void(const std::string&)> told_;
+  const std::function<void(const std::string&)> report_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<std::function<std::string()>> jobs_;

@@ -19,7 +19,7 @@
 namespace viscera::rviz_plugin {
 namespace {
 
-constexpr std::chrono::milliseconds kLookEvery{500};
+constexpr std::chrono::milliseconds kCheckEvery{500};
 constexpr std::chrono::milliseconds kAnswerLimit{300};
 
 /// Queries the master. @returns whether it answered
@@ -119,7 +119,7 @@ void SenderWatch::main() {
     }
     lock.lock();
     if (!anew_) senders_ = std::move(seen);
-    changed_.wait_for(lock, kLookEvery, [this] { return ending_ || anew_; });
+    changed_.wait_for(lock, kCheckEvery, [this] { return ending_ || anew_; });
   }
 }
 

@@ -56,12 +56,12 @@ std::string complete(SentTopology& topology, const std::vector<uint32_t>& body_t
 
 /// Applies a change. @returns an error, or an empty text
 std::string edit(const std::vector<uint32_t>& before, const SurfaceTopologyChange& change, std::vector<uint32_t>& out) {
-  const size_t places = change.kept.size();
-  if (change.removed.size() != places || change.added.size() != places)
-    return "kept, removed and added have " + text(places) + ", " + text(change.removed.size()) + " and " +
+  const size_t positions = change.kept.size();
+  if (change.removed.size() != positions || change.added.size() != positions)
+    return "kept, removed and added have " + text(positions) + ", " + text(change.removed.size()) + " and " +
            text(change.added.size()) + " entries, but need the same number";
   size_t at = 0, from = 0;  // triangle counts: sums of 32-bit numbers fit
-  for (size_t e = 0; e < places; ++e) {
+  for (size_t e = 0; e < positions; ++e) {
     const size_t kept_end = at + change.kept[e], end = kept_end + change.removed[e], added = from + change.added[e];
     if (end > before.size() / 3 || added > change.triangles.size() / 3)
       return "place " + text(e) + " goes beyond the existing triangles";

@@ -72,7 +72,7 @@ SessionPanel::SessionPanel(QWidget* parent)
       measures_(wrappedLabel()),
       warnings_(wrappedLabel()),
       answer_(wrappedLabel()),
-      hands_(new ToolTable([this](const std::string& stylus, const std::string& which, const std::string& mode) {
+      tools_(new ToolTable([this](const std::string& stylus, const std::string& which, const std::string& mode) {
         SetToolModeRequest request;
         request.stylus = stylus;
         request.which = which;
@@ -92,7 +92,7 @@ SessionPanel::SessionPanel(QWidget* parent)
   makeButtons(rows);
   // Widgets to click come first, and those of variable height last: a button that moves is missed.
   for (QWidget* widget :
-       {static_cast<QWidget*>(state_), static_cast<QWidget*>(hands_), static_cast<QWidget*>(answer_),
+       {static_cast<QWidget*>(state_), static_cast<QWidget*>(tools_), static_cast<QWidget*>(answer_),
         static_cast<QWidget*>(warnings_), static_cast<QWidget*>(task_), static_cast<QWidget*>(measures_)})
     rows->addWidget(widget);
   rows->addStretch(1);
@@ -203,7 +203,7 @@ void SessionPanel::follow() {
   worker_->add([this, node = queued(), topics = topics_]() mutable {
     topics->diagnostics = node.subscribe<diagnostic_msgs::DiagnosticArray>(
         "/diagnostics", kDiagnosticsQueue, [this](const diagnostic_msgs::DiagnosticArrayConstPtr& message) {
-          told_.take(*message, std::chrono::steady_clock::now());
+          simulators_.take(*message, std::chrono::steady_clock::now());
         });
     return std::string();
   });
@@ -231,10 +231,10 @@ void SessionPanel::chooseSpace(const std::string& space) {
 }
 
 void SessionPanel::show() {
-  const std::vector<DiscoveredSimulator> told = told_.at(std::chrono::steady_clock::now());
+  const std::vector<DiscoveredSimulator> simulators = simulators_.at(std::chrono::steady_clock::now());
   std::vector<DiscoveredSimulator> here;
   QStringList spaces;
-  for (const DiscoveredSimulator& simulator : told) {
+  for (const DiscoveredSimulator& simulator : simulators) {
     if (simulator.space() == space_) here.push_back(simulator);
     spaces += QString::fromStdString(simulator.space());
   }
@@ -280,7 +280,7 @@ void SessionPanel::showSession(const std::vector<DiscoveredSimulator>& here) {
   for (QWidget* button : {reset_, pause_, load_, record_}) button->setEnabled(runs);
   step_->setEnabled(now_.paused);
   task_->setRuns(runs);
-  hands_->show(now_.styluses);
+  tools_->show(now_.styluses);
 }
 
 void SessionPanel::load(const rviz::Config& config) {

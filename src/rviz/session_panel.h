@@ -51,11 +51,11 @@ class SessionPanel : public rviz::Panel {
   QLabel *state_, *measures_, *warnings_, *answer_;
   QPushButton *load_, *reset_, *pause_, *step_, *record_;
   QSpinBox* ticks_;
-  ToolTable* hands_;
+  ToolTable* tools_;
   TaskBox* task_;
   std::string wanted_;  ///< namespace as the user wrote it; empty: rviz's own
   std::string space_;   ///< full name of it, with a slash at its end; empty: it is not a valid name
-  DiscoveredSimulators told_;
+  DiscoveredSimulators simulators_;
   DiscoveredSimulator now_;  ///< simulator that is displayed; without a node: none
   std::shared_ptr<PanelTopics> topics_;
   std::unique_ptr<RosWorker> worker_;  ///< last member: its thread uses the ones above

@@ -70,14 +70,14 @@ StylusSender::~StylusSender() {
   thread_.join();
 }
 
-void StylusSender::want(const WantedStylus& wanted) {
+void StylusSender::request(const WantedStylus& wanted) {
   const std::lock_guard<std::mutex> lock(mutex_);
   wanted_ = wanted;
-  told_ = Clock::now();
+  sent_at_ = Clock::now();
 }
 
 void StylusSender::rest() {
-  want({});
+  request({});
 }
 
 void StylusSender::main() {
@@ -85,7 +85,7 @@ void StylusSender::main() {
   std::unique_lock<std::mutex> lock(mutex_);
   for (Clock::time_point next = Clock::now(); !changed_.wait_until(lock, next, [this] { return ending_; });
        next = std::max(next + kPeriod, Clock::now())) {
-    const WantedStylus wanted = Clock::now() - told_ < kSilence ? wanted_ : WantedStylus();
+    const WantedStylus wanted = Clock::now() - sent_at_ < kSilence ? wanted_ : WantedStylus();
     lock.unlock();
     if (topics && topics->name != wanted.topics) {
       topics->press({});

@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-#include "devices/steered_hand.h"
+#include "devices/steered_tool.h"
 
 namespace viscera::rviz_plugin {
 
@@ -29,7 +29,7 @@ class StylusSender {
   ~StylusSender();
   /// Sets the desired state. Call it repeatedly: after kSilence without a call nothing is sent, so that the simulator
   /// stops tracking.
-  void want(const WantedStylus& wanted);
+  void request(const WantedStylus& wanted);
   /// Releases the buttons and stops sending.
   void rest();
 
@@ -40,7 +40,7 @@ class StylusSender {
   std::mutex mutex_;
   std::condition_variable changed_;
   WantedStylus wanted_;
-  std::chrono::steady_clock::time_point told_{};
+  std::chrono::steady_clock::time_point sent_at_{};
   bool ending_ = false;
   std::thread thread_;  ///< last member: it uses all of the above
 };

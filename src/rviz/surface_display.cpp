@@ -125,7 +125,7 @@ void SurfaceDisplay::reset() {
   rviz::Display::reset();
   feed_.clear();
   placed_ = true;
-  told_ = {};
+  sent_at_ = {};
   senders_.clear();
   clear();
   if (isEnabled() && initialized()) subscribe();
@@ -174,7 +174,7 @@ void SurfaceDisplay::update(float, float) {
     if (placed && fits_view_->getBool()) fitView();
   }
   tellSenders();
-  if (std::chrono::steady_clock::now() >= told_ + kTellEvery) tell();
+  if (std::chrono::steady_clock::now() >= sent_at_ + kTellEvery) tell();
 }
 
 /// Updates the status of the simulator when it changes.
@@ -234,9 +234,9 @@ void SurfaceDisplay::paint() {
 void SurfaceDisplay::tell() {
   using rviz::StatusProperty;
   const auto now = std::chrono::steady_clock::now();
-  const double elapsed_s = std::chrono::duration<double>(now - told_).count();
-  const bool first = told_ == std::chrono::steady_clock::time_point{};
-  told_ = now;
+  const double elapsed_s = std::chrono::duration<double>(now - sent_at_).count();
+  const bool first = sent_at_ == std::chrono::steady_clock::time_point{};
+  sent_at_ = now;
   const ros::Subscriber& vertices = feed_.vertices();
   if (!vertices) return;
   const QString topic = QString::fromStdString(vertices.getTopic());

@@ -64,7 +64,7 @@ class SurfaceDisplay : public rviz::Display {
   size_t drawn_ = 0;     ///< number of surfaces since told_
   std::string senders_;  ///< displayed status of the senders
   bool placed_ = true;   ///< whether no error about the transform is displayed
-  std::chrono::steady_clock::time_point told_{};
+  std::chrono::steady_clock::time_point sent_at_{};
 };
 
 }  // namespace viscera::rviz_plugin

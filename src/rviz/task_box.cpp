@@ -82,7 +82,7 @@ std::string startTask(RosWorker& worker, const std::string& space, const std::st
   return answer.success ? worker.ask<StartTask>(space + "start_task", request).text : answer.text;
 }
 
-QString handsText(const Metrics& metrics) {
+QString toolsText(const Metrics& metrics) {
   QString out;
   const size_t count = std::min({metrics.styluses.size(), metrics.time_s.size(), metrics.path_m.size(),
                                  metrics.economy.size(), metrics.peak_force_n.size(), metrics.sparc.size()});
@@ -117,7 +117,7 @@ struct TaskBox::Inside {
   QComboBox* tasks = new ChoiceBox;
   QPushButton* start = new QPushButton(icon(Sign::kStart), "Start");
   QPushButton* end = new QPushButton(icon(Sign::kEnd), "Give up");
-  QLabel *text = wrappedLabel(), *score = wrappedLabel(), *measures = wrappedLabel(), *hands = wrappedLabel(),
+  QLabel *text = wrappedLabel(), *score = wrappedLabel(), *measures = wrappedLabel(), *tools = wrappedLabel(),
          *report = new QLabel;
   QProgressBar* progress = new QProgressBar;
   std::shared_ptr<Topics> topics = std::make_shared<Topics>();
@@ -146,7 +146,7 @@ TaskBox::TaskBox(RosWorker& worker) : QGroupBox("Task"), inside_(new Inside{work
   auto* rows = new QVBoxLayout(this);
   for (QWidget* widget :
        {static_cast<QWidget*>(in.text), static_cast<QWidget*>(in.progress), static_cast<QWidget*>(in.score),
-        static_cast<QWidget*>(in.measures), static_cast<QWidget*>(in.hands), static_cast<QWidget*>(in.report)})
+        static_cast<QWidget*>(in.measures), static_cast<QWidget*>(in.tools), static_cast<QWidget*>(in.report)})
     rows->addWidget(widget);
   connect(in.start, &QPushButton::clicked, this, [&in] {
     const QString task = in.tasks->currentText().trimmed();
@@ -173,7 +173,7 @@ void TaskBox::follow(const ros::NodeHandle& node, const std::string& space) {
     topics->state = node.subscribe<TaskState>(space + "task_state", 1,
                                               [&in](const TaskStateConstPtr& message) { in.show(*message); });
     topics->metrics = node.subscribe<Metrics>(
-        space + "metrics", 1, [&in](const MetricsConstPtr& message) { writeOrHide(in.hands, handsText(*message)); });
+        space + "metrics", 1, [&in](const MetricsConstPtr& message) { writeOrHide(in.tools, toolsText(*message)); });
     return std::string();
   });
 }
@@ -193,7 +193,7 @@ void TaskBox::setRuns(bool runs) {
 }
 
 void TaskBox::Inside::clear() {
-  for (QLabel* label : {text, score, measures, hands, report}) label->hide();
+  for (QLabel* label : {text, score, measures, tools, report}) label->hide();
   progress->hide();
   busy = false;
   enable();

@@ -14,14 +14,14 @@ namespace {
 
 constexpr std::array<const char*, 3> kSwitches = {"idle", "button1", "button2"};
 constexpr int kModeLetters = 4;  // a dock may be narrow; the list shows full names
-constexpr int kFeltLines = 2;
+constexpr int kForceLines = 2;
 
-QString feltText(const DiscoveredStylus& told) {
-  const QString state = QString::fromStdString(told.state);
-  if (told.force_n.empty()) return state;
+QString forceText(const DiscoveredStylus& stylus_state) {
+  const QString state = QString::fromStdString(stylus_state.state);
+  if (stylus_state.force_n.empty()) return state;
   return QString("%1; %2 N, touches %3 nodes, holds %4")
-      .arg(state, rounded(told.force_n, 2), QString::fromStdString(told.nodes_touched),
-           QString::fromStdString(told.nodes_held));
+      .arg(state, rounded(stylus_state.force_n, 2), QString::fromStdString(stylus_state.nodes_touched),
+           QString::fromStdString(stylus_state.nodes_held));
 }
 
 }  // namespace
@@ -31,13 +31,14 @@ ToolTable::ToolTable(ModeChosen chosen) : chosen_(std::move(chosen)) {
 }
 
 void ToolTable::show(const std::vector<DiscoveredStylus>& styluses) {
-  const bool same = std::equal(rows_.begin(), rows_.end(), styluses.begin(), styluses.end(),
-                               [](const Row& row, const DiscoveredStylus& told) { return row.stylus == told.name; });
+  const bool same =
+      std::equal(rows_.begin(), rows_.end(), styluses.begin(), styluses.end(),
+                 [](const Row& row, const DiscoveredStylus& stylus_state) { return row.stylus == stylus_state.name; });
   if (!same) makeRows(styluses);
   for (size_t i = 0; i < rows_.size(); ++i) {
     for (size_t which = 0; which < kSwitches.size(); ++which)
       choose(rows_[i].modes[which], QString::fromStdString(styluses[i].modes[which]));
-    write(rows_[i].felt, feltText(styluses[i]));
+    write(rows_[i].force, forceText(styluses[i]));
   }
 }
 
@@ -52,7 +53,7 @@ void ToolTable::makeRows(const std::vector<DiscoveredStylus>& styluses) {
   int line = 1;
   for (const DiscoveredStylus& stylus : styluses) {
     grid->addWidget(new QLabel(QString::fromStdString(stylus.name)), line, 0);
-    Row row{stylus.name, {}, steadyLabel(kFeltLines)};
+    Row row{stylus.name, {}, steadyLabel(kForceLines)};
     for (size_t which = 0; which < kSwitches.size(); ++which) {
       QComboBox* box = row.modes[which] = new ChoiceBox;
       box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
@@ -66,7 +67,7 @@ void ToolTable::makeRows(const std::vector<DiscoveredStylus>& styluses) {
       grid->addWidget(box, line, static_cast<int>(which) + 1);
       grid->setColumnStretch(static_cast<int>(which) + 1, 1);
     }
-    grid->addWidget(row.felt, line + 1, 1, 1, static_cast<int>(kSwitches.size()));
+    grid->addWidget(row.force, line + 1, 1, 1, static_cast<int>(kSwitches.size()));
     rows_.push_back(row);
     line += 2;
   }

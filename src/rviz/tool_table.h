@@ -30,7 +30,7 @@ class ToolTable : public QWidget {
   struct Row {
     std::string stylus;
     std::array<QComboBox*, 3> modes;  ///< idle, button 1, button 2
-    QLabel* felt;
+    QLabel* force;
   };
   void makeRows(const std::vector<DiscoveredStylus>& styluses);
 

@@ -23,10 +23,10 @@ void addWindArrows(const Vector3d& wind_m_per_s, const Model& model, std::vector
     for (const Vector3f& point : body.skin.mesh.positions_m) box.extend(point.cast<double>());
   }
   if (box.isEmpty()) return;
-  const Vector3d way = wind_m_per_s.normalized(), along = kArrowOfWind_s * wind_m_per_s;
-  const Vector3d u = way.unitOrthogonal(), v = way.cross(u);
+  const Vector3d direction = wind_m_per_s.normalized(), along = kArrowOfWind_s * wind_m_per_s;
+  const Vector3d u = direction.unitOrthogonal(), v = direction.cross(u);
   const double half = box.diagonal().norm() / 2;
-  const Vector3d front = box.center() - half * way - along;
+  const Vector3d front = box.center() - half * direction - along;
   for (int i = 0; i < kAcross; ++i) {
     for (int j = 0; j < kAcross; ++j) {
       const double a = i - (kAcross - 1) / 2.0, b = j - (kAcross - 1) / 2.0;

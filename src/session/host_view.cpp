@@ -13,11 +13,11 @@ HostView::HostView(const Model& model) : surface_(model) {
 }
 
 void HostView::capture(Solver& solver, const RenderRequest& request, Pictures&) {
-  if (request.wants.count() > static_cast<size_t>(request.wants.surface)) {
+  if (request.outputs.count() > static_cast<size_t>(request.outputs.surface)) {
     throw GpuError(
         "an image was requested from a session without an OpenGL context; create one, or request only the surface");
   }
-  if (!request.wants.surface) return;
+  if (!request.outputs.surface) return;
   solver.snapshot(snapshot_);
   taken_ = std::make_unique<SurfaceFrame>();
   taken_->tick = request.tick;

@@ -93,7 +93,7 @@ void InlineView::addEye(size_t camera, const CameraConfig& config, PictureKind k
 
 void InlineView::capture(Solver& solver, const RenderRequest& request, Pictures& out) {
   const StateView state = solver.stateOnGpu().value();
-  if (request.wants.count() > 0 && surface_.canBeWounded() && solver.readCuts(cuts_)) {
+  if (request.outputs.count() > 0 && surface_.canBeWounded() && solver.readCuts(cuts_)) {
     wound(cuts_, cuts_.revision);
   }
   capture(state, request, out);
@@ -113,8 +113,8 @@ void InlineView::wound(const CutSprings& cuts, uint64_t revision) {
 void InlineView::capture(const StateView& state, const RenderRequest& request, Pictures& out,
                          const std::optional<HostDisplacements>& displacements) {
   ++captures_;
-  const bool surface = request.wants.surface && surface_ring_->inFlight() < kSurfacesInFlight;
-  counters_.skipped += request.wants.surface && !surface ? 1 : 0;
+  const bool surface = request.outputs.surface && surface_ring_->inFlight() < kSurfacesInFlight;
+  counters_.skipped += request.outputs.surface && !surface ? 1 : 0;
   bool all = surface, any = surface;  // of the surface mesh to map
   for (size_t e = 0; e < eyes_.size(); ++e) {
     Eye& eye = eyes_[e];
@@ -161,7 +161,7 @@ void InlineView::choose(size_t e, const StateView& state, const RenderRequest& r
 
 /// Returns whether an image of that kind is requested and its ring has room for another.
 bool InlineView::claim(Channel& channel, Eye& eye, const RenderRequest& request, Pictures& out) {
-  channel.wanted = request.wants.image(eye.camera, channel.kind);
+  channel.wanted = request.outputs.image(eye.camera, channel.kind);
   if (!channel.wanted) return false;
   if (channel.drawn) readDrawn(channel, eye);
   if (!channel.ring) {
@@ -169,7 +169,7 @@ bool InlineView::claim(Channel& channel, Eye& eye, const RenderRequest& request,
                                                        "depths or labels");
   }
   const bool full = channel.ring->inFlight() == kImagesInFlight;
-  if (!full || (request.wants.every_image && takeImage(channel, eye, out, true))) return true;
+  if (!full || (request.outputs.every_image && takeImage(channel, eye, out, true))) return true;
   ++counters_.skipped;
   channel.wanted = false;
   return false;
@@ -201,7 +201,7 @@ void InlineView::follow(const StateView& state, bool all, const std::optional<Ho
     if (asks && boxes.empty()) {
       boxes = displacements ? surface_.boxes().place(*displacements) : boxesOf(surface_.boxes(), state, model_.slots());
     }
-    eye.skin.look(surface_, asks ? &boxes : nullptr);
+    eye.skin.update(surface_, asks ? &boxes : nullptr);
     eye.skin.addTo(seen);
   }
   surface_.follow(state, all ? nullptr : &seen);
@@ -210,7 +210,7 @@ void InlineView::follow(const StateView& state, bool all, const std::optional<Ho
 }
 
 void InlineView::captureSurface(const StateView& state, const RenderRequest& request) {
-  const bool colors = surface_.isPainted(), strain = request.wants.strain;
+  const bool colors = surface_.isPainted(), strain = request.outputs.strain;
   if (strain) {
     if (!strain_) strain_ = std::make_unique<NodeOverlay>(model_);
     strain_->follow(state, surface_);

@@ -47,7 +47,7 @@ class InlineView : public View {
   void wound(const CutSprings& cuts, uint64_t revision);
   void collect(Pictures& out, bool wait) override;
   /// Returns whether something is in flight that collect() has not delivered.
-  bool anyUnderWay() const;
+  bool anyInFlight() const;
   void reset() override;
   ViewCounters counters() const override;
   std::shared_ptr<const VisibleTopology> wholeSkin() const override { return surface_.skin().whole(); }

@@ -34,13 +34,13 @@ void InlineView::collect(Pictures& out, bool wait) {
   }
 }
 
-bool InlineView::anyUnderWay() const {
+bool InlineView::anyInFlight() const {
   if (surface_ring_->inFlight() > 0) return true;
   return std::any_of(eyes_.begin(), eyes_.end(), [](const Eye& eye) {
-    const auto under_way = [](const Channel& channel) {
+    const auto in_flight = [](const Channel& channel) {
       return channel.drawn || (channel.ring && channel.ring->inFlight() > 0);
     };
-    return under_way(eye.color) || under_way(eye.depth) || under_way(eye.labels);
+    return in_flight(eye.color) || in_flight(eye.depth) || in_flight(eye.labels);
   });
 }
 

@@ -153,7 +153,7 @@ void RecordFileWriter::writeAll(const void* data, size_t size) const {
 }
 
 RecordFileReader::RecordFileReader(const std::string& path) : path_(path), file_(path, std::ios::binary) {
-  noteRead(path);
+  recordRead(path);
   if (!file_) throw Error(path + ": cannot be read (does the file exist?)");
   char magic[sizeof kRecordMagic] = {};
   uint32_t version = 0;
@@ -169,8 +169,8 @@ RecordFileReader::RecordFileReader(const std::string& path) : path_(path), file_
   go(kFirstChunk);
 }
 
-void RecordFileReader::go(uint64_t place) {
-  next_ = place;
+void RecordFileReader::go(uint64_t position) {
+  next_ = position;
   damage_.clear();
 }
 
@@ -192,7 +192,7 @@ std::optional<ChunkKind> RecordFileReader::next() {
       head.kind >= static_cast<uint32_t>(ChunkKind::kScene) && head.kind <= static_cast<uint32_t>(ChunkKind::kEnd);
   if (!known || chunkCrc(head, stored_.data()) != head.crc || head.raw / kMostPacked > head.stored)
     return ends("the recording is damaged");
-  place_ = next_;
+  position_ = next_;
   next_ += sizeof head + head.stored;
   raw_bytes_ = head.raw;
   return static_cast<ChunkKind>(head.kind);
@@ -200,7 +200,7 @@ std::optional<ChunkKind> RecordFileReader::next() {
 
 std::vector<char> RecordFileReader::bytes(uint64_t most) const {
   if (raw_bytes_ > most)
-    throw Error(path_ + ": the chunk after " + std::to_string(place_) + " bytes unpacks to " +
+    throw Error(path_ + ": the chunk after " + std::to_string(position_) + " bytes unpacks to " +
                 std::to_string(raw_bytes_) + " bytes; chunks of its kind have at most " + std::to_string(most));
   std::vector<char> out(raw_bytes_);
   uLongf size = out.size();
@@ -208,7 +208,7 @@ std::vector<char> RecordFileReader::bytes(uint64_t most) const {
   if (uncompress(reinterpret_cast<Bytef*>(out.empty() ? &none : out.data()), &size,
                  reinterpret_cast<const Bytef*>(stored_.data()), stored_.size()) != Z_OK ||
       size != out.size())
-    throw Error(path_ + ": the recording is damaged after " + std::to_string(place_) + " bytes");
+    throw Error(path_ + ": the recording is damaged after " + std::to_string(position_) + " bytes");
   return out;
 }
 

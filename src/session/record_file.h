@@ -82,16 +82,16 @@ class RecordFileReader {
   std::optional<ChunkKind> next();
   /// Returns the bytes of the chunk. @param most  largest unpacked size   @throws Error  not zlib data, or larger
   std::vector<char> bytes(uint64_t most = kMostEventBytes) const;
-  uint64_t place() const { return place_; }  ///< position of that chunk
+  uint64_t position() const { return position_; }  ///< position of that chunk
   /// Moves to a position, so that next() returns the chunk there.
-  void go(uint64_t place);
+  void go(uint64_t position);
   const std::string& damage() const { return damage_; }  ///< reason why next() found none; empty: all was read
   const std::string& path() const { return path_; }
 
  private:
   const std::string path_;
   std::ifstream file_;
-  uint64_t size_ = 0, place_ = 0, next_ = 0, raw_bytes_ = 0;
+  uint64_t size_ = 0, position_ = 0, next_ = 0, raw_bytes_ = 0;
   std::vector<char> stored_;
   std::string damage_;
 };

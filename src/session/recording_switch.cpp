@@ -13,16 +13,16 @@ namespace viscera {
 namespace {
 
 /// Returns the path of a recording; in a folder, a name made of the present second.
-std::string recordingPath(const std::string& place) {
+std::string recordingPath(const std::string& target) {
   std::error_code error;
-  if (place.back() != '/' && !std::filesystem::is_directory(place, error)) return place;
-  std::filesystem::create_directories(place, error);
+  if (target.back() != '/' && !std::filesystem::is_directory(target, error)) return target;
+  std::filesystem::create_directories(target, error);
   const std::time_t now = std::time(nullptr);
   std::tm utc{};
   gmtime_r(&now, &utc);
   char name[64];
   std::strftime(name, sizeof name, "session_%Y%m%dT%H%M%SZ.viscera", &utc);
-  return (std::filesystem::path(place) / name).string();
+  return (std::filesystem::path(target) / name).string();
 }
 
 }  // namespace
@@ -31,8 +31,8 @@ void RecordingSwitch::follow(Session& session) {
   if (recorder_) {
     recorder_->clear();  // the previous session, if it did not report its end
     recorder_->follow(session);
-  } else if (!place_.empty()) {
-    start(session, recordingPath(std::exchange(place_, "")));
+  } else if (!target_.empty()) {
+    start(session, recordingPath(std::exchange(target_, "")));
   }
 }
 

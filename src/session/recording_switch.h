@@ -15,7 +15,7 @@ namespace viscera {
 class RecordingSwitch {
  public:
   /// @param place  a file to create, or a folder, in which it is named after the time; empty: no recording yet
-  explicit RecordingSwitch(const std::string& place) : place_(place) {}
+  explicit RecordingSwitch(const std::string& target) : target_(target) {}
 
   /// Begins a session: the recording continues with it. @throws Error  the file cannot be created
   void follow(Session& session);
@@ -30,7 +30,7 @@ class RecordingSwitch {
   std::string file() const;   ///< file of the recording; empty: none. Callable from any thread, like fault()
 
  private:
-  std::string place_;         ///< of a recording that has not begun
+  std::string target_;        ///< of a recording that has not begun
   mutable std::mutex mutex_;  ///< protects the pointer
   std::unique_ptr<SessionRecorder> recorder_;
 };

@@ -35,7 +35,7 @@ gpu::Context& currentOne(gpu::Context& context) {
   return context;
 }
 
-ToolLimits handLimits(const Model& model, double tick_hz) {
+ToolLimits toolLimits(const Model& model, double tick_hz) {
   ToolLimits limits;
   limits.tick_s = 1 / tick_hz;
   limits.max_travel_m = waveSpeed(model) / tick_hz;
@@ -59,7 +59,7 @@ Session::Session(const Scene& scene, gpu::Context* context, const Progress& prog
     : scene_(options.model ? scene : withChosenSpacing(scene, context, progress)),
       model_(options.model ? options.model : std::make_shared<const Model>(buildModel(scene_, progress))),
       context_(context),
-      tools_(scene.styluses, handLimits(*model_, scene.solver.tick_hz)),
+      tools_(scene.styluses, toolLimits(*model_, scene.solver.tick_hz)),
       obstacles_(scene.obstacles, waveSpeed(*model_) / scene.solver.tick_hz),
       pose_times_(kNotedTicks) {
   std::string note;
@@ -92,7 +92,7 @@ void Session::requireContext() const {
   if (context_ && !solver_->onHost()) context_->requireCurrent();
 }
 
-Frame Session::step(const StylusSamples& samples, const FrameRequest& wants) {
+Frame Session::step(const StylusSamples& samples, const FrameRequest& outputs) {
   requireContext();
   moveObstacles();
   request_.motions = tools_.advance(samples, [this](size_t s, const StylusMotion& motion, double mouth_rad) {
@@ -101,7 +101,7 @@ Frame Session::step(const StylusSamples& samples, const FrameRequest& wants) {
   solver_->step(tools_.ofHeld(request_.motions), obstacles_.motions());  // VR05 2.4: n substeps
   updateProcesses();
   request_.tick = ++tick_;
-  request_.wants = wants;
+  request_.outputs = outputs;
   updateArrows();
   ++ticks_;
   recordPoses(samples);
@@ -124,7 +124,7 @@ void Session::removeLog(SessionLog& log) {
 void Session::recordTask(const std::string& name, const std::string& yaml) {
   Frame measured;
   collectStats(measured, true);
-  for (SessionLog* log : logs_) log->taskNoted(*this, name, yaml);
+  for (SessionLog* log : logs_) log->taskRecorded(*this, name, yaml);
 }
 
 bool Session::feels(const ToolMotions& motions) {
@@ -141,10 +141,10 @@ void Session::detectInside(Frame& frame) {
   }
 }
 
-Pictures Session::show(const FrameRequest& wants) {
+Pictures Session::show(const FrameRequest& outputs) {
   requireContext();
   request_.tick = tick_;
-  request_.wants = wants;
+  request_.outputs = outputs;
   updateProcesses();  // a saved state may have been restored in between
   updateArrows();
   Pictures out;
@@ -159,7 +159,7 @@ void Session::resetInput() {
   reactions_ = {};
   contacts_ = {};
   for (PoseTimes& times : pose_times_) times.motions = {};
-  for (SessionLog* log : logs_) log->handsForgotten();
+  for (SessionLog* log : logs_) log->inputCleared();
 }
 
 void Session::setToolMode(size_t stylus, ToolSwitch when, ToolMode mode) {
@@ -230,7 +230,7 @@ void Session::updateArrows() {
   request_.arrows.clear();
   bool forces = false, wind = false;
   for (size_t c = 0; c < request_.overlays.size(); ++c) {
-    const bool drawn = request_.wants.image(c) || request_.wants.image(c, PictureKind::kRight);
+    const bool drawn = request_.outputs.image(c) || request_.outputs.image(c, PictureKind::kRight);
     forces |= drawn && request_.overlays[c].has(Overlay::kForces);
     wind |= drawn && request_.overlays[c].has(Overlay::kWind);
   }

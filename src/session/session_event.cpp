@@ -99,7 +99,7 @@ void SessionEvent::apply(Session& session) const {
   switch (kind) {
     case Kind::kReset:
       return session.reset();
-    case Kind::kForget:
+    case Kind::kClearInput:
       return session.resetInput();
     case Kind::kToolMode:
       return session.setToolMode(index, when, mode);

@@ -16,7 +16,7 @@ struct SessionEvent {
     kStep,
     kMeasured,
     kReset,
-    kForget,
+    kClearInput,
     kToolMode,
     kForceLimits,
     kObstacleFrame,

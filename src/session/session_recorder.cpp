@@ -77,9 +77,9 @@ void SessionRecorder::wasReset() {
   put(event);
 }
 
-void SessionRecorder::handsForgotten() {
+void SessionRecorder::inputCleared() {
   SessionEvent event;
-  event.kind = SessionEvent::Kind::kForget;
+  event.kind = SessionEvent::Kind::kClearInput;
   put(event);
 }
 
@@ -128,7 +128,7 @@ void SessionRecorder::sutureTied(size_t piece, const SutureTie& tie) {
   put(event);
 }
 
-void SessionRecorder::taskNoted(Session&, const std::string& name, const std::string& yaml) {
+void SessionRecorder::taskRecorded(Session&, const std::string& name, const std::string& yaml) {
   SessionEvent event;
   event.kind = SessionEvent::Kind::kTask;
   event.task = name;

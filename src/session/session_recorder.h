@@ -33,14 +33,14 @@ class SessionRecorder : public SessionLog {
   void stepped(Session& session, const StylusSamples& samples) override;
   void measured(const Session& session, uint64_t tick, const layout::TickStats& stats) override;
   void wasReset() override;
-  void handsForgotten() override;
+  void inputCleared() override;
   void restored(Session& session) override;
   void toolModeSet(size_t stylus, ToolSwitch when, ToolMode mode) override;
   void forceLimitsSet(size_t stylus, const ForceLimits& limits) override;
   void obstacleFrameSet(size_t obstacle, const Pose& pose) override;
   void cameraFrameSet(size_t camera, const Pose& pose) override;
   void sutureTied(size_t piece, const SutureTie& tie) override;
-  void taskNoted(Session& session, const std::string& name, const std::string& yaml) override;
+  void taskRecorded(Session& session, const std::string& name, const std::string& yaml) override;
   void overlaysSet(size_t camera, const Overlays& overlays) override;
 
  private:

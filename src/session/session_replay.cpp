@@ -79,8 +79,8 @@ void SessionReplay::index() {
     if (*kind != ChunkKind::kScene && parts_.empty()) throw Error("the recording does not begin with a scene");
     ended = *kind == ChunkKind::kEnd;
     if (*kind == ChunkKind::kScene)
-      parts_.push_back({file_.place(), RecordedScene::from(file_.bytes(kMostSceneBytes)), duration_s_, duration_s_});
-    if (*kind == ChunkKind::kState) states_.push_back({file_.place(), parts_.size() - 1, duration_s_});
+      parts_.push_back({file_.position(), RecordedScene::from(file_.bytes(kMostSceneBytes)), duration_s_, duration_s_});
+    if (*kind == ChunkKind::kState) states_.push_back({file_.position(), parts_.size() - 1, duration_s_});
     if (*kind != ChunkKind::kEvents) continue;
     const RecordedScene& scene = parts_.back().scene;
     forEachEvent(file_.bytes(), scene.styluses, [&](const SessionEvent& event) {
@@ -99,7 +99,7 @@ class SessionReplay::Run {
   Run(SessionReplay& replay, double from_s, double until_s, const Overrides& overrides, const Ports& ports)
       : replay_(replay), from_s_(from_s), until_s_(until_s), overrides_(overrides), ports_(ports) {
     begin_ = replay.states_.front();
-    for (const Place& state : replay.states_)
+    for (const Position& state : replay.states_)
       if (state.at_s <= from_s + tolerance(state.part)) begin_ = state;
   }
   ~Run() {
@@ -110,7 +110,7 @@ class SessionReplay::Run {
     RecordFileReader& file = replay_.file_;
     part_ = begin_.part;
     out_.at_s = begin_.at_s;
-    file.go(replay_.parts_[part_].place);
+    file.go(replay_.parts_[part_].position);
     --part_;  // its chunk comes first
     while (!done_) {
       const std::optional<ChunkKind> kind = file.next();
@@ -129,7 +129,7 @@ class SessionReplay::Run {
  private:
   double tolerance(size_t part) const { return 0.25 / replay_.parts_[part].scene.tick_hz; }
   /// Returns whether the state that the run begins with was reached.
-  bool skipped() const { return replay_.file_.place() >= begin_.place; }
+  bool skipped() const { return replay_.file_.position() >= begin_.position; }
 
   void beginPart() {
     ++part_;
@@ -194,7 +194,7 @@ class SessionReplay::Run {
     done_ = at_s > until_s_ + tolerance(part_);
     if (done_) return;
     const bool looked = at_s > from_s_ + tolerance(part_);
-    Frame frame = session_->step(samples, looked ? ports_.wants(*session_) : FrameRequest{});
+    Frame frame = session_->step(samples, looked ? ports_.outputs(*session_) : FrameRequest{});
     out_.at_s = at_s;
     ++out_.steps;
     if (looked) ports_.stepped(*session_, std::move(frame), at_s);
@@ -204,7 +204,7 @@ class SessionReplay::Run {
   const double from_s_, until_s_;
   const Overrides& overrides_;
   const Ports& ports_;
-  Place begin_{};
+  Position begin_{};
   Outcome out_;
   MeasuredBesides besides_;
   Session* session_ = nullptr;

@@ -21,7 +21,7 @@ class SessionReplay {
  public:
   /// Session of the recording.
   struct Part {
-    uint64_t place = 0;  ///< position of its chunk in the file
+    uint64_t position = 0;  ///< position of its chunk in the file
     RecordedScene scene;
     double from_s = 0, to_s = 0;
   };
@@ -43,7 +43,7 @@ class SessionReplay {
     std::function<Session&(const Scene&, size_t part)> make;
     /// Handles a jump of the session to another state: what is in flight belongs to the state before.
     std::function<void(Session&)> leaps;
-    std::function<FrameRequest(const Session&)> wants;            ///< outputs of the coming step
+    std::function<FrameRequest(const Session&)> outputs;          ///< outputs of the coming step
     std::function<void(Session&, Frame&&, double at_s)> stepped;  ///< called for steps that are to be shown
   };
 
@@ -60,8 +60,8 @@ class SessionReplay {
   Outcome run(double from_s, double until_s, const Overrides& overrides, const Ports& ports);
 
  private:
-  struct Place {
-    uint64_t place;
+  struct Position {
+    uint64_t position;
     size_t part;
     double at_s;
   };
@@ -70,7 +70,7 @@ class SessionReplay {
 
   RecordFileReader file_;
   std::vector<Part> parts_;
-  std::vector<Place> states_;
+  std::vector<Position> states_;
   double duration_s_ = 0;
   std::string damage_;
 };

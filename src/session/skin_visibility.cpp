@@ -38,7 +38,7 @@ void SkinVisibility::place(const Pose& pose) {
   updateRest();
 }
 
-void SkinVisibility::look(const Surface& surface, const std::vector<SkinBox>* boxes) {
+void SkinVisibility::update(const Surface& surface, const std::vector<SkinBox>* boxes) {
   seen_.assign(rest_.size(), 1);
   for (size_t b = 0; boxes && b < seen_.size(); ++b) seen_[b] = !frustum_.misses((*boxes)[b]);
   drawn_ = surface.runsOf(seen_);

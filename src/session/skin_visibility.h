@@ -27,7 +27,7 @@ class SkinVisibility {
   /// that does not see all bodies at rest.
   bool asks(bool on_host) const { return !draw_hidden_ && (on_host || hides_at_rest_); }
   /// Updates the visibility. @param boxes  [bodies] null: unknown, and all are visible
-  void look(const Surface& surface, const std::vector<SkinBox>* boxes);
+  void update(const Surface& surface, const std::vector<SkinBox>* boxes);
   /// Adds the visible bodies. @param bodies  [bodies]
   void addTo(std::vector<uint8_t>& bodies) const;
   const IndexRuns* drawn() const { return &drawn_; }

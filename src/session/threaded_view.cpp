@@ -17,7 +17,7 @@ namespace viscera {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLook{1};  // polling interval for images that are being drawn
+constexpr std::chrono::milliseconds kPoll{1};  // polling interval for images that are being drawn
 
 /// Scope in which this thread holds the context.
 class Current {
@@ -47,24 +47,24 @@ void append(Pictures&& from, Pictures& to) {
 /// Reserves memory, so that ticks allocate none.
 void reserve(const Scene& scene, RenderRequest& request) {
   for (size_t kind = 0; kind < kPictureKinds; ++kind)
-    request.wants.of(static_cast<PictureKind>(kind)).reserve(scene.cameras.size());
+    request.outputs.of(static_cast<PictureKind>(kind)).reserve(scene.cameras.size());
   request.obstacles.reserve(scene.obstacles.size());
   request.cameras.reserve(scene.cameras.size());
 }
 
 /// Clears all requests; keeps the memory.
-void clear(FrameRequest& wants) {
-  wants.surface = wants.strain = wants.every_image = false;
-  for (size_t kind = 0; kind < kPictureKinds; ++kind) wants.of(static_cast<PictureKind>(kind)).clear();
+void clear(FrameRequest& outputs) {
+  outputs.surface = outputs.strain = outputs.every_image = false;
+  for (size_t kind = 0; kind < kPictureKinds; ++kind) outputs.of(static_cast<PictureKind>(kind)).clear();
 }
 
 /// Merges requests. @returns number of requests that were there already
-size_t add(const FrameRequest& wants, FrameRequest& to) {
-  size_t twice = wants.surface && to.surface;
-  to.surface |= wants.surface;
-  to.strain |= wants.strain;
+size_t add(const FrameRequest& outputs, FrameRequest& to) {
+  size_t twice = outputs.surface && to.surface;
+  to.surface |= outputs.surface;
+  to.strain |= outputs.strain;
   for (size_t kind = 0; kind < kPictureKinds; ++kind) {
-    const std::vector<bool>& from = wants.of(static_cast<PictureKind>(kind));
+    const std::vector<bool>& from = outputs.of(static_cast<PictureKind>(kind));
     std::vector<bool>& into = to.of(static_cast<PictureKind>(kind));
     into.resize(std::max(into.size(), from.size()));
     for (size_t c = 0; c < from.size(); ++c) {
@@ -114,7 +114,7 @@ void ThreadedView::await(Lock& lock, Condition condition) {
 }
 
 void ThreadedView::capture(Solver& solver, const RenderRequest& request, Pictures&) {
-  if (request.wants.count() == 0 || !claimSlot(request.wants)) return;
+  if (request.outputs.count() == 0 || !claimSlot(request.outputs)) return;
   solver.snapshot(snapshot_);
   request_.tick = request.tick;
   request_.motions = request.motions;
@@ -131,17 +131,17 @@ void ThreadedView::capture(Solver& solver, const RenderRequest& request, Picture
 }
 
 /// Claims the slot for the stepping thread, with the requests in it. False if the view is just taking it.
-bool ThreadedView::claimSlot(const FrameRequest& wants) {
+bool ThreadedView::claimSlot(const FrameRequest& outputs) {
   Lock lock(mutex_);
-  await(lock, [&] { return order_ == Order::kNone || !(wants.every_image || request_.wants.every_image); });
+  await(lock, [&] { return order_ == Order::kNone || !(outputs.every_image || request_.outputs.every_image); });
   if (order_ == Order::kTaken) {
-    skipped_ += wants.count();
+    skipped_ += outputs.count();
     return false;
   }
   if (order_ == Order::kShow) {
-    skipped_ += add(wants, request_.wants);
+    skipped_ += add(outputs, request_.outputs);
   } else {
-    request_.wants = wants;
+    request_.outputs = outputs;
   }
   order_ = Order::kNone;
   return true;
@@ -220,7 +220,7 @@ void ThreadedView::announce(const InlineView& view, const StateMirror& mirror) {
 }
 
 bool ThreadedView::canTake() const {
-  return order_ == Order::kShow ? !drawing_ || request_.wants.surface
+  return order_ == Order::kShow ? !drawing_ || request_.outputs.surface
                                 : order_ == Order::kReset || order_ == Order::kEnd;
 }
 
@@ -228,7 +228,7 @@ bool ThreadedView::canTake() const {
 ThreadedView::Order ThreadedView::awaitOrder(RenderRequest& request) {
   Lock lock(mutex_);
   if (drawing_) {
-    changed_.wait_for(lock, kLook, [this] { return canTake(); });
+    changed_.wait_for(lock, kPoll, [this] { return canTake(); });
   } else {
     changed_.wait(lock, [this] { return canTake(); });
   }
@@ -241,12 +241,12 @@ ThreadedView::Order ThreadedView::awaitOrder(RenderRequest& request) {
 void ThreadedView::take(RenderRequest& request) {
   if (drawing_) {
     request = request_;
-    clear(request.wants);
-    request.wants.surface = std::exchange(request_.wants.surface, false);
-    request.wants.strain = std::exchange(request_.wants.strain, false);
+    clear(request.outputs);
+    request.outputs.surface = std::exchange(request_.outputs.surface, false);
+    request.outputs.strain = std::exchange(request_.outputs.strain, false);
   } else {
     std::swap(request, request_);
-    clear(request_.wants);
+    clear(request_.outputs);
   }
   order_ = Order::kTaken;
 }
@@ -255,11 +255,11 @@ void ThreadedView::show(InlineView& view, StateMirror& mirror, const RenderReque
   upload(view, mirror);
   Pictures made;
   RenderRequest images = request;
-  if (request.wants.surface && request.wants.count() > 1) {  // images take longer
+  if (request.outputs.surface && request.outputs.count() > 1) {  // images take longer
     view.showSurface(mirror.view(), request, made);
     finish(std::move(made), view.counters(), true);
     made = {};
-    images.wants.surface = false;
+    images.outputs.surface = false;
   }
   view.capture(mirror.view(), images, made, mirror.displacements());
   handOver(view, mirror, std::move(made));
@@ -272,7 +272,7 @@ void ThreadedView::upload(InlineView& view, StateMirror& mirror) {
   view.wound(snapshot_, snapshot_.cut_revision);
   {
     const Lock lock(mutex_);
-    order_ = request_.wants.count() > 0 ? Order::kShow : Order::kNone;
+    order_ = request_.outputs.count() > 0 ? Order::kShow : Order::kNone;
     busy_ = drawing_ = true;
   }
   changed_.notify_all();
@@ -282,7 +282,7 @@ void ThreadedView::upload(InlineView& view, StateMirror& mirror) {
 void ThreadedView::pause(InlineView& view, StateMirror& mirror, RenderRequest& request) {
   {
     const Lock lock(mutex_);
-    if (order_ != Order::kShow || !request_.wants.surface) return;
+    if (order_ != Order::kShow || !request_.outputs.surface) return;
     take(request);
   }
   upload(view, mirror);
@@ -297,7 +297,7 @@ void ThreadedView::handOver(InlineView& view, const StateMirror& mirror, Picture
   gpu::checkErrors("view");
   ViewCounters counters = view.counters();
   counters.moved_bricks = mirror.movedBricks();
-  finish(std::move(made), counters, view.anyUnderWay());
+  finish(std::move(made), counters, view.anyInFlight());
 }
 
 /// @param drawing  more results will follow

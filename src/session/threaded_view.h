@@ -56,7 +56,7 @@ class ThreadedView : public View {
   void show(InlineView& view, StateMirror& mirror, const RenderRequest& request);
   void handOver(InlineView& view, const StateMirror& mirror, Pictures&& made);
   void finish(Pictures&& made, const ViewCounters& counters, bool drawing);
-  bool claimSlot(const FrameRequest& wants);
+  bool claimSlot(const FrameRequest& outputs);
   template <class Condition>
   void await(Lock& lock, Condition condition);
 

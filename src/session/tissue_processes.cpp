@@ -30,7 +30,7 @@ size_t sutureOf(const Session& session, size_t piece) {
 }
 
 const std::vector<Vector3d>& suturePositions(const Session& session, size_t piece) {
-  return suturesOf(session)->chain(piece).places_m();
+  return suturesOf(session)->chain(piece).positions_m();
 }
 
 std::vector<double> sutureTensions_n(const Session& session, size_t piece) {
@@ -54,7 +54,7 @@ std::string sutureRefusal(const Session& session) {
 std::vector<Vector3d> needlePositions(const Session& session, size_t suture) {
   const SutureBodies* const sutures = suturesOf(session);
   const Needle* const needle = sutures ? sutures->needle(suture) : nullptr;
-  return needle ? needle->places_m() : std::vector<Vector3d>();
+  return needle ? needle->positions_m() : std::vector<Vector3d>();
 }
 
 std::vector<NeedleState> needleStates(const Session& session) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array<uint8_t, 4> kSteel = {190, 195, 202, 255}, kTitanium = {150, 200, 90, 255};
 constexpr double kClipWire_m = 0.0005;
-constexpr size_t kClipPlaces = 4;  // number of Clips::places_m()
+constexpr size_t kClipPositions = 4;  // number of Clips::positions_m()
 
 /// Returns the usual dye of such sutures.
 std::array<uint8_t, 4> colorOf(SutureMaterial material) {
@@ -33,13 +33,13 @@ std::vector<TubeStyle> stylesOf(const Scene& scene) {
   const std::vector<SutureConfig>& sutures = scene.sutures;
   std::vector<TubeStyle> out;
   for (const SutureConfig& suture : sutures)
-    out.push_back({materialOf(suture).radius_m, colorOf(suture.material), placesOf(suture).size(), out.size()});
+    out.push_back({materialOf(suture).radius_m, colorOf(suture.material), positionsOf(suture).size(), out.size()});
   for (size_t t = 0; t < sutures.size(); ++t) {
     const NeedleConfig& needle = sutures[t].needle;
     if (needle.arc != NeedleArc::kNone)
       out.push_back({needle.wire_radius_m, kSteel, NeedleShape::kShown, t, TubeKind::kNeedle});
   }
-  if (mayClip(scene.styluses)) out.push_back({kClipWire_m, kTitanium, kClipPlaces, 0, TubeKind::kClip, kMostClips});
+  if (mayClip(scene.styluses)) out.push_back({kClipWire_m, kTitanium, kClipPositions, 0, TubeKind::kClip, kMostClips});
   return out;
 }
 

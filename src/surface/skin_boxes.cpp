@@ -26,7 +26,7 @@ float lengthOf(const layout::vec4& v) {
 }
 
 /// Returns the position of a vertex in its cell, 0..1 along each axis if it is inside.
-Vector3d placeInCell(const layout::SkinBinding& binding, double spacing_m) {
+Vector3d positionInCell(const layout::SkinBinding& binding, double spacing_m) {
   const Vector3d rest1 = axisOf(binding.springs & 31U), rest2 = -axisOf(binding.springs >> 10U & 31U);
   const SkinBasis basis = triangleBasis(rest1, rest2);
   const layout::vec4& offset = binding.offset_constant;
@@ -45,9 +45,9 @@ float splitReach(const Skin& skin) {
 
 /// Returns the sum of the negative weights, without sign, of a vertex outside its cell.
 float beyondCell(const layout::SkinBinding& binding, double spacing_m) {
-  const Vector3d place = placeInCell(binding, spacing_m);
+  const Vector3d position = positionInCell(binding, spacing_m);
   double sizes = 1;  // sum of the absolute weights
-  for (int axis = 0; axis < 3; ++axis) sizes *= 1 + 2 * std::max({0.0, -place[axis], place[axis] - 1});
+  for (int axis = 0; axis < 3; ++axis) sizes *= 1 + 2 * std::max({0.0, -position[axis], position[axis] - 1});
   return static_cast<float>((sizes - 1) / 2);
 }
 

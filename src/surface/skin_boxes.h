@@ -16,12 +16,12 @@ using SkinBox = Eigen::AlignedBox3f;  ///< [m, tissue frame]
 /// Displacements of nodes on the host [m].
 struct HostDisplacements {
   const float* first_m = nullptr;
-  const uint32_t* brick_places = nullptr;  ///< [bricks] place of a brick in there; null: bricks are in order
+  const uint32_t* brick_positions = nullptr;  ///< [bricks] place of a brick in there; null: bricks are in order
   size_t node_stride = 1, axis_stride = layout::kBrickSlots, brick_stride = kBrickFloats;
 
   /// Returns a view of StateSnapshot::displacement_m.
-  static HostDisplacements ofBricks(const float* bricks_m, const uint32_t* brick_places) {
-    return {bricks_m, brick_places};
+  static HostDisplacements ofBricks(const float* bricks_m, const uint32_t* brick_positions) {
+    return {bricks_m, brick_positions};
   }
   /// Returns a view of one vector per slot. @param slots_m  [slots]
   static HostDisplacements ofSlots(const std::vector<layout::vec4>& slots_m) {
@@ -29,7 +29,7 @@ struct HostDisplacements {
   }
   Vector3f operator()(uint32_t slot) const {
     const uint32_t brick = slot / layout::kBrickSlots;
-    const float* const at = first_m + brick_stride * (brick_places ? brick_places[brick] : brick) +
+    const float* const at = first_m + brick_stride * (brick_positions ? brick_positions[brick] : brick) +
                             node_stride * (slot % layout::kBrickSlots);
     return {at[0], at[axis_stride], at[2 * axis_stride]};
   }

@@ -28,11 +28,11 @@ class ClipJudge : public TaskJudge {
     size_t bad = tick.clips.empty + tick.clips.taken_off;
     tally.clip_off_mm = 0;
     for (const ClipState& clip : tick.clips.on) {
-      const auto [place, off_m] = nearest(clip.rest_m);
-      const bool good = off_m <= goal_.radius_m && !at_[place];
+      const auto [position, off_m] = nearest(clip.rest_m);
+      const bool good = off_m <= goal_.radius_m && !at_[position];
       bad += !good;
       if (!good) continue;
-      at_[place] = true;
+      at_[position] = true;
       tally.clip_off_mm = std::max(tally.clip_off_mm, kMm * off_m);
     }
     tally.bad_clips = static_cast<double>(bad);
@@ -95,12 +95,12 @@ std::unique_ptr<TaskJudge> clipJudge(const TaskConfig& task, const Session& sess
 /// Returns a small circle at each position, about the line from the first to the last.
 TaskShapes clipShapes(const TaskConfig& task) {
   const Vector3d first_m = task.clip.clips.front().position_m;
-  const Vector3d way = task.clip.clips.back().position_m - first_m;
+  const Vector3d offset = task.clip.clips.back().position_m - first_m;
   TaskShapes out;
   out.along_normal = true;
-  out.normal = way.norm() > 0 ? Vector3d(way.normalized()) : Vector3d(Vector3d::UnitX());
-  for (const TaskPlace& place : task.clip.clips)
-    out.lines_m.push_back(circleOf(place.position_m, out.normal, task.clip.radius_m));
+  out.normal = offset.norm() > 0 ? Vector3d(offset.normalized()) : Vector3d(Vector3d::UnitX());
+  for (const TaskPosition& position : task.clip.clips)
+    out.lines_m.push_back(circleOf(position.position_m, out.normal, task.clip.radius_m));
   return out;
 }
 

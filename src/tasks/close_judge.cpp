@@ -49,12 +49,12 @@ std::vector<Facing> facingAlong(const CloseGoal& goal, const Model& model) {
   const double spacing_m = longestSpacing(model);
   std::vector<Facing> out;
   for (size_t i = 1; i < goal.line.path.size(); ++i) {
-    const Vector3d from_m = goal.line.path[i - 1].position_m, way_m = goal.line.path[i].position_m - from_m;
-    const Vector3d across = way_m.cross(goal.line.normal).normalized();
+    const Vector3d from_m = goal.line.path[i - 1].position_m, offset_m = goal.line.path[i].position_m - from_m;
+    const Vector3d across = offset_m.cross(goal.line.normal).normalized();
     if (across.norm() == 0) continue;  // a repeated position, or one straight above the last
-    const auto pieces = static_cast<int>(std::max(1.0, std::floor(way_m.norm() / spacing_m)));
+    const auto pieces = static_cast<int>(std::max(1.0, std::floor(offset_m.norm() / spacing_m)));
     for (int k = 0; k < pieces; ++k) {
-      const Vector3d at_m = from_m + (k + 0.5) / pieces * way_m, beside_m = goal.reach_m * across;
+      const Vector3d at_m = from_m + (k + 0.5) / pieces * offset_m, beside_m = goal.reach_m * across;
       out.push_back({nodeBeside(model, at_m, -across, at_m - beside_m),
                      nodeBeside(model, at_m, across, at_m + beside_m), across});
     }

@@ -14,7 +14,7 @@ namespace viscera {
 
 namespace {
 
-constexpr double kPlacesPerSpacing =
+constexpr double kPositionsPerSpacing =
     0.5;  // positions on a line that must be cut: two spacings each, so that springs end in all
 constexpr double kMillimetres = 1000;
 constexpr double kTurn = 6.28318530717958647692;
@@ -25,7 +25,7 @@ class CoveredLine {
   CoveredLine(double length_m, double spacing_m, double corridor_m)
       : corridor_m_(corridor_m),
         length_m_(length_m),
-        done_(static_cast<size_t>(std::max(1.0, std::floor(kPlacesPerSpacing * length_m / spacing_m)))) {}
+        done_(static_cast<size_t>(std::max(1.0, std::floor(kPositionsPerSpacing * length_m / spacing_m)))) {}
 
   /// @param at_m, off_m  distance of each cut point along the line, and from it
   void add(const std::vector<std::pair<double, double>>& at_m_off_m, double travel_m, TaskTally& tally) {
@@ -33,8 +33,8 @@ class CoveredLine {
     for (const auto& [at_m, off_m] : at_m_off_m) {
       tally.deviation_mm = std::max(tally.deviation_mm, kMillimetres * off_m);
       outside += off_m > corridor_m_;
-      const double place = std::clamp(at_m / length_m_, 0.0, 1.0) * static_cast<double>(done_.size());
-      if (off_m <= corridor_m_) done_[std::min(done_.size() - 1, static_cast<size_t>(place))] = true;
+      const double position = std::clamp(at_m / length_m_, 0.0, 1.0) * static_cast<double>(done_.size());
+      if (off_m <= corridor_m_) done_[std::min(done_.size() - 1, static_cast<size_t>(position))] = true;
     }
     if (!at_m_off_m.empty())
       tally.off_path_mm +=
@@ -49,8 +49,8 @@ class CoveredLine {
   std::vector<bool> done_;
 };
 
-Vector3d across(const Vector3d& way, const Vector3d& normal) {
-  return way - normal * normal.dot(way);
+Vector3d across(const Vector3d& direction, const Vector3d& normal) {
+  return direction - normal * normal.dot(direction);
 }
 
 double lengthOf(const LineGoal& line) {
@@ -79,10 +79,10 @@ class LineJudge : public TaskJudge {
     double before_m = 0, at_m = 0, off_m = std::numeric_limits<double>::infinity();
     for (size_t i = 1; i < line_.path.size(); ++i) {
       const Vector3d from = line_.path[i - 1].position_m;
-      const Vector3d way = across(line_.path[i].position_m - from, normal_), to = across(point - from, normal_);
-      const double length_m = way.norm();
-      const double share = length_m > 0 ? std::clamp(way.dot(to) / (length_m * length_m), 0.0, 1.0) : 0;
-      const double distance_m = (to - share * way).norm();
+      const Vector3d direction = across(line_.path[i].position_m - from, normal_), to = across(point - from, normal_);
+      const double length_m = direction.norm();
+      const double share = length_m > 0 ? std::clamp(direction.dot(to) / (length_m * length_m), 0.0, 1.0) : 0;
+      const double distance_m = (to - share * direction).norm();
       if (distance_m < off_m) {
         off_m = distance_m;
         at_m = before_m + share * length_m;
@@ -110,9 +110,10 @@ class DiscJudge : public TaskJudge {
   void judge(const TaskTick& tick, TaskTally& tally) override {
     std::vector<std::pair<double, double>> points;
     for (const Vector3d& cut : tick.cuts_m) {
-      const Vector3d way = across(cut - disc_.center_m, normal_);
-      const double angle = std::atan2(way.dot(normal_.cross(side_)), way.dot(side_));
-      points.emplace_back((angle < 0 ? angle + kTurn : angle) * disc_.radius_m, std::abs(way.norm() - disc_.radius_m));
+      const Vector3d direction = across(cut - disc_.center_m, normal_);
+      const double angle = std::atan2(direction.dot(normal_.cross(side_)), direction.dot(side_));
+      points.emplace_back((angle < 0 ? angle + kTurn : angle) * disc_.radius_m,
+                          std::abs(direction.norm() - disc_.radius_m));
     }
     covered_.add(points, bladeTravel(tick, normal_), tally);
     apart_ = apart_ || tick.apart;
@@ -179,7 +180,7 @@ std::unique_ptr<TaskJudge> judgeOfLine(const LineGoal& line, double spacing_m) {
 
 TaskShapes shapesOfLine(const LineGoal& line) {
   TaskShapes out{{{}}, line.normal};
-  for (const TaskPlace& place : line.path) out.lines_m[0].push_back(place.position_m);
+  for (const TaskPosition& position : line.path) out.lines_m[0].push_back(position.position_m);
   return out;
 }
 

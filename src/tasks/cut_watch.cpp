@@ -114,8 +114,8 @@ DiscPiece::DiscPiece(const Model& model, const Vector3d& center_m, const Vector3
   const Body& body = model.bodies[body_];
   zones_.resize(body.network ? body.network->masses_kg.size() : body.lattice.nodes.size(), Zone::kNone);
   forEachNode(body, [&](uint32_t slot) {
-    const Vector3d way = restPosition(body, slot) - center_m;
-    const double out_m = (way - normal * normal.dot(way)).norm();
+    const Vector3d offset = restPosition(body, slot) - center_m;
+    const double out_m = (offset - normal * normal.dot(offset)).norm();
     zones_[slot] = out_m < radius_m ? Zone::kDisc : out_m > outside_m ? Zone::kOutside : Zone::kRim;
     disc_nodes_ += zones_[slot] == Zone::kDisc;
   });

@@ -44,10 +44,10 @@ void writeArm(std::string& file, const ArmPose& now, const ArmPose& before, doub
     for (int i = 0; i < 9; ++i) out[3 + i] = turn(i / 3, i % 3);
     if (before.known && span_s > 0) {
       const Vector3d speed = (now.pose.position_m - before.pose.position_m) / span_s;
-      const Eigen::AngleAxisd way(now.pose.orientation * before.pose.orientation.conjugate());
-      const double angle = way.angle() > M_PI ? way.angle() - 2 * M_PI : way.angle();
+      const Eigen::AngleAxisd rotation(now.pose.orientation * before.pose.orientation.conjugate());
+      const double angle = rotation.angle() > M_PI ? rotation.angle() - 2 * M_PI : rotation.angle();
       for (int i = 0; i < 3; ++i) out[12 + i] = speed[i];
-      for (int i = 0; i < 3; ++i) out[15 + i] = way.axis()[i] * angle / span_s;
+      for (int i = 0; i < 3; ++i) out[15 + i] = rotation.axis()[i] * angle / span_s;
     }
     out[18] = now.jaw_rad;
   }
@@ -75,8 +75,8 @@ void ToolRows::writeJigsaws(const std::string& path) const {
           const StylusSample& sample = rows[row].samples[s];
           const StylusMotion& motion = rows[row].motions[s];
           const double by_button_rad = sample.button1 ? 0 : kOpenJaw_rad;
-          const double hand_rad = sample.jaw_rad == kNoJaw ? by_button_rad : double{sample.jaw_rad};
-          if (!slave) return ArmPose{sample.valid, sample.pose, hand_rad};
+          const double angle_rad = sample.jaw_rad == kNoJaw ? by_button_rad : double{sample.jaw_rad};
+          if (!slave) return ArmPose{sample.valid, sample.pose, angle_rad};
           return ArmPose{motion.present, motion.to, kindOf(motion.mode).jaws ? motion.opens_to_rad : by_button_rad};
         };
         writeArm(file, poseAt(at), poseAt(before), span_s);

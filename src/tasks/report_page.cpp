@@ -76,7 +76,7 @@ std::string unitOf(const std::string& name) {
 }
 
 std::string toolTable(const TaskResult& result) {
-  const nlohmann::ordered_json tools = result.hands.metrics();
+  const nlohmann::ordered_json tools = result.tools.metrics();
   std::string out = "<table><tr><th>tool</th>";
   for (const auto& tool : tools) out += "<th>" + htmlText(tool["stylus"].get<std::string>()) + "</th>";
   out += "<th>unit</th></tr>\n";
@@ -101,8 +101,8 @@ std::string pictureHtml(const ReportPicture& picture) {
 /// Returns a plot with its title and the colors of the tools.
 std::string figure(const TaskResult& result, const std::string& title, const std::string& svg) {
   std::string names;
-  for (size_t s = 0; s < result.hands.styluses.size(); ++s)
-    names += " <span style='color:" + std::string(plotColor(s)) + "'>&#9632; " + htmlText(result.hands.styluses[s]) +
+  for (size_t s = 0; s < result.tools.styluses.size(); ++s)
+    names += " <span style='color:" + std::string(plotColor(s)) + "'>&#9632; " + htmlText(result.tools.styluses[s]) +
              "</span>";
   return "<figure><figcaption>" + title + names + "</figcaption>" + svg + "</figure>\n";
 }

@@ -30,7 +30,7 @@ std::string timePlot(const TaskResult& result, const char* label,
                      const std::function<double(const ToolTrack&, size_t)>& value) {
   std::vector<PlotPoints> curves;
   double most = 0;
-  const ToolRows& tools = result.hands;
+  const ToolRows& tools = result.tools;
   for (size_t s = 0; s < tools.styluses.size(); ++s) {
     const ToolTrack track = tools.track(s);
     curves.emplace_back();
@@ -47,7 +47,7 @@ std::string timePlot(const TaskResult& result, const char* label,
 
 double speedAt(const ToolTrack& track, size_t i) {
   if (i == 0 || !track.tracked[i] || !track.tracked[i - 1]) return 0;
-  return (track.places_m[i] - track.places_m[i - 1]).norm() * track.rate_hz;
+  return (track.positions_m[i] - track.positions_m[i - 1]).norm() * track.rate_hz;
 }
 
 double forceAt(const ToolTrack& track, size_t i) {
@@ -57,11 +57,11 @@ double forceAt(const ToolTrack& track, size_t i) {
 /// Returns the positions of tracked tips, per stylus.
 std::vector<std::vector<Vector3d>> pathsOf(const TaskResult& result) {
   std::vector<std::vector<Vector3d>> out;
-  for (size_t s = 0; s < result.hands.styluses.size(); ++s) {
-    const ToolTrack track = result.hands.track(s);
+  for (size_t s = 0; s < result.tools.styluses.size(); ++s) {
+    const ToolTrack track = result.tools.track(s);
     out.emplace_back();
-    for (size_t i = 0; i < track.places_m.size(); ++i)
-      if (track.tracked[i]) out.back().push_back(track.places_m[i]);
+    for (size_t i = 0; i < track.positions_m.size(); ++i)
+      if (track.tracked[i]) out.back().push_back(track.positions_m[i]);
   }
   return out;
 }
@@ -71,16 +71,16 @@ std::vector<Vector3d> workPoints(const TaskResult& result, const TaskShapes& sha
   std::vector<Vector3d> out;
   Box3d box;
   for (const auto& line : shapes.lines_m) {
-    for (const Vector3d& place : line) {
-      box.extend(place);
-      out.push_back(place);
+    for (const Vector3d& position : line) {
+      box.extend(position);
+      out.push_back(position);
     }
   }
   if (box.isEmpty()) return out;
   const double near_m =
       (shapes.along_normal ? kNearAlong : kNearInPlane) * std::max(kLeastExtent_m, box.sizes().maxCoeff());
-  const auto add = [&](const Vector3d& place) {
-    if (box.exteriorDistance(place) <= near_m) out.push_back(place);
+  const auto add = [&](const Vector3d& position) {
+    if (box.exteriorDistance(position) <= near_m) out.push_back(position);
   };
   for (const auto& path : pathsOf(result)) std::for_each(path.begin(), path.end(), add);
   std::for_each(result.cuts_m.begin(), result.cuts_m.end(), add);
@@ -138,10 +138,10 @@ std::string workPlot(const TaskResult& result) {
   const WorkPlane plane = workPlane(result);
   Plot plot({kPlotMm * plane.low.x(), kPlotMm * plane.high.x(), axisName(plane.right) + ", mm"},
             {kPlotMm * plane.low.y(), kPlotMm * plane.high.y(), axisName(plane.up) + ", mm"}, kSide_px, kSide_px);
-  const auto flat = [&](const std::vector<Vector3d>& places) {
+  const auto flat = [&](const std::vector<Vector3d>& positions) {
     PlotPoints out;
-    for (const Vector3d& place : places)
-      out.emplace_back(kPlotMm * plane.right.dot(place), kPlotMm * plane.up.dot(place));
+    for (const Vector3d& position : positions)
+      out.emplace_back(kPlotMm * plane.right.dot(position), kPlotMm * plane.up.dot(position));
     return out;
   };
   for (const auto& line : kindOf(result.task.kind).shapes(result.task).lines_m) plot.addLine(flat(line), kLineColor, 3);

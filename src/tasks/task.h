@@ -16,14 +16,14 @@ namespace viscera {
 /// Goal of a task: the rows of kTaskKinds (task_kinds.h), each with a group of keys of its own below.
 enum class TaskGoal { kFollowLine, kCutDisc, kTouchTargets, kLift, kCloseWound, kClipDivide };
 
-struct TaskPlace {
+struct TaskPosition {
   Vector3d position_m = Vector3d::Zero();
 };
 
 /// Cut along a line, with the blade within a corridor.
 struct LineGoal {
   bool given = false;
-  std::vector<TaskPlace> path;  ///< at least two positions
+  std::vector<TaskPosition> path;  ///< at least two positions
   Vector3d normal = Vector3d::UnitZ();
   double corridor_m = 0.002;
   double share = 0.95;
@@ -41,7 +41,7 @@ struct DiscGoal {
 /// Touch positions of the tissue, one after another.
 struct TouchGoal {
   bool given = false;
-  std::vector<TaskPlace> targets;
+  std::vector<TaskPosition> targets;
   double radius_m = 0.005;
 };
 
@@ -68,7 +68,7 @@ struct CloseGoal {
 /// Clip tissue at two or more positions, and divide it between the innermost two.
 struct ClipGoal {
   bool given = false;
-  std::vector<TaskPlace> clips;  ///< an even number, in their order along the tissue
+  std::vector<TaskPosition> clips;  ///< an even number, in their order along the tissue
   double radius_m = 0.003;
 };
 

@@ -13,18 +13,18 @@ namespace viscera {
 // this map.
 
 constexpr Range kTaskSeconds{0, 86400};
-constexpr Range kTaskWidth{1e-5, 1};      // m
-constexpr double kMostTaskPlaces = 1000;  // positions of a path, or targets
+constexpr Range kTaskWidth{1e-5, 1};         // m
+constexpr double kMostTaskPositions = 1000;  // positions of a path, or targets
 
 template <class V>
-void visitFields(V& v, TaskPlace& c) {
+void visitFields(V& v, TaskPosition& c) {
   v.vector("position_m", c.position_m, kCoordinate, "m", "position in the tissue at rest, in the tissue frame");
 }
 
 template <class V>
 void visitFields(V& v, LineGoal& c) {
   v.given(c.given);
-  v.list("path", c.path, kMostTaskPlaces, "points of the line, straight between them; at least two");
+  v.list("path", c.path, kMostTaskPositions, "points of the line, straight between them; at least two");
   v.vector("normal", c.normal, kDirection, "", "normal of the plane in which distances from the line are measured");
   v.number("corridor_m", c.corridor_m, kTaskWidth, "m", "width of the corridor on either side of the line");
   v.number("share", c.share, {0.01, 1}, "1", "share of the line that has to be cut");
@@ -42,7 +42,7 @@ void visitFields(V& v, DiscGoal& c) {
 template <class V>
 void visitFields(V& v, TouchGoal& c) {
   v.given(c.given);
-  v.list("targets", c.targets, kMostTaskPlaces, "targets, in the order in which they have to be touched");
+  v.list("targets", c.targets, kMostTaskPositions, "targets, in the order in which they have to be touched");
   v.number("radius_m", c.radius_m, kTaskWidth, "m", "radius of each target");
 }
 
@@ -72,7 +72,7 @@ template <class V>
 void visitFields(V& v, ClipGoal& c) {
   v.given(c.given);
   v.list(
-      "clips", c.clips, kMostTaskPlaces,
+      "clips", c.clips, kMostTaskPositions,
       "positions of the clips, an even number in their order along the tissue, which is to be divided in the middle");
   v.number("radius_m", c.radius_m, kTaskWidth, "m",
            "distance from a position within which a clip counts as placed there");

@@ -28,15 +28,15 @@ void drawSegment(const Eigen::Vector2d& from, const Eigen::Vector2d& to, ImageFr
 void drawTask(const TaskConfig& task, const CameraConfig& camera, ImageFrame& image) {
   if (image.rgb.empty() || !camera.frame.empty()) return;
   const Pose optical = opticalPose(camera);
-  const auto seen = [&](const Vector3d& place) {
-    return pixelOf(camera, optical.orientation.conjugate() * (place - optical.position_m));
+  const auto seen = [&](const Vector3d& position) {
+    return pixelOf(camera, optical.orientation.conjugate() * (position - optical.position_m));
   };
   constexpr int kPieces = 64;  // pieces of a line, so that each is short in the image
   for (const std::vector<Vector3d>& line : kindOf(task.kind).shapes(task).lines_m) {
     for (size_t i = 1; i < line.size(); ++i) {
       for (int k = 0; k < kPieces; ++k) {
-        const Vector3d way = (line[i] - line[i - 1]) / kPieces;
-        const auto from = seen(line[i - 1] + k * way), to = seen(line[i - 1] + (k + 1) * way);
+        const Vector3d offset = (line[i] - line[i - 1]) / kPieces;
+        const auto from = seen(line[i - 1] + k * offset), to = seen(line[i - 1] + (k + 1) * offset);
         if (from && to && from->cwiseAbs().maxCoeff() < 1e5 && to->cwiseAbs().maxCoeff() < 1e5)
           drawSegment(*from, *to, image);
       }

@@ -36,9 +36,9 @@ std::string reportCsv(const ReportJson& report) {
         << '\n';
   for (const auto& [name, measure] : report["measures"].items())
     out << "task," << name << ',' << measure["value"].dump() << '\n';
-  for (const auto& hand : report["tools"])
-    for (const auto& [name, value] : hand.items())
-      if (value.is_number()) out << hand["stylus"].get<std::string>() << ',' << name << ',' << value.dump() << '\n';
+  for (const auto& tool : report["tools"])
+    for (const auto& [name, value] : tool.items())
+      if (value.is_number()) out << tool["stylus"].get<std::string>() << ',' << name << ',' << value.dump() << '\n';
   return out.str();
 }
 
@@ -77,7 +77,7 @@ nlohmann::ordered_json toJson(const TaskResult& result, const Attempt& attempt) 
     row["most"] = *most;
     row["failed"] = isExceeded(task, status.tally, measure);
   }
-  out["tools"] = result.hands.metrics();
+  out["tools"] = result.tools.metrics();
   return out;
 }
 
@@ -90,8 +90,8 @@ void writeReport(const std::string& folder, const TaskResult& result, const Atte
   writeFile(folder + "/report.json", FileKind::kJson,
             report.dump(2, ' ', false, ReportJson::error_handler_t::replace) + "\n");
   writeFile(folder + "/report.csv", FileKind::kText, reportCsv(report));
-  result.hands.write(folder + "/tools.csv");
-  result.hands.writeJigsaws(folder + "/kinematics.txt");
+  result.tools.write(folder + "/tools.csv");
+  result.tools.writeJigsaws(folder + "/kinematics.txt");
   writeFile(folder + "/report.html", FileKind::kHtml, reportPage(result, attempt, pictures));
 }
 

@@ -42,11 +42,11 @@ void TaskWatch::begin(std::unique_ptr<TaskJudge> judge) {
   base_blood_ml_ = seenBlood(session_).bled_ml;
   stepped_.clear();
   measured_.clear();
-  hands_.emplace(session_);
+  tools_.emplace(session_);
   cuts_m_.clear();
 }
 
-void TaskWatch::taskNoted(Session&, const std::string& name, const std::string& yaml) {
+void TaskWatch::taskRecorded(Session&, const std::string& name, const std::string& yaml) {
   if (yaml.empty()) return giveUp("the task was given up");
   TaskConfig task = parseTask(yaml, name);
   std::unique_ptr<TaskJudge> judge =
@@ -65,7 +65,7 @@ void TaskWatch::restored(Session&) {
 
 void TaskWatch::stepped(Session& session, const StylusSamples& samples) {
   if (!isOpen()) return;
-  hands_->addRow(session, samples);
+  tools_->addRow(session, samples);
   TaskTick tick;
   tick.motions = session.motions();
   tick.tick_s = session.tick_s();
@@ -85,7 +85,7 @@ void TaskWatch::stepped(Session& session, const StylusSamples& samples) {
 
 void TaskWatch::measured(const Session& session, uint64_t tick, const layout::TickStats& stats) {
   if (!isOpen() || tick <= base_tick_) return;
-  hands_->addFelt(session, stats);
+  tools_->addForces(session, stats);
   measured_.push_back(stats);
   judgeNoted();
 }
@@ -104,8 +104,8 @@ void TaskWatch::judge(const TaskTick& tick) {
   const auto present = [](const StylusMotion& motion) { return motion.present; };
   if (status_.state == TaskPhase::kWaiting) {
     if (std::none_of(tick.motions.begin(), tick.motions.end(), present)) {
-      hands_->rows.erase(hands_->rows.begin());  // ticks without a tracked stylus
-      hands_->felt.erase(hands_->felt.begin());
+      tools_->rows.erase(tools_->rows.begin());  // ticks without a tracked stylus
+      tools_->forces.erase(tools_->forces.begin());
       return;
     }
     status_.state = TaskPhase::kRunning;
@@ -171,8 +171,8 @@ void TaskWatch::end(TaskPhase state, const std::string& why) {
   status_.step = why;
   status_.reached = judge_->reached();
   if (!status_.reached) status_.score = 0;
-  hands_->rows.resize(std::min(hands_->rows.size(), hands_->felt.size()));  // later ticks do not belong to it
-  if (ended_) ended_({*task_, status_, *hands_, cuts_m_, springs_cut_});
+  tools_->rows.resize(std::min(tools_->rows.size(), tools_->forces.size()));  // later ticks do not belong to it
+  if (ended_) ended_({*task_, status_, *tools_, cuts_m_, springs_cut_});
 }
 
 }  // namespace viscera

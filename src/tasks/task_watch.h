@@ -41,7 +41,7 @@ double costOf(const TaskConfig& task, const TaskTally& tally, const TaskMeasure&
 struct TaskResult {
   TaskConfig task;
   TaskStatus status;
-  ToolRows hands;                ///< since the clock began
+  ToolRows tools;                ///< since the clock began
   std::vector<Vector3d> cuts_m;  ///< in the rest shape
   uint32_t springs_cut = 0;      ///< number since the last reset
 };
@@ -66,7 +66,7 @@ class TaskWatch : public SessionLog {
   void wasReset() override;
   void restored(Session& session) override;
   /// Begins a task. @throws TaskError  the yaml is not a task
-  void taskNoted(Session& session, const std::string& name, const std::string& yaml) override;
+  void taskRecorded(Session& session, const std::string& name, const std::string& yaml) override;
 
  private:
   bool isOpen() const { return task_ && status_.state <= TaskPhase::kRunning; }
@@ -88,7 +88,7 @@ class TaskWatch : public SessionLog {
   double base_blood_ml_ = 0;  ///< blood lost before the task
   std::deque<TaskTick> stepped_;
   std::deque<layout::TickStats> measured_;
-  std::optional<ToolRows> hands_;
+  std::optional<ToolRows> tools_;
   std::vector<Vector3d> cuts_m_;
   uint32_t springs_cut_ = 0;
 };

@@ -32,13 +32,13 @@ void ToolRows::addRow(const Session& session, const StylusSamples& samples) {
   rows.push_back({session.tick(), samples, session.motions()});
 }
 
-void ToolRows::addFelt(const Session& session, const layout::TickStats& stats) {
-  Felt one;
+void ToolRows::addForces(const Session& session, const layout::TickStats& stats) {
+  Forces one;
   for (size_t s = 0; s < std::size(one.forces_n); ++s) {
     one.forces_n[s] = perTick(stats.impulse[s], session.tick_s());
     one.torques_nm[s] = perTick(stats.angular[s], session.tick_s());
   }
-  felt.push_back(one);
+  forces.push_back(one);
 }
 
 ToolTrack ToolRows::track(size_t stylus) const {
@@ -46,9 +46,9 @@ ToolTrack ToolRows::track(size_t stylus) const {
   out.rate_hz = 1 / tick_s;
   for (const Row& row : rows) {
     out.tracked.push_back(row.samples[stylus].valid);
-    out.places_m.push_back(row.samples[stylus].pose.position_m);
+    out.positions_m.push_back(row.samples[stylus].pose.position_m);
   }
-  for (const Felt& one : felt) out.forces_n.push_back(one.forces_n[stylus]);
+  for (const Forces& one : forces) out.forces_n.push_back(one.forces_n[stylus]);
   return out;
 }
 
@@ -56,18 +56,18 @@ nlohmann::ordered_json ToolRows::metrics() const {
   nlohmann::ordered_json out = nlohmann::ordered_json::array();
   for (size_t s = 0; s < styluses.size(); ++s) {
     const ToolMetrics metrics = metricsOf(track(s));
-    nlohmann::ordered_json hand;
-    hand["stylus"] = styluses[s];
-    hand["time_s"] = metrics.time_s;
-    hand["path_m"] = metrics.path_m;
-    hand["economy"] = metrics.economy;
-    hand["sparc"] = metrics.sparc;
-    hand["log_dimensionless_jerk"] = metrics.log_jerk;
-    hand["peak_force_n"] = metrics.peak_force_n;
-    hand["mean_force_n"] = metrics.mean_force_n;
-    hand["force_time_ns"] = metrics.force_time_ns;
-    hand["force_volume_n3"] = metrics.force_volume_n3;
-    out.push_back(hand);
+    nlohmann::ordered_json tool;
+    tool["stylus"] = styluses[s];
+    tool["time_s"] = metrics.time_s;
+    tool["path_m"] = metrics.path_m;
+    tool["economy"] = metrics.economy;
+    tool["sparc"] = metrics.sparc;
+    tool["log_dimensionless_jerk"] = metrics.log_jerk;
+    tool["peak_force_n"] = metrics.peak_force_n;
+    tool["mean_force_n"] = metrics.mean_force_n;
+    tool["force_time_ns"] = metrics.force_time_ns;
+    tool["force_volume_n3"] = metrics.force_volume_n3;
+    out.push_back(tool);
   }
   return out;
 }
@@ -76,10 +76,10 @@ void ToolRows::write(const std::string& path) const {
   TextOut file;
   file << "step,tick,stylus,tracked,x_m,y_m,z_m,qx,qy,qz,qw,button1,button2,force_x_n,force_y_n,force_z_n,torque_x_nm,"
           "torque_y_nm,torque_z_nm\n";
-  for (size_t i = 0; i < std::min(rows.size(), felt.size()); ++i) {
+  for (size_t i = 0; i < std::min(rows.size(), forces.size()); ++i) {
     for (size_t s = 0; s < styluses.size(); ++s) {
       const StylusSample& sample = rows[i].samples[s];
-      const Vector3d &p = sample.pose.position_m, &f = felt[i].forces_n[s], &m = felt[i].torques_nm[s];
+      const Vector3d &p = sample.pose.position_m, &f = forces[i].forces_n[s], &m = forces[i].torques_nm[s];
       const Quaterniond& q = sample.pose.orientation;
       file << i + 1 << ',' << rows[i].tick << ',' << styluses[s] << ',' << sample.valid
            << csvNumbers({p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()}) << ',' << sample.button1 << ','

@@ -19,17 +19,17 @@ struct ToolRows {
     StylusSamples samples;
     ToolMotions motions;
   };
-  struct Felt {
+  struct Forces {
     Vector3d forces_n[layout::kMaxStyluses], torques_nm[layout::kMaxStyluses];
   };
   double tick_s = 0;
   std::vector<std::string> styluses;  ///< names of the styluses
   std::vector<Row> rows;
-  std::vector<Felt> felt;  ///< [rows], or fewer: the rest is not measured yet
+  std::vector<Forces> forces;  ///< [rows], or fewer: the rest is not measured yet
 
   explicit ToolRows(const Session& session);
   void addRow(const Session& session, const StylusSamples& samples);
-  void addFelt(const Session& session, const layout::TickStats& stats);
+  void addForces(const Session& session, const layout::TickStats& stats);
   /// Returns the track of a stylus. @param stylus  < styluses.size()
   ToolTrack track(size_t stylus) const;
   /// Returns one map of metrics per tool (docs/replay.md). A tool that did not move has no smoothness.
@@ -52,7 +52,7 @@ class ToolLog : public SessionLog {
 
   void stepped(Session& session, const StylusSamples& samples) override { rows_.addRow(session, samples); }
   void measured(const Session& session, uint64_t tick, const layout::TickStats& stats) override {
-    if (tick > base_tick_) rows_.addFelt(session, stats);
+    if (tick > base_tick_) rows_.addForces(session, stats);
   }
   void wasReset() override { base_tick_ = 0; }
   void restored(Session& session) override { base_tick_ = session.tick(); }

@@ -20,8 +20,8 @@ constexpr double kLiftedShare = 0.25;
 using Styluses = std::vector<StylusConfig>;
 
 /// Returns the distance from the reach of a tip to a position [m]; below 0 inside.
-double gapTo(const Vector3d& place_m, const StylusMotion& motion, const StylusConfig& stylus) {
-  return (motion.to.position_m - place_m).norm() - kindOf(motion.mode).reach_m(stylus);
+double gapTo(const Vector3d& position_m, const StylusMotion& motion, const StylusConfig& stylus) {
+  return (motion.to.position_m - position_m).norm() - kindOf(motion.mode).reach_m(stylus);
 }
 
 class TouchJudge : public TaskJudge {
@@ -142,7 +142,7 @@ std::unique_ptr<TaskJudge> touchJudge(const TaskConfig& task, const Session& ses
 
 TaskShapes touchShapes(const TaskConfig& task) {
   TaskShapes out;
-  for (const TaskPlace& target : task.touch.targets)
+  for (const TaskPosition& target : task.touch.targets)
     out.lines_m.push_back(circleOf(target.position_m, Vector3d::UnitZ(), task.touch.radius_m));
   return out;
 }

@@ -96,7 +96,7 @@ void follow(const OrganFit& fit, const Model& model, std::vector<Stroke>& stroke
   for (Stroke& stroke : strokes) {
     if (!stroke.anchor) continue;
     for (Vector3d* point_m : {&stroke.anchor->from_m, &stroke.anchor->towards_m}) *point_m = fit.moved(*point_m);
-    for (Stroke::Key& key : stroke.keys) key.pose.position_m *= fit.hand_scale;
+    for (Stroke::Key& key : stroke.keys) key.pose.position_m *= fit.tool_scale;
   }
   const std::vector<Stroke> aimed = strokes;
   for (Stroke& stroke : strokes) {

@@ -26,11 +26,11 @@ Reaction ForceLimiter::limit(const Reaction& raw, double span_s, const ForceLimi
     out.saturated = true;
   }
   const Vector3d force_change = out.force_n - last_.force_n, torque_change = out.torque_nm - last_.torque_nm;
-  const double way = shareWithin(force_change, torque_change, limits.force_rate_n_per_s * span_s,
-                                 limits.torque_rate_nm_per_s * span_s);
-  if (way < 1) {
-    out.force_n = last_.force_n + way * force_change;
-    out.torque_nm = last_.torque_nm + way * torque_change;
+  const double scale = shareWithin(force_change, torque_change, limits.force_rate_n_per_s * span_s,
+                                   limits.torque_rate_nm_per_s * span_s);
+  if (scale < 1) {
+    out.force_n = last_.force_n + scale * force_change;
+    out.torque_nm = last_.torque_nm + scale * torque_change;
     out.saturated = true;
   }
   last_ = out;

@@ -31,16 +31,16 @@ void Gripper::letGo() {
   slid_before_m_ = slid_m_ = Vector3d::Zero();
 }
 
-void Gripper::advance(const Jaws& jaws, bool grips, float told_rad, bool appears, double tick_s,
+void Gripper::advance(const Jaws& jaws, bool grips, float angle_rad, bool appears, double tick_s,
                       const std::function<std::optional<Between>(double)>& feel, StylusMotion& motion) {
-  const bool told = told_rad >= 0;
-  const double wanted = told ? closedBy(jaws, told_rad) : 1;
-  if (told && appears) closed_ = wanted;
+  const bool is_driven = angle_rad >= 0;
+  const double wanted = is_driven ? closedBy(jaws, angle_rad) : 1;
+  if (is_driven && appears) closed_ = wanted;
   slid_before_m_ = slid_m_;
   const double before = closed_;
   motion.opens_from_rad = openingNow(jaws);
   const double reached = before + tick_s / jaws.closing_s + kRounding;
-  follows_ = told && (follows_ || wanted <= reached);
+  follows_ = is_driven && (follows_ || wanted <= reached);
   closed_ = follows_ || wanted <= reached ? wanted : reached - kRounding;
   const bool closes = closed_ > before;
   if (closes && !closing_) mouth_rad_ = motion.opens_from_rad;

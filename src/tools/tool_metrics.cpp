@@ -41,9 +41,9 @@ void fourierTransform(std::vector<Complex>& values) {
 
 std::vector<double> speedsOf(const ToolTrack& track) {
   std::vector<double> out;
-  for (size_t i = 1; i < track.places_m.size(); ++i) {
+  for (size_t i = 1; i < track.positions_m.size(); ++i) {
     const bool known = track.tracked[i] && track.tracked[i - 1];
-    out.push_back(known ? (track.places_m[i] - track.places_m[i - 1]).norm() * track.rate_hz : 0);
+    out.push_back(known ? (track.positions_m[i] - track.positions_m[i - 1]).norm() * track.rate_hz : 0);
   }
   return out;
 }
@@ -94,12 +94,12 @@ double logDimensionlessJerk(const std::vector<double>& speeds, double rate_hz) {
   return jerk == 0 ? 0 : -std::log(std::abs(jerk));
 }
 
-void ToolTally::addPlace(bool tracked, const Vector3d& place_m) {
+void ToolTally::addPosition(bool tracked, const Vector3d& position_m) {
   if (tracked) {
-    if (!first_m_) first_m_ = place_m;
-    if (before_m_) sums_.path_m += (place_m - *before_m_).norm();
+    if (!first_m_) first_m_ = position_m;
+    if (before_m_) sums_.path_m += (position_m - *before_m_).norm();
     sums_.time_s += 1 / rate_hz_;
-    last_m_ = before_m_ = place_m;
+    last_m_ = before_m_ = position_m;
   } else {
     before_m_.reset();
   }
@@ -127,7 +127,7 @@ ToolMetrics ToolTally::metrics() const {
 
 ToolMetrics metricsOf(const ToolTrack& track) {
   ToolTally tally(track.rate_hz);
-  for (size_t i = 0; i < track.places_m.size(); ++i) tally.addPlace(track.tracked[i], track.places_m[i]);
+  for (size_t i = 0; i < track.positions_m.size(); ++i) tally.addPosition(track.tracked[i], track.positions_m[i]);
   for (const Vector3d& force : track.forces_n) tally.addForce(force);
   ToolMetrics out = tally.metrics();
   const std::vector<double> speeds = speedsOf(track);

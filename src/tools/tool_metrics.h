@@ -14,9 +14,9 @@ namespace viscera {
 /// Positions of a tool's tip and forces on it at a constant rate.
 struct ToolTrack {
   double rate_hz = 0;
-  std::vector<bool> tracked;       ///< the position of its tip is known
-  std::vector<Vector3d> places_m;  ///< positions of its tip
-  std::vector<Vector3d> forces_n;  ///< forces of the tissue on it, without limits
+  std::vector<bool> tracked;          ///< the position of its tip is known
+  std::vector<Vector3d> positions_m;  ///< positions of its tip
+  std::vector<Vector3d> forces_n;     ///< forces of the tissue on it, without limits
 };
 
 struct ToolMetrics {
@@ -37,7 +37,7 @@ ToolMetrics metricsOf(const ToolTrack& track);
 class ToolTally {
  public:
   explicit ToolTally(double rate_hz) : rate_hz_(rate_hz) {}
-  void addPlace(bool tracked, const Vector3d& place_m);
+  void addPosition(bool tracked, const Vector3d& position_m);
   void addForce(const Vector3d& force_n);
   ToolMetrics metrics() const;
 

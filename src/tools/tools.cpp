@@ -62,12 +62,12 @@ void Tools::changeMode(size_t stylus, StylusMotion& motion) {
   forgotten_[stylus] = false;
 }
 
-/// Closes jaws. They are open until the mode begins. @param told_rad  StylusSample::jaw_rad
-void Tools::close(size_t stylus, float told_rad, const FeelTissue& between, StylusMotion& motion) {
+/// Closes jaws. They are open until the mode begins. @param angle_rad  StylusSample::jaw_rad
+void Tools::close(size_t stylus, float angle_rad, const FeelTissue& between, StylusMotion& motion) {
   const ToolKind& kind = kindOf(motion.mode);
   if (!kind.jaws) return;
   const auto here = [&](double mouth_rad) { return between(stylus, motion, mouth_rad); };
-  fingers_[stylus].advance(kind.jaws(configs_[stylus]), kind.grips, told_rad, !last_[stylus].valid, limits_.tick_s,
+  fingers_[stylus].advance(kind.jaws(configs_[stylus]), kind.grips, angle_rad, !last_[stylus].valid, limits_.tick_s,
                            between ? here : std::function<std::optional<Between>(double)>(), motion);
 }
 

@@ -42,10 +42,10 @@ class PerformanceSuite : public ::testing::Test {
 
 TEST_F(PerformanceSuite, SizesHaveEveryWayOfEveryBodyBesideThePaper) {
   run("speed", {"--only", "sizes", "--nodes", "10000", "130000"});
-  for (const std::string way : {"cpu scalar", "cpu simd, 1 thread", "cpu simd, all threads", "gpu"})
-    EXPECT_EQ(rowsWith("sizes", {"heart", way}), 2u) << way;  // dashpot 0 and 0.2
-  EXPECT_EQ(rowsWith("sizes", {"839.8"}), 12u);               // VR05 at 10,000 nodes, next to all but the scalar loop
-  EXPECT_EQ(rowsWith("sizes", {"cube,13"}), 3u);              // a large one: no scalar loop, no heart
+  for (const std::string variant : {"cpu scalar", "cpu simd, 1 thread", "cpu simd, all threads", "gpu"})
+    EXPECT_EQ(rowsWith("sizes", {"heart", variant}), 2u) << variant;  // dashpot 0 and 0.2
+  EXPECT_EQ(rowsWith("sizes", {"839.8"}), 12u);   // VR05 at 10,000 nodes, next to all but the scalar loop
+  EXPECT_EQ(rowsWith("sizes", {"cube,13"}), 3u);  // a large one: no scalar loop, no heart
   EXPECT_EQ(rows("machine").size(), 3u);
 }
 

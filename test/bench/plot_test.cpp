@@ -63,12 +63,12 @@ TEST(Plot, NoTwoOfTwentyCurvesLookTheSame) {
   Plot plot;
   for (int i = 0; i < 20; ++i) plot.series.push_back({"s", {1, 2}, {1, 2}});
   std::istringstream script(scriptOf(plot));
-  std::set<std::string> looks;
+  std::set<std::string> styles;
   for (std::string line; std::getline(script, line);) {
     const size_t with = line.find(" with linespoints");
-    if (with != std::string::npos) looks.insert(line.substr(with, line.find(" title") - with));
+    if (with != std::string::npos) styles.insert(line.substr(with, line.find(" title") - with));
   }
-  EXPECT_EQ(looks.size(), 20u);
+  EXPECT_EQ(styles.size(), 20u);
 }
 
 TEST(Plot, GnuplotDrawsAPng) {

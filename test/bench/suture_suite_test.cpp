@@ -3,9 +3,9 @@
 // The laws of docs/physics.md 13; `viscera bench suture` measures more of them.
 #include <gtest/gtest.h>
 
-#include "bench/suites/suture/channel_trials.h"
 #include "bench/suites/suture/suture_trials.h"
 #include "bench/suites/suture/tearing_trial.h"
+#include "bench/suites/suture/track_trials.h"
 
 namespace viscera::bench {
 namespace {
@@ -33,10 +33,10 @@ TEST(SutureSuite, SlidesAsOverACapstan) {
   for (const double angle_deg : {90.0, 180.0, 360.0}) EXPECT_NEAR(drawnOverCylinder(angle_deg), 1, kCapstan);
 }
 
-TEST(SutureSuite, SlidesThroughChannelsAsOverACapstan) {
+TEST(SutureSuite, SlidesThroughTracksAsOverACapstan) {
   for (const double share : {1e-3, 1.0}) {
     for (const size_t count : {1, 2, 4}) {
-      const ChannelTrial drawn = drawnThroughChannels(count, share, 0.1);
+      const TrackTrial drawn = drawnThroughTracks(count, share, 0.1);
       EXPECT_NEAR(drawn.ratio, 1, kCapstan) << count << " channels, " << share;
       EXPECT_LT(drawn.ripple, kSutureSuiteRipple) << count << " channels, " << share;
     }
@@ -71,7 +71,7 @@ TEST(SutureSuite, KeepsItsMomentum) {
   EXPECT_LT(flight.worst_link, kLink);
 }
 
-TEST(SutureSuite, StaysWholeAndOutsideWhateverAHandDoes) {
+TEST(SutureSuite, StaysWholeAndOutsideWhateverAToolDoes) {
   const StressTrial drawn = drawnAbout(2, 0.1);
   EXPECT_EQ(drawn.nonfinite, 0);
   EXPECT_EQ(drawn.bad, 0);
@@ -79,15 +79,15 @@ TEST(SutureSuite, StaysWholeAndOutsideWhateverAHandDoes) {
   EXPECT_LT(drawn.deepest_m, 1e-4);
 }
 
-TEST(SutureSuite, TearsOutOfTissueWhateverAHandDoes) {
-  constexpr double kSeconds = 4, kOneChannel = 1.5;  // duration [s]; distance [links] below which two tracks are one
+TEST(SutureSuite, TearsOutOfTissueWhateverAToolDoes) {
+  constexpr double kSeconds = 4, kOneTrack = 1.5;  // duration [s]; distance [links] below which two tracks are one
   const TearingTrial torn = tornOut(kSeconds, 1e3, 1);
   EXPECT_EQ(torn.trips, 0);
   EXPECT_EQ(torn.nonfinite, 0);
   EXPECT_GT(torn.torn, 0);
   EXPECT_GT(torn.springs, 0);
   EXPECT_LT(torn.off, kLink * torn.substeps);
-  EXPECT_GE(torn.nearest_links, kOneChannel);  // tracks that come closer are one
+  EXPECT_GE(torn.nearest_links, kOneTrack);  // tracks that come closer are one
   EXPECT_EQ(tornOut(kSeconds, 1e3, 2).hash, torn.hash);
 }
 

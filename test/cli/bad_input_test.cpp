@@ -122,7 +122,7 @@ TEST_F(BadInput, Strokes) {
                    {"strokes.yaml: ", "'left'", "[5, 5, 5]", "no tissue"});
 }
 
-TEST_F(BadInput, PlaceToWriteTo) {
+TEST_F(BadInput, PositionToWriteTo) {
   expectRunRefusal({"--out", scene_ + "/pictures"}, {scene_ + "/pictures"});
   expectRefusal({"bench", "speed", "--nodes", "8", "--out", scene_ + "/tables"}, {scene_ + "/tables"});
   expectRefusal({"anchor", scene_, "--strokes", strokes("left"), "--out", folder_.file("none/x.yaml")},

@@ -231,8 +231,8 @@ TEST_F(ImportCommand, AWindowsSurfaceIsWhereValuesCrossIt) {
     const Vector3d middle = kMiddle * kVoxelMm * 1e-3 * Vector3d(-1, 1, 1);  // from LPS to anterior, left, up
     double sum = 0;
     for (const Vector3f& p : mesh.positions_m) {
-      const Vector3d way = p.cast<double>() - middle;
-      sum += std::pow(way.norm() / (kVoxelMm * 1e-3) - kRadius, 2);
+      const Vector3d offset = p.cast<double>() - middle;
+      sum += std::pow(offset.norm() / (kVoxelMm * 1e-3) - kRadius, 2);
     }
     return std::sqrt(sum / static_cast<double>(mesh.positions_m.size()));
   };

@@ -19,8 +19,8 @@ namespace {
 
 using namespace test;
 
-std::string strokesOf(const std::string& task, const std::string& hand) {
-  return sourceFolder() + "/config/strokes/" + task + "_" + hand + ".yaml";
+std::string strokesOf(const std::string& task, const std::string& stylus) {
+  return sourceFolder() + "/config/strokes/" + task + "_" + stylus + ".yaml";
 }
 
 std::string textIn(const std::string& path) {
@@ -28,9 +28,9 @@ std::string textIn(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-nlohmann::json judged(const std::string& task, const std::string& hand, std::vector<std::string> more = {}) {
+nlohmann::json judged(const std::string& task, const std::string& stylus, std::vector<std::string> more = {}) {
   more.insert(more.begin(),
-              {"task", task, "--strokes", strokesOf(task, hand), "--no-view", "--set", "solver.threads=1"});
+              {"task", task, "--strokes", strokesOf(task, stylus), "--no-view", "--set", "solver.threads=1"});
   const Ending ending = viscera(more);
   EXPECT_EQ(ending.status, 0) << ending.err;
   const nlohmann::json result = lastLine(ending);
@@ -51,7 +51,7 @@ class ShippedTask : public ::testing::TestWithParam<const char*> {
   static bool dividesVessel() { return std::string(GetParam()) == "clip_and_divide"; }
 };
 
-TEST_P(ShippedTask, IsPassedByAGoodHand) {
+TEST_P(ShippedTask, IsPassedByAGoodUser) {
   const nlohmann::json result = judged(GetParam(), "good");
   EXPECT_EQ(result["state"], "passed") << result["why"];
   EXPECT_EQ(result["progress"], 1);
@@ -163,7 +163,7 @@ TEST(TaskCommand, KinematicsHaveTheColumnsOfJigsaws) {
 
 TEST(TaskCommand, KinematicsSayHowFarJawsAreOpen) {
   constexpr double kDigits = 1e-6;  // as printed
-  constexpr double kTold_rad = 0.4;
+  constexpr double kAngle_rad = 0.4;
   const TemporaryFolder folder;
   const std::string out = folder.file("out");
   const std::string strokes = folder.write(
@@ -178,9 +178,9 @@ TEST(TaskCommand, KinematicsSayHowFarJawsAreOpen) {
   ASSERT_GE(all.size(), 76u * 24);
   const double* early = &all[76 * 12];
   const double* late = &all[76 * 23];
-  EXPECT_NEAR(early[18], kTold_rad, kDigits) << "as the hand tells";
-  EXPECT_NEAR(early[56], kTold_rad, kDigits) << "as the jaws stand";
-  EXPECT_LT(late[18], 0.5 * kTold_rad);
+  EXPECT_NEAR(early[18], kAngle_rad, kDigits) << "as the hand tells";
+  EXPECT_NEAR(early[56], kAngle_rad, kDigits) << "as the jaws stand";
+  EXPECT_LT(late[18], 0.5 * kAngle_rad);
   EXPECT_NEAR(late[56], late[18], 0.05) << "a tick later, if at all";
 }
 

@@ -49,17 +49,18 @@ std::vector<ReceivedPose> course(const DeviceProfile& truth, const Pose& from, c
 const Pose kBegin{{0.01, -0.09, 0.02}, Quaterniond(0.9, 0.1, 0.3, -0.3).normalized()};
 
 Pose after(Asked asked) {
-  const Vector3d way = directionOf(asked);
+  const Vector3d displacement = directionOf(asked);
   const bool turn = asked == Asked::kTurnLeft || asked == Asked::kTiltRight || asked == Asked::kTiltAway;
-  if (turn) return {kBegin.position_m, Quaterniond(Eigen::AngleAxisd(kAskedTurn_rad, way)) * kBegin.orientation};
-  return {kBegin.position_m + 0.9 * kAskedWay_m * way, kBegin.orientation};
+  if (turn)
+    return {kBegin.position_m, Quaterniond(Eigen::AngleAxisd(kAskedTurn_rad, displacement)) * kBegin.orientation};
+  return {kBegin.position_m + 0.9 * kAskedMotion_m * displacement, kBegin.orientation};
 }
 
 constexpr Asked kAll[] = {Asked::kRight,    Asked::kUp,        Asked::kTowards,
                           Asked::kTurnLeft, Asked::kTiltRight, Asked::kTiltAway};
 
-HandMotions motionsOf(const DeviceProfile& truth, const Quaterniond& base = kNoTurn) {
-  HandMotions out;
+DeviceMotions motionsOf(const DeviceProfile& truth, const Quaterniond& base = kNoTurn) {
+  DeviceMotions out;
   for (Asked asked : kAll) out.of(asked) = motionOf(course(truth, kBegin, after(asked), base));
   return out;
 }
@@ -121,7 +122,7 @@ TEST(DeviceCheck, WordsForWhatAWrongProfileDoes) {
   EXPECT_EQ(judged(Asked::kTiltRight, plain, round).text, "tilt to the right: mirrored, the tool tilts to the left");
   EXPECT_EQ(judged(Asked::kTiltAway, plain, plain).text, "tilt away from you: right, by 46 degrees");
   const Quaterniond askew(Eigen::AngleAxisd(0.8, Vector3d::UnitZ()));
-  const HandMotion motion = *motionOf(course(plain, kBegin, after(Asked::kRight)));
+  const DeviceMotion motion = *motionOf(course(plain, kBegin, after(Asked::kRight)));
   EXPECT_NE(judgeMotion(Asked::kRight, motion, plain, askew).text.find("oblique"), std::string::npos);
 }
 
@@ -135,8 +136,8 @@ TEST(DeviceCheck, ABaseThatTfTurnsByRightAnglesCounts) {
 }
 
 TEST(DeviceCheck, WhatNoProfileMendsIsSaid) {
-  HandMotions motions = motionsOf(profileOf());
-  motions.right->way *= -1;
+  DeviceMotions motions = motionsOf(profileOf());
+  motions.right->displacement *= -1;
   FoundMap found = findMap(motions, profileOf(), kNoTurn);
   EXPECT_FALSE(found.axes);
   EXPECT_TRUE(says(found.verdicts, Grade::kWrong, "places: a mirror image"));
@@ -159,10 +160,10 @@ TEST(DeviceCheck, WhatNoProfileMendsIsSaid) {
 }
 
 TEST(DeviceCheck, MotionsThatWereNotMadeAreUnclear) {
-  const HandMotion still = *motionOf(course(profileOf(), kBegin, kBegin));
+  const DeviceMotion still = *motionOf(course(profileOf(), kBegin, kBegin));
   EXPECT_TRUE(unclear(Asked::kTurnLeft, still, 0));
-  EXPECT_TRUE(unclear(Asked::kRight, HandMotion{}, 0));
-  const HandMotion right = *motionOf(course(profileOf(), kBegin, after(Asked::kRight)));
+  EXPECT_TRUE(unclear(Asked::kRight, DeviceMotion{}, 0));
+  const DeviceMotion right = *motionOf(course(profileOf(), kBegin, after(Asked::kRight)));
   EXPECT_FALSE(unclear(Asked::kRight, right, 0.001));
   EXPECT_TRUE(unclear(Asked::kRight, right, 0.02));
   EXPECT_FALSE(motionOf({}));

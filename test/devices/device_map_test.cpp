@@ -28,11 +28,11 @@ void expectNear(const Pose& a, const Pose& b) {
   EXPECT_LT(a.orientation.angularDistance(b.orientation), 1e-7);  // rounding of the arc cosine
 }
 
-const Pose kHand{{0.01, 0.02, 0.03}, rotationFromDegrees({20, -30, 70})};
+const Pose kStylus{{0.01, 0.02, 0.03}, rotationFromDegrees({20, -30, 70})};
 
 TEST(DeviceMap, LeavesACrtkDeviceAsItIs) {
   DeviceMap map(profile({}));
-  expectNear(map.toBase(kHand), kHand);
+  expectNear(map.toBase(kStylus), kStylus);
   EXPECT_FALSE(map.base());
 }
 
@@ -56,7 +56,7 @@ TEST(DeviceMap, TipIsInTheFrameOfThePose) {
 TEST(DeviceMap, ThereAndBack) {
   DeviceMap map(profile({"pose.unit_m=0.001", "pose.axes=y z x", "pose.turn_axes=x -z y", "scale=0.5",
                          "tip={position_m: [0.01, 0, -0.1], orientation_xyzw: [0, 0, 1, 0]}"}));
-  expectNear(map.fromBase(map.toBase(kHand)), kHand);
+  expectNear(map.fromBase(map.toBase(kStylus)), kStylus);
 }
 
 TEST(DeviceMap, ScaleIsOfTheTipsWay) {
@@ -66,11 +66,11 @@ TEST(DeviceMap, ScaleIsOfTheTipsWay) {
   EXPECT_LT((after_m - before_m - Vector3d(0.01, 0, 0)).norm(), kDeviceMapRounding);
 }
 
-TEST(DeviceMap, ClutchHoldsThePlaceAndNotTheTurn) {
+TEST(DeviceMap, ClutchHoldsThePositionAndNotTheTurn) {
   DeviceMap map(profile({"scale=2"}));
-  const Vector3d held_m = map.toBase(kHand).position_m;
+  const Vector3d held_m = map.toBase(kStylus).position_m;
   map.setClutch(true);
-  Pose moved = kHand;
+  Pose moved = kStylus;
   moved.position_m += Vector3d(0.03, 0, 0);
   moved.orientation = Quaterniond::Identity();
   const Pose while_clutched = map.toBase(moved);
@@ -85,25 +85,25 @@ TEST(DeviceMap, ClutchHoldsThePlaceAndNotTheTurn) {
   expectNear(map.fromBase(map.toBase(moved)), moved);
 }
 
-TEST(DeviceMap, ClutchThatIsDownAtTheStartHoldsTheFirstPlace) {
+TEST(DeviceMap, ClutchThatIsDownAtTheStartHoldsTheFirstPosition) {
   DeviceMap map(profile({}));
   map.setClutch(true);
-  const Vector3d first_m = map.toBase(kHand).position_m;
-  Pose moved = kHand;
+  const Vector3d first_m = map.toBase(kStylus).position_m;
+  Pose moved = kStylus;
   moved.position_m.x() += 1;
   EXPECT_LT((map.toBase(moved).position_m - first_m).norm(), kDeviceMapRounding);
 }
 
-TEST(DeviceMap, PlaceThatIsNotAcceptedMovesNoClutch) {
+TEST(DeviceMap, PositionThatIsNotAcceptedMovesNoClutch) {
   DeviceMap map(profile({}));
-  const Vector3d good_m = map.toBase(kHand).position_m;
-  Pose far = kHand;
+  const Vector3d good_m = map.toBase(kStylus).position_m;
+  Pose far = kStylus;
   far.position_m.x() = 100;
-  EXPECT_EQ(map.placeOf(far).tip.position_m.x(), 100);
+  EXPECT_EQ(map.tipOf(far).tip.position_m.x(), 100);
   map.setClutch(true);
-  EXPECT_LT((map.placeOf(far).tip.position_m - good_m).norm(), kDeviceMapRounding);
+  EXPECT_LT((map.tipOf(far).tip.position_m - good_m).norm(), kDeviceMapRounding);
   map.setClutch(false);
-  expectNear(map.toBase(kHand), kHand);
+  expectNear(map.toBase(kStylus), kStylus);
 }
 
 /// For the dVRK, z of the tip's frame points out of the instrument, along its jaws; the shaft is behind it.
@@ -124,7 +124,7 @@ TEST(DeviceMap, ArmStartsWithItsJawsTowardsTheTissue) {
   const Quaterniond start = rotationFromDegrees(arm.arm.start_rotation_deg);
   const Vector3d jaws = start * Vector3d::UnitZ(), towards_tissue = Vector3d(0, -arm.arm.start_m.y(), 0).normalized();
   EXPECT_LT((jaws - towards_tissue).norm(), kDeviceMapRounding);
-  const Pose tool = DeviceMap(arm).placeOf({arm.arm.start_m, start}).tip;
+  const Pose tool = DeviceMap(arm).tipOf({arm.arm.start_m, start}).tip;
   EXPECT_LT((tool.orientation * -Vector3d::UnitZ() - towards_tissue).norm(), kDeviceMapRounding);
 }
 

@@ -56,11 +56,11 @@ TEST(OrganSkin, ToolWaitsBeforeAnyOrganAndPointsAtItsMiddle) {
         // corners alone are too few for the surface around a line
         OrganSkin skin = box(middle - half, middle + half);
         for (int i = 0; i < 4000; ++i) {
-          const Vector3d way = Vector3d(std::sin(1.0 * i), std::sin(1.7 * i + 1), std::sin(2.3 * i + 2));
-          const Vector3d at = middle + way.cwiseProduct(half) / way.cwiseAbs().maxCoeff();
+          const Vector3d direction = Vector3d(std::sin(1.0 * i), std::sin(1.7 * i + 1), std::sin(2.3 * i + 2));
+          const Vector3d at = middle + direction.cwiseProduct(half) / direction.cwiseAbs().maxCoeff();
           for (int axis = 0; axis < 3; ++axis) skin.points_m.push_back(static_cast<float>(at[axis]));
         }
-        const Pose start = startBefore(skin, sideOfHand(left));
+        const Pose start = startBefore(skin, sideOfTool(left));
         const Vector3d away = start.position_m - middle;
         EXPECT_NEAR((start.orientation * Vector3d::UnitZ()).dot(away.normalized()), 1, kFloat_m);
         EXPECT_NEAR(start.orientation.norm(), 1, kFloat_m);

@@ -24,8 +24,8 @@ std::vector<Pose> pivoting(size_t count, double tilt_rad, double noise_m, uint32
   std::uniform_real_distribution<double> turn(0, 2 * M_PI);
   std::vector<Pose> poses;
   for (size_t i = 0; i < count; ++i) {
-    const double way = turn(random);
-    const Quaterniond tilted(Eigen::AngleAxisd(tilt_rad, Vector3d(std::cos(way), std::sin(way), 0)));
+    const double heading = turn(random);
+    const Quaterniond tilted(Eigen::AngleAxisd(tilt_rad, Vector3d(std::cos(heading), std::sin(heading), 0)));
     const Vector3d error(normal(random), normal(random), normal(random));
     poses.push_back({kPivot_m - tilted * kTip_m + noise_m * error, tilted});
   }

@@ -25,17 +25,17 @@ std::string textOf(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 template <class T>
-T at(const std::string& bytes, size_t place) {
+T at(const std::string& bytes, size_t position) {
   T out{};
-  EXPECT_LE(place + sizeof out, bytes.size());
-  if (place + sizeof out <= bytes.size()) std::memcpy(&out, bytes.data() + place, sizeof out);
+  EXPECT_LE(position + sizeof out, bytes.size());
+  if (position + sizeof out <= bytes.size()) std::memcpy(&out, bytes.data() + position, sizeof out);
   return out;
 }
 template <class T>
-std::vector<T> valuesAt(const std::string& bytes, size_t place, size_t count) {
+std::vector<T> valuesAt(const std::string& bytes, size_t position, size_t count) {
   std::vector<T> out(count);
-  EXPECT_LE(place + count * sizeof(T), bytes.size());
-  if (place + count * sizeof(T) <= bytes.size()) std::memcpy(out.data(), bytes.data() + place, count * sizeof(T));
+  EXPECT_LE(position + count * sizeof(T), bytes.size());
+  if (position + count * sizeof(T) <= bytes.size()) std::memcpy(out.data(), bytes.data() + position, count * sizeof(T));
   return out;
 }
 std::string attribute(const std::string& element, const std::string& name) {
@@ -251,19 +251,19 @@ TEST(Pc2, HasAllSamplesAndAsManyPointsInEach) {
 
 /// The patient's left is +x in LPS and +y in viscera's frame; the back is +y in LPS and -x in viscera's frame.
 TEST(ExportFrames, LeftStaysLeft) {
-  std::vector<float> places = {0.001f, 0.002f, 0.003f};
+  std::vector<float> positions = {0.001f, 0.002f, 0.003f};
   const Vector3d origin(0.1, 0.2, 0.3);
-  std::vector<float> arrows = places;
-  toFrame(ExportFrame::kLpsMm, origin, Vectors::kPlaces, places);
-  EXPECT_FLOAT_EQ(places[0], 202);
-  EXPECT_FLOAT_EQ(places[1], -101);
-  EXPECT_FLOAT_EQ(places[2], 303);
+  std::vector<float> arrows = positions;
+  toFrame(ExportFrame::kLpsMm, origin, Vectors::kPositions, positions);
+  EXPECT_FLOAT_EQ(positions[0], 202);
+  EXPECT_FLOAT_EQ(positions[1], -101);
+  EXPECT_FLOAT_EQ(positions[2], 303);
   toFrame(ExportFrame::kLpsMm, origin, Vectors::kArrows, arrows);
   EXPECT_FLOAT_EQ(arrows[0], 2);
   std::vector<float> forward = {1, 0, 0};
   toFrame(ExportFrame::kLpsMm, origin, Vectors::kDirections, forward);
   EXPECT_EQ(forward, (std::vector<float>{0, -1, 0}));
-  toFrame(ExportFrame::kRos, origin, Vectors::kPlaces, forward);
+  toFrame(ExportFrame::kRos, origin, Vectors::kPositions, forward);
   EXPECT_EQ(forward, (std::vector<float>{0, -1, 0}));
 }
 

@@ -76,11 +76,11 @@ const std::vector<std::string> kAhead = {"GROUP_SIZE 64", "LATTICE", "AHEAD", "I
 
 TEST_F(GpuErrors, ComeBeforeAKernelHasMoreBlocksThanTheDriverAllows) {
   Limits small = driverLimits();
-  EXPECT_NO_THROW(Program::compute("collision_note.comp", kAhead).finish());
+  EXPECT_NO_THROW(Program::compute("collision_record.comp", kAhead).finish());
   small.storage_blocks = 8;
   pretendDriverLimits(small);
-  const std::string said = messageOf<GpuError>([] { Program::compute("collision_note.comp", kAhead); });
-  EXPECT_TRUE(says(said, {"GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS is 8 and must be 1", "'collision_note.comp'"}));
+  const std::string said = messageOf<GpuError>([] { Program::compute("collision_record.comp", kAhead); });
+  EXPECT_TRUE(says(said, {"GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS is 8 and must be 1", "'collision_record.comp'"}));
 }
 
 class GpuErrorsOfBlocks : public GpuErrors, public ::testing::WithParamInterface<bool> {};

@@ -44,7 +44,7 @@ TEST(ContactModel, GivesNothingInFreeMotion) {
   for (double z : {0.01, 0.0, -0.1}) EXPECT_EQ(model.at({0, 0, z}, kTick_s).force_n, Vector3d(0, 0, 0));
 }
 
-TEST(ContactModel, GivesTheTicksForceAtTheTicksPlace) {
+TEST(ContactModel, GivesTheTicksForceAtTheTicksPosition) {
   double now_s = 0;
   const ContactModel model = pressed(0, -0.004, 8, now_s);
   EXPECT_NEAR(model.at(model.anchor_m(), now_s).force_n.z(), -kStiff_n_per_m * model.anchor_m().z(), 1e-12);

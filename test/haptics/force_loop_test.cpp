@@ -21,13 +21,13 @@ class Rig {
  public:
   explicit Rig(double rate_hz = 1000, const ForceLimits& limits = kLimits)
       : loop_({stylus(rate_hz, limits)}, true, kStall_s) {
-    hands_[0].tracked = hands_[0].listens = true;
+    inputs_[0].tracked = inputs_[0].accepts_force = true;
   }
 
   double time_s() const { return std::chrono::duration<double>(now_ - kBegin).count(); }
   bool ticks = true;
   double z_m = 0.01, speed_m_per_s = 0;  ///< height and velocity of the tip
-  ForceLoop::Hands& hands() { return hands_; }
+  ForceLoop::Inputs& inputs() { return inputs_; }
   const ForceLoop& loop() const { return loop_; }
   struct Sent {
     double time_s, force_n;
@@ -46,12 +46,12 @@ class Rig {
       bool wake = now_ >= loop_.due();
       if (now_ >= pose_due_) {
         pose_due_ += std::chrono::milliseconds(1);
-        hands_[0].tip_m.z() = z_m;
-        hands_[0].told = now_;
+        inputs_[0].tip_m.z() = z_m;
+        inputs_[0].pose_time = now_;
       }
       if (ticks && now_ >= tick_due_) {
         tick();
-        wake = wake || !loop_.answering();
+        wake = wake || !loop_.updating();
       }
       if (wake) send();
     }
@@ -69,9 +69,9 @@ class Rig {
     return std::chrono::duration_cast<SteadyTime::duration>(std::chrono::duration<double>(span_s));
   }
   void advance(SteadyTime to) {
-    const double way_m = speed_m_per_s * std::chrono::duration<double>(to - now_).count();
-    z_m += way_m;
-    if (!sent.empty()) given_j -= sent.back().force_n * way_m;
+    const double offset_m = speed_m_per_s * std::chrono::duration<double>(to - now_).count();
+    z_m += offset_m;
+    if (!sent.empty()) given_j -= sent.back().force_n * offset_m;
     now_ = to;
   }
   void tick() {
@@ -85,18 +85,18 @@ class Rig {
       contact.kind = TickContact::Kind::kPushes;
       contact.reaction.force_n = {0, 0, push_n};
     }
-    all[0].tracked = hands_[0].tracked;
+    all[0].tracked = inputs_[0].tracked;
     all[0].reaction = contact.reaction;
-    loop_.put(all, hands_, now_);
+    loop_.put(all, inputs_, now_);
   }
   void send() {
-    const double force_n = loop_.next(hands_, now_)[0].force_n.z();
-    loop_.sent({Vector3d(0, 0, hands_[0].listens ? force_n : 0)}, now_);
-    sent.push_back({time_s(), hands_[0].listens ? force_n : 0});
+    const double force_n = loop_.next(inputs_, now_)[0].force_n.z();
+    loop_.sent({Vector3d(0, 0, inputs_[0].accepts_force ? force_n : 0)}, now_);
+    sent.push_back({time_s(), inputs_[0].accepts_force ? force_n : 0});
   }
 
   ForceLoop loop_;
-  ForceLoop::Hands hands_;
+  ForceLoop::Inputs inputs_;
   SteadyTime now_ = kBegin, tick_due_ = kBegin, pose_due_ = kBegin;
   double last_z_m_ = 0.01;
 };
@@ -120,9 +120,9 @@ TEST(ForceLoop, AnswersAtItsRateAlsoAfterALimitHasActed) {
     rig.speed_m_per_s = 0;
     rig.run(3);  // about 2.5 N at 2 N/s
     const double from_s = rig.time_s();
-    const uint64_t before = rig.loop().felt(0).answers;
+    const uint64_t before = rig.loop().stats(0).updates;
     rig.run(1);
-    EXPECT_NEAR(static_cast<double>(rig.loop().felt(0).answers - before), rate_hz, 0.02 * rate_hz);
+    EXPECT_NEAR(static_cast<double>(rig.loop().stats(0).updates - before), rate_hz, 0.02 * rate_hz);
     EXPECT_LT(longestGap_s(rig, from_s), 1.5 / rate_hz) << rate_hz << " Hz";
   }
 }
@@ -147,7 +147,7 @@ TEST(ForceLoop, AStallLeavesNoEnergyBehind) {
   EXPECT_EQ(rig.sent.back().force_n, 0);
   rig.ticks = true;
   rig.run(0.5);
-  EXPECT_GT(rig.loop().felt(0).least_j, -1e-4);
+  EXPECT_GT(rig.loop().stats(0).least_j, -1e-4);
   for (int again = 0; again < 3; ++again) {
     rig.speed_m_per_s = (0.01 - rig.z_m) / 0.3;
     rig.run(0.3);
@@ -156,8 +156,8 @@ TEST(ForceLoop, AStallLeavesNoEnergyBehind) {
     rig.speed_m_per_s = 0.05;
     rig.run(0.3);
   }
-  EXPECT_NEAR(rig.loop().felt(0).energy_j, rig.given_j, 1e-3);
-  EXPECT_GT(rig.loop().felt(0).least_j, -1e-3);
+  EXPECT_NEAR(rig.loop().stats(0).energy_j, rig.given_j, 1e-3);
+  EXPECT_GT(rig.loop().stats(0).least_j, -1e-3);
 }
 
 /// A driver that subscribes late, or again, starts at zero with the slew rate of its limits.
@@ -168,9 +168,9 @@ TEST(ForceLoop, WhoBeginsToListenFeelsNoLeap) {
   rig.speed_m_per_s = 0;
   rig.run(1);
   EXPECT_NEAR(rig.sent.back().force_n, 2.5, 0.1);
-  rig.hands()[0].listens = false;
+  rig.inputs()[0].accepts_force = false;
   rig.run(0.5);
-  rig.hands()[0].listens = true;
+  rig.inputs()[0].accepts_force = true;
   const double from_s = rig.time_s();
   rig.run(0.2);
   double last_n = 0, last_s = from_s;
@@ -183,14 +183,14 @@ TEST(ForceLoop, WhoBeginsToListenFeelsNoLeap) {
   EXPECT_GT(last_n, 0.5);
 }
 
-TEST(ForceLoop, AHandThatIsLostIsLetGoWithinATenthOfASecondWhateverTheSlew) {
+TEST(ForceLoop, AStylusThatIsLostIsLetGoWithinATenthOfASecondWhateverTheSlew) {
   Rig rig(1000, {5, 0.1, 0.2, 4});
   rig.speed_m_per_s = -0.05;
   rig.run(0.3);
   rig.speed_m_per_s = 0;
   rig.run(5);
   EXPECT_GT(rig.sent.back().force_n, 0.3);
-  rig.hands()[0].tracked = false;
+  rig.inputs()[0].tracked = false;
   rig.run(WrenchSchedule::kLetGo_s + 2 * kForceLoopTick_s);
   EXPECT_EQ(rig.sent.back().force_n, 0);
 }

@@ -42,14 +42,14 @@ Pressed press(const Held& held) {
   HapticServo servo(config);
   Pressed out;
   TickContact contact;
-  Vector3d tip = held.motion_scale * device.measured_m(), last = tip, told = Vector3d::Zero();
-  double next_s = 0, answer_s = 1e9, told_s = 0, low = 1e9, high = -1e9;
+  Vector3d tip = held.motion_scale * device.measured_m(), last = tip, reported = Vector3d::Zero();
+  double next_s = 0, answer_s = 1e9, pose_time_s = 0, low = 1e9, high = -1e9;
   const double stiff = kHapticServoStiff_n_per_m / (held.motion_scale * held.force_scale);  // at the tip
   for (int i = 0; i < 6000; ++i) {
     const double now_s = 1e-3 * i;
     if (i % held.periods_per_pose == 0) {
       tip = held.motion_scale * device.measured_m();
-      told_s = now_s;
+      pose_time_s = now_s;
     }
     if (now_s >= next_s) {
       next_s += kHapticServoTick_s;
@@ -64,19 +64,19 @@ Pressed press(const Held& held) {
     if (now_s >= answer_s) {
       servo.put(contact, now_s);
       answer_s = 1e9;
-      if (!held.servoed) told = held.force_scale * contact.reaction.force_n;
+      if (!held.servoed) reported = held.force_scale * contact.reaction.force_n;
     }
-    const Vector3d answer = servo.damped(servo.step(tip, told_s, now_s).force_n, now_s);
-    if (held.servoed) told = held.force_scale * answer;
-    servo.sent(told, now_s);
-    device.step(told, {0, 0, std::max(0.002 - 0.01 * now_s, -0.004)});
+    const Vector3d answer = servo.damped(servo.step(tip, pose_time_s, now_s).force_n, now_s);
+    if (held.servoed) reported = held.force_scale * answer;
+    servo.sent(reported, now_s);
+    device.step(reported, {0, 0, std::max(0.002 - 0.01 * now_s, -0.004)});
     out.least_j = std::min(out.least_j, device.energy_j());
     if (i < 5500) continue;
     low = std::min(low, device.position_m().z());
     high = std::max(high, device.position_m().z());
   }
   out.swing_m = 0.5 * (high - low);
-  out.force_n = told.z();
+  out.force_n = reported.z();
   out.share = servo.share();
   out.energy_j = servo.passivity().energy_j();
   out.observed_j = servo.passivity().least_j();
@@ -126,7 +126,7 @@ TEST(HapticServo, HoldsAStiffWallStillWithFewPoses) {
 }
 
 /// The observer has the device's own energy, with any scales between device and tool.
-TEST(HapticServo, BooksWhatTheHandGivesWhateverTheScales) {
+TEST(HapticServo, CountsWhatTheUserGivesWhateverTheScales) {
   for (const auto& [motion, force] : {std::pair{1.0, 1.0}, {0.2, 1.0}, {1.0, 2.0}, {3.0, 0.5}}) {
     SCOPED_TRACE(std::to_string(motion) + ", " + std::to_string(force));
     Held how;
@@ -185,8 +185,8 @@ TEST(HapticServo, SoftenedForcesKeepTheirDirection) {
   servo.put(contact, now_s);
   for (int i = 0; i < 200; ++i, now_s += 1e-3) {
     const double wanted_n = servo.model().at({0, 0, z_m}, now_s).force_n.z();
-    const double told_n = servo.step({0, 0, z_m}, now_s, now_s).force_n.z();
-    EXPECT_GE(told_n * wanted_n, 0) << i << " ms: " << told_n << " N told, " << wanted_n << " N wanted";
+    const double sent_force_n = servo.step({0, 0, z_m}, now_s, now_s).force_n.z();
+    EXPECT_GE(sent_force_n * wanted_n, 0) << i << " ms: " << sent_force_n << " N told, " << wanted_n << " N wanted";
   }
 }
 

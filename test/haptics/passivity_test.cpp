@@ -54,7 +54,7 @@ TEST(PassivityControl, CountsTheForceThatActedARoundTripAgo) {
   EXPECT_NEAR(control.energy_j(), 0.002, kRounding);
 }
 
-TEST(PassivityControl, BooksAWayOfManyPeriodsWithTheForcesOfAllOfThem) {
+TEST(PassivityControl, CountsAMotionOfManyPeriodsWithTheForcesOfAllOfThem) {
   PassivityControl control({kPeriod_s, 0, 1});
   for (int i = 0; i < 10; ++i) control.sent({0, 0, static_cast<double>(i)}, i * kPeriod_s);
   EXPECT_NEAR(control.moved({0, 0, -0.001}, 0, 10 * kPeriod_s)->z(), 4.5, kRounding);
@@ -63,7 +63,7 @@ TEST(PassivityControl, BooksAWayOfManyPeriodsWithTheForcesOfAllOfThem) {
 
 TEST(PassivityControl, BooksNothingBeyondWhatItRemembers) {
   PassivityControl control({kPeriod_s, 0, 1});
-  const int periods = static_cast<int>(10 * PassivityControl::kLongestWay_s / kPeriod_s);
+  const int periods = static_cast<int>(10 * PassivityControl::kLongestTransit_s / kPeriod_s);
   for (int i = 0; i < periods; ++i) control.sent({0, 0, 1}, i * kPeriod_s);
   EXPECT_FALSE(control.moved({0, 0, 0.03}, 0, periods * kPeriod_s));
   EXPECT_EQ(control.energy_j(), 0);

@@ -9,7 +9,7 @@
 namespace viscera {
 namespace {
 
-TEST(SimulatedDevice, ComesToRestWhereHandAndForceBalance) {
+TEST(SimulatedDevice, ComesToRestWhereUserAndForceBalance) {
   SimulatedDeviceConfig config;
   SimulatedDevice device(config, Vector3d::Zero());
   for (int i = 0; i < 3000; ++i) device.step({0, 0, 0.6}, Vector3d::Zero());
@@ -17,7 +17,7 @@ TEST(SimulatedDevice, ComesToRestWhereHandAndForceBalance) {
   EXPECT_NEAR(device.measured_m().z(), device.position_m().z(), 0.5 * config.encoder_m + 1e-12);
 }
 
-TEST(SimulatedDevice, SwingsWithTheFrequencyOfItsMassInTheHand) {
+TEST(SimulatedDevice, SwingsWithTheFrequencyOfItsMassInTheGrip) {
   SimulatedDeviceConfig config;
   config.mass_kg = 0.5;
   config.damping_n_s_per_m = config.hand_damping_n_s_per_m = 0;

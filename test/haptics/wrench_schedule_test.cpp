@@ -47,7 +47,7 @@ class WrenchScheduleTest : public ::testing::Test {
   }
   void put(const Wrenches& wanted) {
     schedule_.tick(now_);
-    schedule_.want(wanted, {true}, now_);
+    schedule_.request(wanted, {true}, now_);
   }
   /// Runs ticks with the same desired wrench.
   Wrenches ticks(int count, const Wrenches& wanted, double tick_s = kWrenchScheduleTick_s) {
@@ -159,7 +159,7 @@ TEST(WrenchScheduleEndings, NothingKeepsAWrenchUpWhateverSlewAndLimitsAre) {
       {"release", [](WrenchSchedule& it, SteadyTime now) { it.release(now); }, WrenchSchedule::kRelease_s},
       {"suspension", [](WrenchSchedule& it, SteadyTime now) { it.suspend(now); }, WrenchSchedule::kRelease_s},
       {"stall", [](WrenchSchedule&, SteadyTime) {}, kWrenchScheduleStall_s + WrenchSchedule::kRelease_s},
-      {"hand lost", [&](WrenchSchedule& it, SteadyTime now) { it.want(pushed, {false}, now); },
+      {"hand lost", [&](WrenchSchedule& it, SteadyTime now) { it.request(pushed, {false}, now); },
        WrenchSchedule::kLetGo_s},
       {"rest, then release",
        [](WrenchSchedule& it, SteadyTime now) {
@@ -180,7 +180,7 @@ TEST(WrenchScheduleEndings, NothingKeepsAWrenchUpWhateverSlewAndLimitsAre) {
       SteadyTime now(std::chrono::hours(1));
       for (int t = 0; t < 100; ++t, now += span(WrenchSchedule::kSlewPeriod_s)) {
         schedule.tick(now);
-        schedule.want(pushed, {true}, now);
+        schedule.request(pushed, {true}, now);
         schedule.next(now);
       }
       schedule.setLimits(0, limits);
@@ -188,10 +188,10 @@ TEST(WrenchScheduleEndings, NothingKeepsAWrenchUpWhateverSlewAndLimitsAre) {
       ending.begin(schedule, now);
       Reaction out = schedule.next(now)[0];
       const SteadyTime end = begun + span(ending.within_s + 2 * WrenchSchedule::kSlewPeriod_s);
-      for (const bool hand_lost = schedule.live() && ending.within_s == WrenchSchedule::kLetGo_s; now < end;) {
+      for (const bool stylus_lost = schedule.live() && ending.within_s == WrenchSchedule::kLetGo_s; now < end;) {
         const double before_n = out.force_n.norm();
         now = std::max(now + std::chrono::microseconds(1), std::min(schedule.due(), end));
-        if (hand_lost) schedule.tick(now);  // ticks continue
+        if (stylus_lost) schedule.tick(now);  // ticks continue
         out = schedule.next(now)[0];
         EXPECT_LE(out.force_n.norm(), before_n * (1 + kWrenchScheduleRounding));
       }
@@ -208,7 +208,7 @@ TEST(WrenchScheduleEndings, ALimitOfNoTorqueLeavesTheForceAsItIs) {
   Reaction out;
   for (int t = 0; t < 100; ++t, now += std::chrono::milliseconds(2)) {
     schedule.tick(now);
-    schedule.want(wrench(1.5, 0.1), {true}, now);
+    schedule.request(wrench(1.5, 0.1), {true}, now);
     out = schedule.next(now)[0];
   }
   EXPECT_EQ(out.force_n.x(), 1.5);

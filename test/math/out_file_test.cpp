@@ -140,8 +140,8 @@ TEST(OutFile, NeverReplacesAFileThatIsReadWhateverItsName) {
   put(path, "ply\n");
   fs::create_symlink(path, link);
   EXPECT_FALSE(isRead(path));
-  noteRead(link);
-  noteRead(folder.path() + "/none");
+  recordRead(link);
+  recordRead(folder.path() + "/none");
   for (const std::string& each : {path, link}) {
     EXPECT_TRUE(isRead(each));
     EXPECT_EQ(faultOf([&] { writeFile(each, FileKind::kPly, "ply\nnew"); }),
@@ -158,7 +158,7 @@ TEST(OutFile, GoesOnWithTheStateThatItWasResumedFrom) {
   const TemporaryFolder folder;
   const std::string path = folder.path() + "/state", bytes("viscera's state\0", 16);
   put(path, bytes);
-  noteRead(path);
+  recordRead(path);
   EXPECT_EQ(faultOf([&] { writeFile(path, FileKind::kState, bytes); }), "");
 }
 
@@ -181,7 +181,7 @@ TEST(OutFile, KeepsLinksModesAndProtection) {
   EXPECT_NE(faultOf([&] { writeFile(folder.path(), FileKind::kText, "x"); }).find("is a folder"), std::string::npos);
 }
 
-TEST(OutFile, ManyWritersOfOnePlaceNeverShareADraft) {
+TEST(OutFile, ManyWritersOfOnePositionNeverShareADraft) {
   const TemporaryFolder folder;
   const std::string path = folder.path() + "/" + std::string(250, 'n');  // as long a name as may be
   std::vector<std::thread> writers;

@@ -39,10 +39,10 @@ Vector3d surfaceOf(const Vector3d& d) {
 }
 
 /// Returns the normal of the surface itself, by differences.
-Vector3d trueNormal(const Vector3d& place) {
-  const Vector3d d = place.normalized(), s = d.unitOrthogonal(), t = d.cross(s);
+Vector3d trueNormal(const Vector3d& position) {
+  const Vector3d d = position.normalized(), s = d.unitOrthogonal(), t = d.cross(s);
   constexpr double kStep = 1e-5;
-  const auto at = [&](const Vector3d& way) { return surfaceOf((d + kStep * way).normalized()); };
+  const auto at = [&](const Vector3d& offset) { return surfaceOf((d + kStep * offset).normalized()); };
   return (at(s) - at(-s)).cross(at(t) - at(-t)).normalized();
 }
 
@@ -84,21 +84,21 @@ Shown shownBy(const TriangleMesh& mesh) {
       w = 1 - w;
     }
     const auto& c = mesh.triangles[t];
-    const Vector3f place =
+    const Vector3f position =
         (1 - v - w) * mesh.positions_m[c[0]] + v * mesh.positions_m[c[1]] + w * mesh.positions_m[c[2]];
     const Vector3f n = ((1 - v - w) * normals[c[0]] + v * normals[c[1]] + w * normals[c[2]]).normalized();
     const TextureChart& chart = mesh.detail->charts[mesh.charts[t]];
     const SurfaceMaterial& material = mesh.detail->materials[chart.material];
     const TextureImage& image = mesh.detail->images[static_cast<size_t>(material.normal_texture.image)];
-    const int x = static_cast<int>((chart.u.head<3>().dot(place) + chart.u[3]) * image.width_px);
-    const int y = static_cast<int>((chart.v.head<3>().dot(place) + chart.v[3]) * image.height_px);
+    const int x = static_cast<int>((chart.u.head<3>().dot(position) + chart.u[3]) * image.width_px);
+    const int y = static_cast<int>((chart.v.head<3>().dot(position) + chart.v[3]) * image.height_px);
     const uint8_t* texel = &image.rgba[4 * (static_cast<size_t>(y) * image.width_px + x)];
     const Vector3f bent = Vector3f(texel[0] - 128.F, texel[1] - 128.F, texel[2] - 128.F) / 127.5F;
     // V is constant along it.
     const Vector3f along_u = chart.v.head<3>().cross(chart.u.head<3>().cross(chart.v.head<3>()));
     const Vector3f tangent = (along_u - n * n.dot(along_u)).normalized();
     const Vector3f shown = (bent.x() * tangent + bent.y() * n.cross(tangent) + bent.z() * n).normalized();
-    const Vector3d truth = trueNormal(place.cast<double>());
+    const Vector3d truth = trueNormal(position.cast<double>());
     const auto angle = [&](const Vector3f& of) {
       return kDegrees * std::acos(std::min(1.0, of.cast<double>().dot(truth)));
     };
@@ -194,13 +194,13 @@ TEST_F(DetailBake, ColorsOfTheDetailedMeshComeAlong) {
   fine.part_names = {"north", "south"};
   for (size_t t = 0; t < fine.triangles.size(); ++t)
     fine.parts[t] = fine.positions_m[fine.triangles[t][0]].z() > 0 ? 0 : 1;
-  SurfaceDetail look;
-  look.materials.resize(2);
-  look.materials[0].has_color = look.materials[1].has_color = true;
-  look.materials[0].color = {1, 0, 0};
-  look.materials[1].color = {0, 0, 1};
-  look.part_materials = {0, 1};
-  fine.detail = std::make_shared<const SurfaceDetail>(look);
+  SurfaceDetail detail;
+  detail.materials.resize(2);
+  detail.materials[0].has_color = detail.materials[1].has_color = true;
+  detail.materials[0].color = {1, 0, 0};
+  detail.materials[1].color = {0, 0, 1};
+  detail.part_materials = {0, 1};
+  fine.detail = std::make_shared<const SurfaceDetail>(detail);
   const TriangleMesh baked = bakeDetail({skin, fine, true, 1024});
   for (size_t t = 0; t < baked.triangles.size(); ++t) {
     Vector3f middle = Vector3f::Zero();
@@ -225,7 +225,7 @@ TEST(TriangleTree, FindsWhatLookingAtEachTriangleFinds) {
   std::uniform_real_distribution<float> any(-0.06F, 0.06F);
   for (int i = 0; i < 300; ++i) {
     const Vector3f p(any(random), any(random), any(random)),
-        way = Vector3f(any(random), any(random), any(random)).normalized();
+        offset = Vector3f(any(random), any(random), any(random)).normalized();
     float nearest = 1e9F, ahead = 1e9F;
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {
       TriangleMesh one;
@@ -233,14 +233,14 @@ TEST(TriangleTree, FindsWhatLookingAtEachTriangleFinds) {
       one.triangles = {mesh.triangles[t]};
       const TriangleTree alone(one);
       nearest = std::min(nearest, alone.nearest(p).distance_m);
-      ahead = std::min(ahead, alone.along(p, way, 1).distance_m);
+      ahead = std::min(ahead, alone.along(p, offset, 1).distance_m);
     }
-    const MeshPlace found = tree.nearest(p), line = tree.along(p, way, 1);
+    const MeshPoint found = tree.nearest(p), line = tree.along(p, offset, 1);
     EXPECT_NEAR(found.distance_m, nearest, kSame_m);
-    const auto at = [&](const MeshPlace& place) -> Vector3f {
-      const auto& c = mesh.triangles[place.triangle];
-      return place.weights[0] * mesh.positions_m[c[0]] + place.weights[1] * mesh.positions_m[c[1]] +
-             place.weights[2] * mesh.positions_m[c[2]];
+    const auto at = [&](const MeshPoint& position) -> Vector3f {
+      const auto& c = mesh.triangles[position.triangle];
+      return position.weights[0] * mesh.positions_m[c[0]] + position.weights[1] * mesh.positions_m[c[1]] +
+             position.weights[2] * mesh.positions_m[c[2]];
     };
     EXPECT_NEAR((at(found) - p).norm(), found.distance_m, kSame_m);
     if (!line.found()) {
@@ -248,7 +248,7 @@ TEST(TriangleTree, FindsWhatLookingAtEachTriangleFinds) {
       continue;
     }
     EXPECT_NEAR(line.distance_m, ahead, kSame_m);
-    EXPECT_NEAR((at(line) - p).cross(way).norm(), 0, kSame_m) << "on the line";
+    EXPECT_NEAR((at(line) - p).cross(offset).norm(), 0, kSame_m) << "on the line";
     EXPECT_NEAR((at(line) - p).norm(), line.distance_m, kSame_m);
   }
 }

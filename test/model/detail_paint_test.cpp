@@ -22,18 +22,18 @@ PaintRow rowOf(const TriangleMesh& skin, const PlacedPaint& on, size_t first) {
   const std::vector<Vector3f> normals = vertexNormals(skin);
   PaintRow row;
   for (size_t l = 0; l < PaintRow::kMost && first + l < normals.size(); ++l, ++row.count) {
-    const Vector3d place = on.turn * (skin.positions_m[first + l].cast<double>() / on.unit_m) + on.shift;
+    const Vector3d position = on.turn * (skin.positions_m[first + l].cast<double>() / on.unit_m) + on.shift;
     const Vector3d normal = on.turn * normals[first + l].cast<double>();
     for (int i = 0; i < 3; ++i) {
-      row.place[static_cast<size_t>(i)][l] = static_cast<float>(place[i]);
+      row.position[static_cast<size_t>(i)][l] = static_cast<float>(position[i]);
       row.normal[static_cast<size_t>(i)][l] = static_cast<float>(normal[i]);
     }
   }
   return row;
 }
 
-Vector3f placeOf(const PaintRow& row, size_t l) {
-  return {row.place[0][l], row.place[1][l], row.place[2][l]};
+Vector3f positionOf(const PaintRow& row, size_t l) {
+  return {row.position[0][l], row.position[1][l], row.position[2][l]};
 }
 
 TEST(DetailPaint, WhatIsLeftOutElsewhereWouldHaveChangedNothing) {
@@ -47,9 +47,9 @@ TEST(DetailPaint, WhatIsLeftOutElsewhereWouldHaveChangedNothing) {
     PaintRow whole = rowOf(skin, on, first), part = whole;
     on.paint->paint(all, whole);
     Vector3f middle = Vector3f::Zero();
-    for (size_t l = 0; l < part.count; ++l) middle += placeOf(part, l) / static_cast<float>(part.count);
+    for (size_t l = 0; l < part.count; ++l) middle += positionOf(part, l) / static_cast<float>(part.count);
     float radius = 0;
-    for (size_t l = 0; l < part.count; ++l) radius = std::max(radius, (placeOf(part, l) - middle).norm());
+    for (size_t l = 0; l < part.count; ++l) radius = std::max(radius, (positionOf(part, l) - middle).norm());
     on.paint->findNear(middle, radius, near);
     fewer += near.size() < all.size() ? 1 : 0;
     on.paint->paint(near, part);

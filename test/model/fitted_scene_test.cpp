@@ -58,7 +58,7 @@ class Fit : public ::testing::Test {
   std::string scene_ = folder_.write("block.yaml", kScene);
 };
 
-TEST_F(Fit, PlacesFollowFromBoxToBoxAndToolsTheSmallerStretch) {
+TEST_F(Fit, PositionsFollowFromBoxToBoxAndToolsTheSmallerStretch) {
   const Scene scene = fitted({0.2, 0.3, 0.05}).scene;
   ASSERT_TRUE(scene.fit);
   expectNear(scene.fit->stretch, {2, 3, 0.5});
@@ -67,7 +67,7 @@ TEST_F(Fit, PlacesFollowFromBoxToBoxAndToolsTheSmallerStretch) {
   expectNear(scene.bodies[0].fixed[1].min_m, {-0.1, -0.15, 0.02});
   expectNear(scene.bodies[0].fixed[1].max_m, {0, 0.15, 0.025});
   expectNear(scene.obstacles[0].position_m, {0, 0, -0.03});
-  EXPECT_NEAR(scene.fit->hand_scale, 0.5, kRounding);  // of x and z: the camera looks along y
+  EXPECT_NEAR(scene.fit->tool_scale, 0.5, kRounding);  // of x and z: the camera looks along y
   EXPECT_NEAR(scene.styluses[0].clip.jaw_length_m, 0.5 * 0.012, kRounding);
   EXPECT_NEAR(scene.styluses[1].cut.blade_length_m, 0.015, kRounding);
   EXPECT_NEAR(scene.bodies[0].spacing_m, 0.01 * std::cbrt(3.0), kRounding);

@@ -55,13 +55,13 @@ std::string obj(const std::string& coordinates = "vt 0 0\nvt 1 0\nvt 0 1\nvt 1 1
          "o part\nusemtl m\nf 1/1 3/3 2/2\nf 1/1 2/2 4/4\nf 2/2 3/3 4/4\nf 3/3 1/1 4/4\n";
 }
 
-TriangleMesh import(const TemporaryFolder& folder, ImportReport& report, bool with_look = true) {
-  return importMesh(folder.file("a.obj"), 1, &report, {}, with_look);
+TriangleMesh import(const TemporaryFolder& folder, ImportReport& report, bool with_appearance = true) {
+  return importMesh(folder.file("a.obj"), 1, &report, {}, with_appearance);
 }
 
 std::string joined(const ImportReport& report) {
   std::string out;
-  for (const std::string& note : report.look_notes) out += note + "\n";
+  for (const std::string& note : report.appearance_notes) out += note + "\n";
   return out;
 }
 
@@ -161,7 +161,7 @@ TEST(MeshAppearance, BadPicturesAreNotedByNameAndLeftOut) {
     ImportReport report;
     const TriangleMesh mesh = import(folder, report);
     const std::string notes = joined(report);
-    EXPECT_EQ(report.look_notes.size(), 1u) << notes;
+    EXPECT_EQ(report.appearance_notes.size(), 1u) << notes;
     for (const std::string& part :
          {std::string("a.obj"), std::string("baseColorTexture of material 'm'"), std::string(of.name), of.note})
       EXPECT_NE(notes.find(part), std::string::npos) << part << " in " << notes;
@@ -228,7 +228,7 @@ TEST(MeshAppearance, SpoiltPictureWithinAGlbIsNotedAndLeftOut) {
     ImportReport report;
     const TriangleMesh mesh = importMesh(folder.file("a.glb"), 1, &report, {}, true);
     EXPECT_EQ(mesh.triangles.size(), 4u);
-    ASSERT_EQ(report.look_notes.size(), 1u) << joined(report);
+    ASSERT_EQ(report.appearance_notes.size(), 1u) << joined(report);
     for (const char* const part : {"a.glb", "baseColorTexture"})
       EXPECT_NE(joined(report).find(part), std::string::npos) << joined(report);
     EXPECT_TRUE(!mesh.detail || mesh.detail->images.empty());

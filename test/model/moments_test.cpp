@@ -269,7 +269,7 @@ TEST(Moments, ABoxAsABodyKeepsItsSize) {
   EXPECT_LT((inertiaOf(solid).middle_m - config.position_m).norm(), 1e-3 * config.spacing_m);
 }
 
-TEST(Moments, EverySourceHasItsVolumeAtAnySpacingAndPlace) {
+TEST(Moments, EverySourceHasItsVolumeAtAnySpacingAndPosition) {
   BodyConfig config = phantomConfig(0.002);
   const double heart_m3 = filled(config).volumeM3();
   for (const double h : {0.006, 0.004, 0.003}) {

@@ -48,8 +48,8 @@ void closeDefect(const Phantom& phantom, Solid& solid) {
 double wallThickness(const Phantom& phantom, Chamber chamber, const Vector3d& direction) {
   constexpr double kStep = 1e-4;
   double tissue = 0;
-  for (double way = 0; way < kLength; way += kStep) {
-    const Vector3d p = phantom.chamber_centers_m.at(chamber) + way * direction.normalized();
+  for (double distance = 0; distance < kLength; distance += kStep) {
+    const Vector3d p = phantom.chamber_centers_m.at(chamber) + distance * direction.normalized();
     if (phantom.field(p).distance_m < 0) tissue += kStep;
   }
   return tissue;

@@ -68,7 +68,7 @@ TEST(SceneOverride, UnknownKeyIsRefusedAsAnOverride) {
   EXPECT_TRUE(says(refusal("bodies[0].stuff.young_modulus_pa=1"), {"override", "unknown key 'bodies[0].stuff'"}));
 }
 
-TEST(SceneOverride, PlaceThatTheSceneDoesNotHaveIsRefused) {
+TEST(SceneOverride, PositionThatTheSceneDoesNotHaveIsRefused) {
   EXPECT_TRUE(says(refusal("bodies[2].spacing_m=1"), {"override", "no bodies[2]"}));
   EXPECT_TRUE(says(refusal("cameras[0].rate_hz=1"), {"override", "no cameras[0]"}));
   EXPECT_TRUE(says(refusal("name[0]=1"), {"override", "no name[0]"}));

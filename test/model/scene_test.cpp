@@ -186,7 +186,7 @@ TEST(Scene, CameraWithoutALineOfSightIsRefusedByName) {
   }
 }
 
-TEST(Scene, ALensThatShowsOnePlaceTwiceIsRefusedByName) {
+TEST(Scene, ALensThatShowsOnePositionTwiceIsRefusedByName) {
   const std::string eye = "bodies: [{}]\ncameras: [{name: eye, vertical_fov_deg: 90, distortion: {";
   EXPECT_TRUE(
       says(sceneRefusal(eye + "k1: -0.4}}]\n"), {"s.yaml", "camera 'eye'", "'distortion'", "2.5 times", "row 0"}));

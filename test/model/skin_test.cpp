@@ -131,7 +131,7 @@ TEST(SkinBinding, TrianglesLookOutOfTheBody) {
   }
 }
 
-TEST(SkinBinding, ReferencePointIsTheNearestPlaceOnTheBoundary) {
+TEST(SkinBinding, ReferencePointIsTheNearestPositionOnTheBoundary) {
   const BoundSkin bound = ball();
   constexpr double kFloatRounding_m = 1e-8;  // coordinates up to 0.1 m
   for (size_t v = 0; v < bound.skin.bindings.size(); ++v) {
@@ -140,7 +140,7 @@ TEST(SkinBinding, ReferencePointIsTheNearestPlaceOnTheBoundary) {
   }
 }
 
-TEST(SkinBinding, AnchorIsTheNearestPlaceInAnySolidFromAnywhere) {
+TEST(SkinBinding, AnchorIsTheNearestPositionInAnySolidFromAnywhere) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform;
   const Solid solid =
@@ -152,9 +152,9 @@ TEST(SkinBinding, AnchorIsTheNearestPlaceInAnySolidFromAnywhere) {
                                .cwiseProduct(Vector3d(0.09, 0.08, 0.07));
     const Anchor anchor = finder.find(point, Vector3d::Zero());
     const Vector3d weights(1 - anchor.weight1 - anchor.weight2, anchor.weight1, anchor.weight2);
-    Vector3d place = Vector3d::Zero();
-    for (int n = 0; n < 3; ++n) place += weights[n] * kSkinSpacing_m * anchor.nodes[n].cast<double>();
-    EXPECT_NEAR((place - point).norm(), distanceToBoundary(solid, point), kDoubleRounding_m);
+    Vector3d position = Vector3d::Zero();
+    for (int n = 0; n < 3; ++n) position += weights[n] * kSkinSpacing_m * anchor.nodes[n].cast<double>();
+    EXPECT_NEAR((position - point).norm(), distanceToBoundary(solid, point), kDoubleRounding_m);
     EXPECT_GE(weights.minCoeff(), -kDoubleRounding_m);
   }
 }

@@ -25,12 +25,12 @@ bool isInPicture(const CameraConfig& camera, const Vector3f& point_m) {
 
 TEST(Frustum, NeverMissesABoxWithAPointInThePicture) {
   std::mt19937 random(5);
-  std::uniform_real_distribution<float> place(-0.3F, 0.3F), size(0, 0.1F);
+  std::uniform_real_distribution<float> position(-0.3F, 0.3F), size(0, 0.1F);
   const CameraConfig camera = cameraAt({0.1, -0.3, 0.1}, {0, 0.02, 0});
   const Frustum frustum(camera);
   int in_picture = 0, missed = 0;
   for (int i = 0; i < 20000; ++i) {
-    const Vector3f corner(place(random), place(random), place(random));
+    const Vector3f corner(position(random), position(random), position(random));
     const Eigen::AlignedBox3f box(corner, corner + Vector3f(size(random), size(random), size(random)));
     const bool seen = isInPicture(camera, box.sample());
     in_picture += seen;

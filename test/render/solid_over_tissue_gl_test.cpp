@@ -26,8 +26,8 @@ class SolidOverTissueGl : public Drawing {
     obstacles_ = {ball};
   }
   /// @param place  (renderer) adds sutures and obstacles
-  template <class Place>
-  Image drawn(int supersampling, bool with_wall, const ToolMotions& motions, Place place) {
+  template <class Position>
+  Image drawn(int supersampling, bool with_wall, const ToolMotions& motions, Position position) {
     camera_.supersampling = supersampling;
     const GpuMesh wall = squareMesh(0.3f, {0, -1, 0});
     const gpu::Buffer<layout::vec4> rests(
@@ -35,16 +35,16 @@ class SolidOverTissueGl : public Drawing {
     MeshView view = wall.view();
     view.rests = rests.id();
     Renderer renderer({camera_}, styluses_, obstacles_, &model_);
-    place(renderer);
+    position(renderer);
     return draw(renderer, with_wall ? view : MeshView(), motions);
   }
 
   /// Compares the pixels that solid objects cover completely: those which do not depend on the wall behind.
-  template <class Place>
-  void expectNothingShinesThrough(const ToolMotions& motions, Place place) {
+  template <class Position>
+  void expectNothingShinesThrough(const ToolMotions& motions, Position position) {
     constexpr int kFewest = 100;  // pixels
-    const Image clean = drawn(2, true, motions, place), alone = drawn(2, false, motions, place);
-    const Image quick = drawn(0, true, motions, place);
+    const Image clean = drawn(2, true, motions, position), alone = drawn(2, false, motions, position);
+    const Image quick = drawn(0, true, motions, position);
     int covered = 0, worst = 0;
     for (size_t pixel = 0; pixel < clean.rgb.size(); pixel += 3) {
       if (furthest(clean, alone, pixel) > kHiddenLevels) continue;
@@ -82,14 +82,14 @@ TEST_F(SolidOverTissueGl, ToolsOfEveryModeHideTheTissueBehindThem) {
 
 TEST_F(SolidOverTissueGl, SuturesNeedlesClipsAndObstaclesHideTheTissueBehindThem) {
   VisibleTubes shown;
-  std::vector<TubeStyle> looks;
+  std::vector<TubeStyle> styles;
   for (const TubeKind part : {TubeKind::kSuture, TubeKind::kNeedle, TubeKind::kClip}) {
-    const double z_m = 0.02 * static_cast<double>(looks.size()) - 0.03;
-    looks.push_back({0.003, {40, 60, 200, 255}, 3, 0, part});
+    const double z_m = 0.02 * static_cast<double>(styles.size()) - 0.03;
+    styles.push_back({0.003, {40, 60, 200, 255}, 3, 0, part});
     shown.push_back({0, part, {{-0.05, -0.05, z_m}, {0, -0.09, z_m + 0.01}, {0.05, -0.05, z_m}}});
   }
   expectNothingShinesThrough({}, [&](Renderer& renderer) {
-    renderer.addTubes(looks);
+    renderer.addTubes(styles);
     renderer.placeTubes(shown);
     renderer.placeObstacles({Pose{Vector3d(0, -0.06, 0.04), Quaterniond::Identity()}});
   });

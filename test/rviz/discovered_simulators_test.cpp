@@ -13,7 +13,7 @@ namespace {
 
 using std::chrono::seconds;
 
-void tell(DiscoveredSimulators& told, DiscoveredSimulators::Time now, const std::string& name,
+void tell(DiscoveredSimulators& found, DiscoveredSimulators::Time now, const std::string& name,
           const std::string& message, int level, const std::vector<std::pair<std::string, std::string>>& values) {
   diagnostic_msgs::DiagnosticArray array;
   array.status.resize(1);
@@ -25,21 +25,21 @@ void tell(DiscoveredSimulators& told, DiscoveredSimulators::Time now, const std:
     array.status[0].values.back().key = key;
     array.status[0].values.back().value = value;
   }
-  told.take(array, now);
+  found.take(array, now);
 }
 
 TEST(DiscoveredSimulators, PartsOfANodeAreOneSimulator) {
-  DiscoveredSimulators told;
+  DiscoveredSimulators found;
   const DiscoveredSimulators::Time now{};
-  tell(told, now, "left/simulator: simulation", "paused", 0,
+  tell(found, now, "left/simulator: simulation", "paused", 0,
        {{"scene", "heart"}, {"tick", "7"}, {"paused", "True"}, {"recording", "/tmp/a.viscera"}});
-  tell(told, now, "left/simulator: pace", "slower than real time", 1, {{"real_time_factor", "0.5"}});
-  tell(told, now, "left/simulator: probe", "tracked", 0,
+  tell(found, now, "left/simulator: pace", "slower than real time", 1, {{"real_time_factor", "0.5"}});
+  tell(found, now, "left/simulator: probe", "tracked", 0,
        {{"poses_accepted", "1"}, {"idle", "probe"}, {"button1", "grab"}, {"button2", "cut"}, {"force_n", "1.5"}});
-  tell(told, now, "camera_driver: lens", "dirty", 1, {});
-  tell(told, now, "no colon", "", 2, {});
-  ASSERT_EQ(told.at(now).size(), 1U);
-  const DiscoveredSimulator simulator = told.at(now)[0];
+  tell(found, now, "camera_driver: lens", "dirty", 1, {});
+  tell(found, now, "no colon", "", 2, {});
+  ASSERT_EQ(found.at(now).size(), 1U);
+  const DiscoveredSimulator simulator = found.at(now)[0];
   EXPECT_EQ(simulator.node, "/left/simulator");
   EXPECT_EQ(simulator.space(), "/left/");
   EXPECT_EQ(simulator.scene, "heart");
@@ -54,14 +54,14 @@ TEST(DiscoveredSimulators, PartsOfANodeAreOneSimulator) {
 }
 
 TEST(DiscoveredSimulators, WhoIsSilentIsGone) {
-  DiscoveredSimulators told;
+  DiscoveredSimulators found;
   const DiscoveredSimulators::Time now{};
-  tell(told, now, "a: simulation", "running", 0, {});
-  tell(told, now, "a: old stylus", "tracked", 0, {{"poses_accepted", "1"}});
-  tell(told, now + seconds(2), "a: simulation", "running", 0, {});
-  EXPECT_EQ(told.at(now + seconds(4)).size(), 1U);
-  EXPECT_TRUE(told.at(now + seconds(4))[0].styluses.empty());
-  EXPECT_TRUE(told.at(now + seconds(6)).empty());
+  tell(found, now, "a: simulation", "running", 0, {});
+  tell(found, now, "a: old stylus", "tracked", 0, {{"poses_accepted", "1"}});
+  tell(found, now + seconds(2), "a: simulation", "running", 0, {});
+  EXPECT_EQ(found.at(now + seconds(4)).size(), 1U);
+  EXPECT_TRUE(found.at(now + seconds(4))[0].styluses.empty());
+  EXPECT_TRUE(found.at(now + seconds(6)).empty());
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ TEST(PanelStyle, WheelOverAClosedBoxScrollsPast) {
   EXPECT_EQ(chosen, 0);
 }
 
-TEST(PanelStyle, WheelOverAHandTableCallsNoService) {
+TEST(PanelStyle, WheelOverAToolTableCallsNoService) {
   application();
   int chosen = 0;
   ToolTable table([&](const std::string&, const std::string&, const std::string&) { ++chosen; });

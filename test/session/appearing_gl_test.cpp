@@ -78,7 +78,7 @@ TEST_P(AppearingAbove, InTheAirWithinACellOfTheSkinPushesAtOnce) {
   EXPECT_GT(session.drain().reactions[0].force_n.z(), kForceN);
 }
 
-TEST_P(Appearing, ForgottenHandsLetGoAndAppearAgain) {
+TEST_P(Appearing, ClearedToolsLetGoAndAppearAgain) {
   const auto pull = [](int tick) { return leftAt({0, 0, kHalfM + 0.0005 * tick}, true); };
   ASSERT_GT(play(session_, pull, kHeldTicks).stats.grabbed[0], 0u);
   session_.resetInput();

@@ -100,13 +100,13 @@ TEST_P(Bleeding, OutOfAStumpIsWhatTheKeySaysAndAllOfItIsSomewhere) {
 /// The surfaces sent to rviz and exported are coloured as images are.
 TEST_P(Bleeding, SurfacesHaveTheColourOfBlood) {
   Session session(vessel(), context_);
-  FrameRequest wants;
-  wants.surface = true;
+  FrameRequest outputs;
+  outputs.surface = true;
   rest(session, 3);
-  EXPECT_TRUE(session.show(wants).surface->colors.empty());
+  EXPECT_TRUE(session.show(outputs).surface->colors.empty());
   cutAt(session, 0.0051);
   rest(session, 30);
-  const Pictures seen = session.show(wants);
+  const Pictures seen = session.show(outputs);
   ASSERT_EQ(seen.surface->colors.size(), seen.surface->vertices());
   std::set<uint32_t> beside_the_cut, at_the_far_end;
   for (size_t v = 0; v < seen.surface->vertices(); ++v) {
@@ -169,28 +169,28 @@ TEST_P(Bleeding, StopsWhereTheStumpIsBurnt) {
 }
 
 TEST_P(Bleeding, PushesNothingAndIsSeen) {
-  struct Looks {
+  struct Appearance {
     uint64_t tissue = 0;
     std::vector<uint8_t> whole, cut, clean;
-  } looks[2];
-  for (Looks& of : looks) {
+  } variants[2];
+  for (Appearance& of : variants) {
     Scene scene = vessel();
-    if (&of == looks) scene.bodies[0].material.bleeding = {};
+    if (&of == variants) scene.bodies[0].material.bleeding = {};
     Session session(scene, context_);
-    EXPECT_EQ(findProcess<viscera::Bleeding>(session.solver()) == nullptr, &of == looks);
+    EXPECT_EQ(findProcess<viscera::Bleeding>(session.solver()) == nullptr, &of == variants);
     of.whole = picture(session).rgb;
     cutAt(session, 0.0051);
     rest(session, 30);
-    EXPECT_EQ(seenBlood(session).bled_ml == 0, &of == looks);
+    EXPECT_EQ(seenBlood(session).bled_ml == 0, &of == variants);
     of.cut = picture(session).rgb;
     of.tissue = stateHash(session.model(), session.solver().readState());
     session.reset();
     of.clean = picture(session).rgb;
   }
-  EXPECT_EQ(looks[0].tissue, looks[1].tissue);
-  EXPECT_EQ(looks[0].whole, looks[1].whole);
-  EXPECT_NE(looks[0].cut, looks[1].cut);
-  EXPECT_EQ(looks[0].clean, looks[1].clean);
+  EXPECT_EQ(variants[0].tissue, variants[1].tissue);
+  EXPECT_EQ(variants[0].whole, variants[1].whole);
+  EXPECT_NE(variants[0].cut, variants[1].cut);
+  EXPECT_EQ(variants[0].clean, variants[1].clean);
 }
 
 TEST_P(Bleeding, GoesOnFromASavedStateToTheBit) {

@@ -74,18 +74,18 @@ inline StylusSamples cut(int tick) {
 }
 
 /// Plays a stroke. @returns the last frame of the session
-inline Frame play(Session& session, const StrokesByTick& strokes, int ticks, const FrameRequest& wants = {}) {
+inline Frame play(Session& session, const StrokesByTick& strokes, int ticks, const FrameRequest& outputs = {}) {
   Frame last;
-  for (int t = 1; t <= ticks; ++t) last = session.step(strokes(t), wants);
+  for (int t = 1; t <= ticks; ++t) last = session.step(strokes(t), outputs);
   return last;
 }
 
 /// Returns the surface mesh after one more tick.
 inline SurfaceFrame surfaceAfter(Session& session, const StylusSamples& samples) {
   session.drain();
-  FrameRequest wants;
-  wants.surface = true;
-  Frame frame = session.step(samples, wants);
+  FrameRequest outputs;
+  outputs.surface = true;
+  Frame frame = session.step(samples, outputs);
   if (!frame.surface) frame = session.drain();
   return frame.surface ? *frame.surface : SurfaceFrame{};
 }

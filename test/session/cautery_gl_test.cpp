@@ -20,8 +20,8 @@ constexpr double kTip_m = 0.004;          // radius of the hot tip, and of the p
 constexpr double kCauteryBalance = 1e-9;  // of all heat, sums of float64
 constexpr double kTime = 1e-6;            // of the heat of a number of ticks
 constexpr double kAlike = 0.02;  // of heat and of forces, one backend against the other: positions differ by float32
-constexpr double kFelt = 1.2;    // factor over the fresh force at which a burn is felt
-constexpr int kHeats = 20;       // ticks until tissue is warm
+constexpr double kStiffening = 1.2;   // factor over the fresh force at which a burn is felt
+constexpr int kHeats = 20;            // ticks until tissue is warm
 constexpr double kShrunk_m = 1.5e-4;  // least displacement of a free corner of coagulated tissue
 
 class Cautery : public OnSceneBackend {
@@ -71,9 +71,9 @@ class Cautery : public OnSceneBackend {
   }
   /// Returns the height of the surface in the middle.
   static double top_m(Session& session) {
-    FrameRequest wants;
-    wants.surface = true;
-    const Pictures pictures = session.show(wants);
+    FrameRequest outputs;
+    outputs.surface = true;
+    const Pictures pictures = session.show(outputs);
     double out = -1;
     for (size_t v = 0; v < pictures.surface->vertices(); ++v) {
       const Vector3f at = pictures.surface->position_m(v);
@@ -117,7 +117,7 @@ TEST_P(Cautery, CoagulatedTissueIsStifferToAProbeAndDrawnIn) {
   const double dent_m = top_m(session);
   EXPECT_LT(dent_m, 0.006 - kShrunk_m);
   const double burnt_n = pressed_n(session, dent_m);
-  EXPECT_GT(burnt_n, kFelt * fresh_n);
+  EXPECT_GT(burnt_n, kStiffening * fresh_n);
 }
 
 TEST_P(Cautery, WhatBoilsDryPartsAndLooksBurnt) {
@@ -136,15 +136,15 @@ TEST_P(Cautery, WhatBoilsDryPartsAndLooksBurnt) {
 
 TEST_P(Cautery, SurfacesHaveTheColoursOfBurnsAndOfStrainWhereThereAreSome) {
   Session session(burning(24), context_);
-  FrameRequest wants;
-  wants.surface = true;
+  FrameRequest outputs;
+  outputs.surface = true;
   session.step({}, {});
-  const Pictures plain = session.show(wants);
+  const Pictures plain = session.show(outputs);
   EXPECT_TRUE(plain.surface->colors.empty());
   EXPECT_TRUE(plain.surface->strain_colors.empty());
   burn(session, 45);
-  wants.strain = true;
-  const Pictures seen = session.show(wants);
+  outputs.strain = true;
+  const Pictures seen = session.show(outputs);
   const SurfaceFrame& surface = *seen.surface;
   ASSERT_EQ(surface.colors.size(), surface.vertices());
   ASSERT_EQ(surface.strain_colors.size(), surface.vertices());

@@ -15,8 +15,8 @@ TickContact pressedContact(Session& session) {
   constexpr double kAbove_m = test::kHalfM + test::kProbeRadiusM + 0.002, kDeep_m = 0.005;
   Frame frame;
   for (int tick = 0; tick < 40; ++tick) {
-    const double way = std::min(tick / 20.0, 1.0);
-    frame = session.step(leftAt({0, 0, kAbove_m - way * kDeep_m}), {});
+    const double offset = std::min(tick / 20.0, 1.0);
+    frame = session.step(leftAt({0, 0, kAbove_m - offset * kDeep_m}), {});
   }
   return frame.contacts[0];
 }
@@ -35,7 +35,7 @@ TEST(Contacts, GoOnFromTickToTick) {
 }
 
 /// The previous surface is no surface now: its plane must not be felt.
-TEST(Contacts, BeginAgainWithAResetAnotherHandAndAnotherMode) {
+TEST(Contacts, BeginAgainWithAResetAnotherToolAndAnotherMode) {
   Session session(scene());
   pressedContact(session);
   session.reset();

@@ -28,21 +28,21 @@ void PrintTo(const Lesson& lesson, std::ostream* out) {
 }
 
 /// All outputs of a step that do not depend on the clock, compared to the bit.
-struct Told {
+struct Report {
   uint64_t hash = 0, trips = 0, springs_cut = 0;
   std::vector<double> numbers;
-  bool operator==(const Told& other) const {
+  bool operator==(const Report& other) const {
     return hash == other.hash && trips == other.trips && springs_cut == other.springs_cut && numbers == other.numbers;
   }
 };
 
-void PrintTo(const Told& told, std::ostream* out) {
-  *out << "hash " << told.hash << ", trips " << told.trips << ", cut " << told.springs_cut << ", numbers";
-  for (const double number : told.numbers) *out << ' ' << number;
+void PrintTo(const Report& report, std::ostream* out) {
+  *out << "hash " << report.hash << ", trips " << report.trips << ", cut " << report.springs_cut << ", numbers";
+  for (const double number : report.numbers) *out << ' ' << number;
 }
 
-Told toldBy(const Session& session, const Frame& frame) {
-  Told out{session.stateHash(), frame.health.trips, frame.stats.springs_cut, {}};
+Report reportedBy(const Session& session, const Frame& frame) {
+  Report out{session.stateHash(), frame.health.trips, frame.stats.springs_cut, {}};
   const auto add = [&](const Vector3d& v) { out.numbers.insert(out.numbers.end(), v.data(), v.data() + v.size()); };
   for (size_t s = 0; s < layout::kMaxStyluses; ++s) {
     const TickContact& contact = frame.contacts[s];
@@ -82,33 +82,33 @@ class EveryTick : public ::testing::TestWithParam<Lesson> {
   void expectSame(double from_s, double to_s) {
     struct Save {
       Archive archive;
-      std::vector<Told> told;  ///< immediately, and after each of the next ticks
+      std::vector<Report> report;  ///< immediately, and after each of the next ticks
     };
     Session unbroken(scene_), resumed(scene_);
     std::deque<Save> saves;
     for (uint64_t t = 1; static_cast<double>(t) * unbroken.tick_s() < to_s && !HasFailure(); ++t) {
       const Frame frame = step(unbroken);
       if (static_cast<double>(t) * unbroken.tick_s() < from_s) continue;
-      const Told told = toldBy(unbroken, frame);
-      for (Save& save : saves) save.told.push_back(told);
+      const Report report = reportedBy(unbroken, frame);
+      for (Save& save : saves) save.report.push_back(report);
       if (saves.size() > kGoesOn) {
-        resume(resumed, saves.front().archive, saves.front().told);
+        resume(resumed, saves.front().archive, saves.front().report);
         saves.pop_front();
       }
       saves.emplace_back();
       unbroken.save(saves.back().archive);
-      saves.back().told.push_back(toldBy(unbroken, unbroken.drain()));
+      saves.back().report.push_back(reportedBy(unbroken, unbroken.drain()));
     }
   }
 
  private:
-  void resume(Session& resumed, const Archive& saved, const std::vector<Told>& told) const {
+  void resume(Session& resumed, const Archive& saved, const std::vector<Report>& report) const {
     Archive read(saved.sections());
     resumed.restore(read, "a test");
     const uint64_t tick = resumed.tick();
-    for (const Told& unbroken : told) {
-      const Frame frame = &unbroken == &told.front() ? resumed.drain() : step(resumed);
-      EXPECT_EQ(toldBy(resumed, frame), unbroken) << "tick " << resumed.tick() << ", saved after " << tick;
+    for (const Report& unbroken : report) {
+      const Frame frame = &unbroken == &report.front() ? resumed.drain() : step(resumed);
+      EXPECT_EQ(reportedBy(resumed, frame), unbroken) << "tick " << resumed.tick() << ", saved after " << tick;
     }
   }
 };

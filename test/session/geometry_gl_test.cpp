@@ -35,7 +35,7 @@ class Geometry : public OnSceneBackend {
     return scene;
   }
   /// Returns the position shown by a pixel, tissue frame.
-  static Vector3d placeOf(const CameraConfig& camera, const ImageFrame& depths, size_t pixel) {
+  static Vector3d positionOf(const CameraConfig& camera, const ImageFrame& depths, size_t pixel) {
     const auto width = static_cast<size_t>(depths.width);
     const Eigen::Vector2d at(static_cast<double>(pixel % width) + 0.5, static_cast<double>(pixel / width) + 0.5);
     return opticalPose(camera) * (depths.depths_m[pixel] * lineOfSight(camera, at));
@@ -66,7 +66,7 @@ TEST_P(Geometry, PixelsLieOnTheSurfaceWhereCameraInfoPutsThem) {
     if (labels.labels[i] == 0) continue;
     ASSERT_EQ(labels.labels[i], layout::kFirstBodyLabel);
     ++on_block;
-    ASSERT_NEAR(placeOf(oblique.cameras[0], depths, i).cwiseAbs().maxCoeff(), kHalfM, kSnappedM) << i;
+    ASSERT_NEAR(positionOf(oblique.cameras[0], depths, i).cwiseAbs().maxCoeff(), kHalfM, kSnappedM) << i;
   }
   EXPECT_GT(on_block, 500U);
 }
@@ -85,11 +85,11 @@ TEST_P(Geometry, ThroughALensPixelsLieOnTheSurfaceToo) {
   for (size_t i = 0; i < labels.labels.size(); ++i) {
     ASSERT_EQ(labels.labels[i] == 0, std::isinf(depths.depths_m[i]));
     if (labels.labels[i] == 0) continue;
-    Vector3d place = placeOf(bent.cameras[0], depths, i).cwiseAbs();
-    std::sort(place.begin(), place.end());
-    const bool beside_edge = place[1] > kHalfM - kBeside_m;
+    Vector3d position = positionOf(bent.cameras[0], depths, i).cwiseAbs();
+    std::sort(position.begin(), position.end());
+    const bool beside_edge = position[1] > kHalfM - kBeside_m;
     within += beside_edge ? 0 : 1;
-    ASSERT_NEAR(place[2], kHalfM, beside_edge ? kAtEdges_m : kSnappedM) << i;
+    ASSERT_NEAR(position[2], kHalfM, beside_edge ? kAtEdges_m : kSnappedM) << i;
   }
   EXPECT_GT(within, 500U);
 }
@@ -117,7 +117,7 @@ TEST_P(Geometry, LabelsTellBodiesWallsToolsAndObstaclesApart) {
   EXPECT_TRUE(seen.count(0) && seen.count(body) && seen.count(tool) && seen.count(obstacle));
   for (size_t i = 0; i < labels.labels.size(); ++i) {
     if (labels.labels[i] != obstacle) continue;
-    ASSERT_NEAR((placeOf(with_ball.cameras[0], depths, i) - ball.position_m).norm(), ball.radius_m, kFlatM);
+    ASSERT_NEAR((positionOf(with_ball.cameras[0], depths, i) - ball.position_m).norm(), ball.radius_m, kFlatM);
   }
 }
 
@@ -147,7 +147,7 @@ TEST_P(Geometry, DepthsOfRoundObstaclesAreThoseOfTheShapeUpToItsRim) {
     const int obstacle = labels.labels[i] - static_cast<int>(layout::kFirstObstacleLabel);
     if (obstacle < 0) continue;
     const Vector3d at =
-        placeOf(round.cameras[0], depths, i) - round.obstacles[static_cast<size_t>(obstacle)].position_m;
+        positionOf(round.cameras[0], depths, i) - round.obstacles[static_cast<size_t>(obstacle)].position_m;
     const double along = std::clamp(at.dot(axis), -0.5 * capsule.length_m, 0.5 * capsule.length_m);
     if (obstacle == 0) {
       ++on_ball;
@@ -164,9 +164,9 @@ TEST_P(Geometry, DepthsOfRoundObstaclesAreThoseOfTheShapeUpToItsRim) {
   std::fill(unit.depths_m.begin(), unit.depths_m.end(), 1.0F);
   const Vector3d eye = round.cameras[0].position_m;
   for (size_t i = 0; i < labels.labels.size(); ++i) {
-    const Vector3d way = (placeOf(round.cameras[0], unit, i) - eye).normalized();
+    const Vector3d offset = (positionOf(round.cameras[0], unit, i) - eye).normalized();
     const Vector3d to = ball.position_m - eye;
-    wanted += (to - to.dot(way) * way).norm() < ball.radius_m;
+    wanted += (to - to.dot(offset) * offset).norm() < ball.radius_m;
   }
   EXPECT_NEAR(static_cast<double>(on_ball), static_cast<double>(wanted), kRim_px * static_cast<double>(wanted));
 }
@@ -269,13 +269,13 @@ TEST_P(Geometry, WhatAMovingCameraDoesNotSeeIsLeftOutAndNoPictureDiffers) {
     Session session(close, context_);
     std::vector<ImageFrame> out;
     for (int tick = 1; tick <= kFlightTicks; ++tick) {
-      const double way = static_cast<double>(tick) / kFlightTicks;
-      const Eigen::AngleAxisd turn(0.6 * way - 0.3, Vector3d::UnitZ());
-      session.setCameraFrame(0, {Vector3d(0.4 * way - 0.2, 0.1 * way, 0.01), Quaterniond(turn)});
-      FrameRequest wants;
-      wants.cameras = wants.depth = {true};
-      wants.every_image = true;
-      for (ImageFrame& image : session.step(press(tick), wants).images) out.push_back(std::move(image));
+      const double offset = static_cast<double>(tick) / kFlightTicks;
+      const Eigen::AngleAxisd turn(0.6 * offset - 0.3, Vector3d::UnitZ());
+      session.setCameraFrame(0, {Vector3d(0.4 * offset - 0.2, 0.1 * offset, 0.01), Quaterniond(turn)});
+      FrameRequest outputs;
+      outputs.cameras = outputs.depth = {true};
+      outputs.every_image = true;
+      for (ImageFrame& image : session.step(press(tick), outputs).images) out.push_back(std::move(image));
       for (ImageFrame& image : session.drain().images) out.push_back(std::move(image));
     }
     return out;

@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-constexpr float kPlace_m = 1e-6f;  ///< float rounding of positions of some centimetres
+constexpr float kPosition_m = 1e-6f;  ///< float rounding of positions of some centimetres
 
 Scene cpuScene() {
   Scene scene = blockScene();
@@ -52,7 +52,7 @@ TEST(Headless, StateAndSkinAreThoseOfASessionWithAContext) {
   EXPECT_EQ(on_host.topology->triangles, on_gpu.topology->triangles);
   ASSERT_EQ(on_host.vertices(), on_gpu.vertices());
   for (size_t v = 0; v < on_host.vertices(); ++v) {
-    ASSERT_LT((on_host.position_m(v) - on_gpu.position_m(v)).norm(), kPlace_m) << v;
+    ASSERT_LT((on_host.position_m(v) - on_gpu.position_m(v)).norm(), kPosition_m) << v;
   }
 }
 
@@ -61,9 +61,9 @@ TEST(Headless, WhatNeedsAContextIsRefused) {
   scene.solver.backend = Backend::kGpu;
   EXPECT_TRUE(says(messageOf<GpuError>([&] { Session session(scene); }), {"solver.backend", "OpenGL context"}));
   Session session(cpuScene());
-  FrameRequest wants;
-  wants.cameras = {true};
-  EXPECT_TRUE(says(messageOf<GpuError>([&] { session.step({}, wants); }), {"image", "OpenGL context"}));
+  FrameRequest outputs;
+  outputs.cameras = {true};
+  EXPECT_TRUE(says(messageOf<GpuError>([&] { session.step({}, outputs); }), {"image", "OpenGL context"}));
 }
 
 }  // namespace

@@ -61,12 +61,12 @@ Scene hiddenScene(bool draw_hidden, Mapping mapping = Mapping::kAuto, bool can_c
 
 /// Returns the requested images, which change from tick to tick: tissue unseen by one camera comes into view of
 /// another.
-FrameRequest wantsOf(int tick) {
-  FrameRequest wants;
-  wants.every_image = true;
-  wants.cameras = {tick % 7 == 3, tick % 2 == 0, tick % 3 == 0, tick % 5 == 0};
-  wants.surface = tick % 11 == 0;
-  return wants;
+FrameRequest outputsOf(int tick) {
+  FrameRequest outputs;
+  outputs.every_image = true;
+  outputs.cameras = {tick % 7 == 3, tick % 2 == 0, tick % 3 == 0, tick % 5 == 0};
+  outputs.surface = tick % 11 == 0;
+  return outputs;
 }
 
 struct Shown {
@@ -112,7 +112,7 @@ class Hidden : public GpuTest, public ::testing::WithParamInterface<Setting> {
     for (int tick = 1; tick <= kPressTicks + 2 * kCutTicks; ++tick) {
       const int stroke = tick - kPressTicks;
       const StylusSamples samples = stroke <= 0 ? press(tick) : can_cut ? cut(stroke) : drag(stroke);
-      add(session.step(samples, wantsOf(tick)), out);
+      add(session.step(samples, outputsOf(tick)), out);
       add(session.drain(), out);
     }
     out.counters = session.counters();
@@ -169,9 +169,9 @@ class PlacedTissue : public Solver {
 class HiddenView : public GpuTest {
  protected:
   /// Returns the position of tissue that leaves every image and comes back on another path.
-  static Vector3f placeAt(int tick) {
-    const float way = 0.04F * static_cast<float>(tick % 20 < 10 ? tick % 20 : 20 - tick % 20);
-    return tick < 20 ? Vector3f(way, 0, 0) : Vector3f(0, 0, -way);
+  static Vector3f positionAt(int tick) {
+    const float offset = 0.04F * static_cast<float>(tick % 20 < 10 ? tick % 20 : 20 - tick % 20);
+    return tick < 20 ? Vector3f(offset, 0, 0) : Vector3f(0, 0, -offset);
   }
   Shown shown(bool draw_hidden, Mapping mapping) {
     const Scene scene = hiddenScene(draw_hidden, mapping, false);
@@ -180,10 +180,10 @@ class HiddenView : public GpuTest {
     Shown out;
     ThreadedView view(model, scene, context_);
     for (int tick = 1; tick <= 40; ++tick) {
-      tissue.put(placeAt(tick), tick);
+      tissue.put(positionAt(tick), tick);
       RenderRequest request;
       request.tick = static_cast<uint64_t>(tick);
-      request.wants = wantsOf(tick);
+      request.outputs = outputsOf(tick);
       Pictures pictures;
       view.capture(tissue, request, pictures);
       view.collect(pictures, true);
@@ -208,7 +208,7 @@ TEST_F(HiddenView, WhatIsNotSeenIsNotMapped) {
     tissue.put(Vector3f::Zero(), tick);
     RenderRequest request;
     request.tick = static_cast<uint64_t>(tick);
-    request.wants.cameras = {false, false, false, true};
+    request.outputs.cameras = {false, false, false, true};
     Pictures pictures;
     view.capture(tissue, request, pictures);
     view.collect(pictures, true);

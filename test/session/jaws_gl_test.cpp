@@ -254,7 +254,7 @@ TEST_P(GrasperSession, IsKeptOpenByWhatIsBetweenItsFingersAndFeelsIt) {
   EXPECT_EQ(frame.jaw_moments_nm[0], 0);
 }
 
-TEST_P(GrasperSession, HoldsAndLetsGoAsAHandClosesAndOpensIt) {
+TEST_P(GrasperSession, HoldsAndLetsGoAsAUserClosesAndOpensIt) {
   Scene scene = barWithGrasper();
   scene.styluses[0].idle = ToolMode::kGrasper;
   Session session(scene, context_);

@@ -40,7 +40,7 @@ strokes:
       - {t_s: 1.5, position_m: [0, 0, 0.05], rotation_deg: [180, 72, 180]}
 )";
 
-constexpr double kFelt_n = 1e-3;
+constexpr double kLeastForce_n = 1e-3;
 /// E of the scene times its spacing; and with the whole needle in tissue.
 constexpr double kSkin_n_per_m = 1e4 * 0.003, kWhole_m = 3.1416 * 0.008, kWhole_n_per_m = 1e4 * (0.003 + kWhole_m);
 constexpr double kPuncture_n = 0.05, kFriction_n_per_m = 1;  ///< of docs/sutures.md
@@ -68,7 +68,7 @@ Sewn sew(const Overrides& overrides) {
     const std::vector<Vector3d> needle = needlePositions(session, 0);
     out.most_n = std::max(out.most_n, frame.reactions[0].force_n.norm());
     const layout::vec4& given = frame.stats.impulse[0];
-    const bool pressed = Vector3d(given.x, given.y, given.z).norm() > kFelt_n * session.tick_s();
+    const bool pressed = Vector3d(given.x, given.y, given.z).norm() > kLeastForce_n * session.tick_s();
     const TickContact& contact = frame.contacts[0];
     out.unfelt += pressed && contact.kind == TickContact::Kind::kFree;
     if (contact.kind == TickContact::Kind::kPierces) {

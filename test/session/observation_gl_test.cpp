@@ -103,7 +103,7 @@ TEST_F(Observation, ForcesSurfacesAndImagesTellWhenThePoseBehindThemCame) {
     samples[0].received = received(tick);
     return samples;
   };
-  const FrameRequest wants = {true, {true}};
+  const FrameRequest outputs = {true, {true}};
   Frame frame;
   const auto check = [&] {
     for (const ImageFrame& image : frame.images) EXPECT_EQ(image.pose_received, received(static_cast<int>(image.tick)));
@@ -111,7 +111,7 @@ TEST_F(Observation, ForcesSurfacesAndImagesTellWhenThePoseBehindThemCame) {
     EXPECT_EQ(frame.surface->pose_received, received(static_cast<int>(frame.surface->tick)));
   };
   for (int t = 1; t <= 5; ++t) {
-    frame = session.step(pressStamped(t), wants);
+    frame = session.step(pressStamped(t), outputs);
     check();
     EXPECT_EQ(frame.poses_received[0], received(t));  // the stability monitor waits for every tick
     EXPECT_EQ(frame.poses_received[1], SteadyTime{});
@@ -142,9 +142,9 @@ TEST_F(Observation, ForceThatComesLateTellsWhichPoseItAnswers) {
 }
 
 TEST_F(Observation, SameInputGivesTheSameStateWhateverIsWatched) {
-  const auto hashOf = [&](const FrameRequest& wants) {
+  const auto hashOf = [&](const FrameRequest& outputs) {
     Session session(blockScene(), context_);
-    play(session, pressAndCut, kTicks, wants);
+    play(session, pressAndCut, kTicks, outputs);
     return session.stateHash();
   };
   const uint64_t unseen = hashOf({});

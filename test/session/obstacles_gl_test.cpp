@@ -34,10 +34,10 @@ Pose at(double height_m) {
 }
 
 std::vector<uint8_t> picture(Session& session) {
-  FrameRequest wants;
-  wants.cameras = {true};
-  wants.every_image = true;
-  Frame frame = session.step({}, wants);
+  FrameRequest outputs;
+  outputs.cameras = {true};
+  outputs.every_image = true;
+  Frame frame = session.step({}, outputs);
   if (frame.images.empty()) frame = session.drain();
   return frame.images.empty() ? std::vector<uint8_t>{} : frame.images.back().rgb;
 }

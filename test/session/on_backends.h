@@ -19,9 +19,9 @@ class OnSceneBackend : public GpuTest, public ::testing::WithParamInterface<Back
   }
   /// Returns what a session's first camera sees now.
   static ImageFrame picture(Session& session, PictureKind kind = PictureKind::kColor) {
-    FrameRequest wants;
-    wants.of(kind) = {true};
-    Pictures pictures = session.show(wants);
+    FrameRequest outputs;
+    outputs.of(kind) = {true};
+    Pictures pictures = session.show(outputs);
     EXPECT_EQ(pictures.images.size(), 1U);
     return pictures.images.empty() ? ImageFrame{} : std::move(pictures.images.back());
   }

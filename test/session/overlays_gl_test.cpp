@@ -74,11 +74,11 @@ TEST_P(OverlayPictures, StrainIsBlueAtRestAndYellowWhereTheProbePresses) {
 TEST_P(OverlayPictures, TissueStepsAsWithoutThem) {
   Scene plain = scene(), over = scene();
   over.cameras[0].overlays = overlaysOf({"lattice", "springs", "normals", "strain", "forces"});
-  FrameRequest wants;
-  wants.cameras = {true};
+  FrameRequest outputs;
+  outputs.cameras = {true};
   const auto hashOf = [&](const Scene& scene) {
     Session session(scene, context_);
-    play(session, press, kPressTicks, wants);
+    play(session, press, kPressTicks, outputs);
     return session.stateHash();
   };
   EXPECT_EQ(hashOf(plain), hashOf(over));

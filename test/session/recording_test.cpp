@@ -40,7 +40,7 @@ Scene recordedScene() {
 }
 
 /// Returns a cut, and a pull with the other stylus, with jaws that close and open.
-StylusSamples handsAt(int tick) {
+StylusSamples samplesAt(int tick) {
   StylusSamples samples = cut(tick % kCutTicks + 1);
   if (tick > 2) samples[1] = {true, {{0.012, 0.006, kHalfM + 0.0004 * (tick % 20)}, Quaterniond::Identity()}, true};
   samples[1].jaw_rad = 0.7F - 0.03F * static_cast<float>(tick % 20);
@@ -55,17 +55,17 @@ uint64_t live(const std::string& file, const std::string& state) {
   recorder.follow(session);
   for (int t = 1; t <= 20; ++t) {
     session.setObstacleFrame(0, {{0, 0, kHalfM + 0.02 - 0.0005 * t}, Quaterniond::Identity()});
-    session.step(handsAt(t), {});
+    session.step(samplesAt(t), {});
   }
   session.save(state);
   session.resetInput();
   session.setToolMode(0, ToolSwitch::kButton2, ToolMode::kProbe);
-  for (int t = 1; t <= 10; ++t) session.step(handsAt(t), {});
+  for (int t = 1; t <= 10; ++t) session.step(samplesAt(t), {});
   session.reset();
   session.setForceLimits(1, {1, 1, 1, 1});
-  for (int t = 1; t <= 10; ++t) session.step(handsAt(t), {});
+  for (int t = 1; t <= 10; ++t) session.step(samplesAt(t), {});
   session.restore(state);
-  for (int t = 1; t <= 15; ++t) session.step(handsAt(t), {});
+  for (int t = 1; t <= 15; ++t) session.step(samplesAt(t), {});
   recorder.leave();
   Session other(blockScene());
   recorder.follow(other);
@@ -87,7 +87,7 @@ Replayed again(const std::string& file, double from_s = 0, double until_s = 1e9,
   SessionReplay::Ports ports;
   ports.make = [&](const Scene& scene, size_t) -> Session& { return *(session = std::make_unique<Session>(scene)); };
   ports.leaps = [&](Session&) { ++out.leaps; };
-  ports.wants = [](const Session&) { return FrameRequest{}; };
+  ports.outputs = [](const Session&) { return FrameRequest{}; };
   ports.stepped = [&](Session&, Frame&&, double) { ++out.looked; };
   out.outcome = replay.run(from_s, until_s, overrides, ports);
   out.hash = session->stateHash();
@@ -133,7 +133,7 @@ TEST_F(RecordingTest, SaysWhereStatesBeginToDiffer) {
       if (t == 12) session.removeLog(recorder);
       if (t == 12) session.setToolMode(1, ToolSwitch::kButton1, ToolMode::kGrab);  // the recorder does not know of it
       if (t == 12) session.addLog(recorder);
-      session.step(handsAt(t), {});
+      session.step(samplesAt(t), {});
     }
     recorder.leave();
   }

@@ -72,13 +72,13 @@ StylusSamples cutAndTrip(int tick) {
 }
 
 /// Returns a stroke that holds with one stylus, presses and cuts with the other.
-StylusSamples bothHands(int tick) {
+StylusSamples bothTools(int tick) {
   StylusSamples samples = swing(tick);
   samples[1] = cutAndClose(tick)[0];
   return samples;
 }
 
-StylusSamples noHands(int /*tick*/) {
+StylusSamples noTools(int /*tick*/) {
   return {};
 }
 
@@ -190,7 +190,7 @@ std::vector<Disturbance> toolDisturbances() {
          return leftAt({0, 0, kHalfM - 0.0001 * t}, true);
        },
        25, holds},
-      {"both_hands", blockScene, bothHands, 30, holds},
+      {"both_hands", blockScene, bothTools, 30, holds},
       {"trip", blockScene, swingToNoPlace, 14, tripped},
       {"trip_and_recovery", blockScene, swingToNoPlace, 40, tripped},
       {"compensated", compensated, cutAndClose, 30, wasCut},
@@ -210,8 +210,8 @@ std::vector<Disturbance> integratorDisturbances() {
   return {
       {"leapfrog_nearly_incompressible", under(Integrator::kLeapfrog), cutAndClose, 30, wasCut},
       {"leapfrog_springs", blockOfSprings, cutAndClose, 30, wasCut},
-      {"pd", under(Integrator::kPd), bothHands, 30, holds},
-      {"verlet_paper", under(Integrator::kVerletPaper), bothHands, 30, holds},
+      {"pd", under(Integrator::kPd), bothTools, 30, holds},
+      {"verlet_paper", under(Integrator::kVerletPaper), bothTools, 30, holds},
       {"pd_trip", under(Integrator::kPd), swingToNoPlace, 14, tripped},
       {"verlet_paper_trip", under(Integrator::kVerletPaper), swingToNoPlace, 14, tripped},
       {"pd_contacts", meeting(Integrator::kPd), cutAndClose, 30, wasCut},
@@ -232,12 +232,12 @@ std::vector<Disturbance> surroundingDisturbances() {
   return {
       {"wound_that_touches", wound, cutAndClose, 30, wasCut},
       {"wound_and_trip", wound, cutAndTrip, 30, tripped},
-      {"bodies_that_meet", meetingBlocks, noHands, 25, moves},
+      {"bodies_that_meet", meetingBlocks, noTools, 25, moves},
       {"bodies_that_meet_and_are_cut", meetingBlocks, cutAndClose, 30, wasCut},
-      {"obstacle", withPlough, noHands, 25, moves},
+      {"obstacle", withPlough, noTools, 25, moves},
       {"obstacle_and_cut", withPlough, cut, 25, wasCut},
-      {"carried_obstacle", carried, noHands, 25, moves, carry},
-      {"cloth_in_wind", [] { return clothScene(); }, noHands, 25, moves},
+      {"carried_obstacle", carried, noTools, 25, moves, carry},
+      {"cloth_in_wind", [] { return clothScene(); }, noTools, 25, moves},
       {"cloth_is_cut", [] { return clothScene(); }, cutAndClose, 30, wasCut},
   };
 }
@@ -252,11 +252,11 @@ std::vector<Disturbance> networkDisturbances() {
     };
   };
   return {
-      {"explicit", explicitBlock, bothHands, 30, holds},
+      {"explicit", explicitBlock, bothTools, 30, holds},
       {"explicit_is_cut", explicitBlock, cutAndClose, 30, wasCut},
       {"explicit_trip", explicitBlock, swingToNoPlace, 14, tripped},
-      {"cloth_is_held", [] { return clothScene(); }, bothHands, 30, wasCut},
-      {"cloth_pd", clothUnder(Integrator::kPd), bothHands, 30, wasCut},
+      {"cloth_is_held", [] { return clothScene(); }, bothTools, 30, wasCut},
+      {"cloth_pd", clothUnder(Integrator::kPd), bothTools, 30, wasCut},
   };
 }
 

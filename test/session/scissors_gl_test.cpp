@@ -51,7 +51,7 @@ TEST_P(ScissorsSession, CutNoFartherThanTheirMouthIsWide) {
   EXPECT_GT(many, 2 * few);
 }
 
-TEST_P(ScissorsSession, CutAsFarAsAHandClosesThemAndNothingAsItOpensThem) {
+TEST_P(ScissorsSession, CutAsFarAsAUserClosesThemAndNothingAsTheyOpen) {
   Scene scene = scissorsScene();
   scene.styluses[0].idle = ToolMode::kScissors;
   Session session(scene, context_);

@@ -23,13 +23,13 @@ Scene sceneOf(int which) {
   scene.bodies[0].material.young_modulus_pa = 10000 + 1000 * which;
   return scene;
 }
-StylusSamples handsOf(int which, int tick) {
+StylusSamples samplesOf(int which, int tick) {
   return which % 2 ? cut(tick) : press(tick);
 }
 
 uint64_t hashAlone(int which) {
   Session session(sceneOf(which));
-  for (int t = 1; t <= kTicks; ++t) session.step(handsOf(which, t), {});
+  for (int t = 1; t <= kTicks; ++t) session.step(samplesOf(which, t), {});
   return session.stateHash();
 }
 
@@ -44,7 +44,7 @@ TEST(SharedThreads, TenSessionsSteppedFromTwoThreadsEndAsEachAlone) {
     }
     for (int t = 1; t <= kTicks; ++t) {
       for (size_t i = 0; i < sessions.size(); ++i) {
-        sessions[i]->step(handsOf(first + kThreads * static_cast<int>(i), t), {});
+        sessions[i]->step(samplesOf(first + kThreads * static_cast<int>(i), t), {});
       }
     }
     for (size_t i = 0; i < sessions.size(); ++i) {

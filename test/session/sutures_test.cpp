@@ -38,7 +38,7 @@ StylusSamples drawUp(int tick) {
   return out;
 }
 
-TEST(SutureSession, SuturesHangAndFollowHands) {
+TEST(SutureSession, SuturesHangAndFollowTools) {
   Session session(sutureScene());
   for (int t = 1; t <= 40; ++t) session.step(drawUp(t), {});
   EXPECT_GT(suturePositions(session, 0).back().z(), 0.07);
@@ -103,7 +103,7 @@ TEST(SutureSession, IsRecordedWithItsKnotsAndPieces) {
     return *(session = std::make_unique<Session>(recorded));
   };
   ports.leaps = [](Session&) {};
-  ports.wants = [](const Session&) { return FrameRequest{}; };
+  ports.outputs = [](const Session&) { return FrameRequest{}; };
   ports.stepped = [](Session&, Frame&&, double) {};
   replay.run(0, 1e9, {}, ports);
   EXPECT_EQ(session->stateHash(), hash);

@@ -99,10 +99,10 @@ class ThreadedViewTest : public GpuTest {
       : scene_(threadedViewScene), model_(buildModel(threadedViewScene)) {}
 
   /// Makes a tick, with a probe that wanders above the tissue.
-  RenderRequest lookAfterStep(const FrameRequest& wants) {
+  RenderRequest requestAfterStep(const FrameRequest& outputs) {
     RenderRequest request;
     request.tick = ++tick_;
-    request.wants = wants;
+    request.outputs = outputs;
     request.motions[0].mode = ToolMode::kProbe;
     request.motions[0].present = true;
     request.motions[0].to.position_m = Vector3d(0.0005 * static_cast<double>(tick_), 0, kHalfM + kProbeRadiusM);
@@ -175,7 +175,7 @@ TEST_F(ThreadedViewTest, ShowsToTheBitWhatAViewOnTheSteppersThreadShows) {
     for (int t = 1; t <= kTicks; ++t) {
       if (t == kCutTick) tissue_.cut();
       tissue_.still = t >= kStillTick;
-      const RenderRequest request = lookAfterStep(threadedViewEverything());
+      const RenderRequest request = requestAfterStep(threadedViewEverything());
       Pictures pictures = show(view, request);
       shown.push_back({request, tissue_.readState(), t >= kCutTick ? 1u : 0u, std::move(pictures)});
     }
@@ -200,14 +200,14 @@ TEST_F(ThreadedViewTest, SurfacesDoNotWaitForImages) {
   scene_.cameras[0].width_px = scene_.cameras[0].height_px = 1400;
   scene_.cameras[0].position_m = Vector3d(0, -3 * kHalfM, 0);  // the block fills it
   ThreadedView view(model_, scene_, context_);
-  show(view, lookAfterStep({true, {true}, false}));  // drivers compile shaders at the first image
+  show(view, requestAfterStep({true, {true}, false}));  // drivers compile shaders at the first image
   Pictures out;
-  view.capture(tissue_, lookAfterStep({false, {true}, false}), out);
+  view.capture(tissue_, requestAfterStep({false, {true}, false}), out);
   const uint64_t image_tick = tick_;
   std::this_thread::sleep_for(milliseconds(50));  // the view takes it
   int surfaces = 0;
   while (out.images.empty()) {
-    view.capture(tissue_, lookAfterStep({true, {}, false}), out);
+    view.capture(tissue_, requestAfterStep({true, {}, false}), out);
     const uint64_t wanted = tick_;
     while (out.images.empty() && (!out.surface || out.surface->tick < wanted)) {
       std::this_thread::sleep_for(milliseconds(1));
@@ -224,7 +224,7 @@ TEST_F(ThreadedViewTest, SurfacesDoNotWaitForImages) {
 TEST_F(ThreadedViewTest, WithoutViewersNothingIsCopied) {
   ThreadedView view(model_, scene_, context_);
   for (int t = 0; t < 10; ++t) {
-    const Pictures pictures = show(view, lookAfterStep({false, {false, false}}));
+    const Pictures pictures = show(view, requestAfterStep({false, {false, false}}));
     EXPECT_FALSE(pictures.surface);
     EXPECT_TRUE(pictures.images.empty());
   }
@@ -236,7 +236,7 @@ TEST_F(ThreadedViewTest, WithoutViewersNothingIsCopied) {
 
 TEST_F(ThreadedViewTest, ImageIsNotDrawnAgainWhileNothingChanges) {
   ThreadedView view(model_, scene_, context_);
-  RenderRequest request = lookAfterStep({false, {true, true}});
+  RenderRequest request = requestAfterStep({false, {true, true}});
   const Pictures first = show(view, request);
   ASSERT_EQ(first.images.size(), 2u);
   EXPECT_EQ(view.counters().renders, 2u);
@@ -253,8 +253,8 @@ TEST_F(ThreadedViewTest, ImageIsNotDrawnAgainWhileNothingChanges) {
 
 TEST_F(ThreadedViewTest, ImageIsDrawnAgainWhenToolsSpringsOrNodesChange) {
   ThreadedView view(model_, scene_, context_);
-  const FrameRequest wants = {false, {true}, false};
-  RenderRequest request = lookAfterStep(wants);
+  const FrameRequest outputs = {false, {true}, false};
+  RenderRequest request = requestAfterStep(outputs);
   std::vector<uint8_t> last = show(view, request).images.at(0).rgb;
   const auto expectAnother = [&](const char* what) {
     const std::vector<uint8_t> now = show(view, request).images.at(0).rgb;
@@ -271,18 +271,18 @@ TEST_F(ThreadedViewTest, ImageIsDrawnAgainWhenToolsSpringsOrNodesChange) {
   expectAnother("a tool is gone");
   tissue_.cut();
   expectAnother("springs are cut");
-  request = lookAfterStep(wants);
+  request = requestAfterStep(outputs);
   expectAnother("nodes have moved and a tool is there");
   EXPECT_EQ(view.counters().repeats, 0u);
 }
 
 TEST_F(ThreadedViewTest, EveryImageThatMustComeComesInOrder) {
   ThreadedView view(model_, scene_, context_);
-  FrameRequest wants = {false, {true, true}, true};
+  FrameRequest outputs = {false, {true, true}, true};
   Pictures all;
   constexpr size_t kTicks = 30;
   for (size_t t = 0; t < kTicks; ++t) {
-    view.capture(tissue_, lookAfterStep(wants), all);
+    view.capture(tissue_, requestAfterStep(outputs), all);
     view.collect(all, false);
   }
   view.collect(all, true);
@@ -297,7 +297,7 @@ TEST_F(ThreadedViewTest, EveryImageThatMustComeComesInOrder) {
 TEST_F(ThreadedViewTest, ResetMakesWoundedSkinWhole) {
   ThreadedView view(model_, scene_, context_);
   const auto added = [&] {
-    const Pictures pictures = show(view, lookAfterStep({true, {}, false}));
+    const Pictures pictures = show(view, requestAfterStep({true, {}, false}));
     return pictures.surface->topology->triangleCount() - view.wholeSkin()->triangleCount();
   };
   tissue_.cut();
@@ -322,7 +322,7 @@ std::map<std::string, int> niceOfThreads() {
 TEST_F(ThreadedViewTest, DrawingGivesWayToStepping) {
   const int own = getpriority(PRIO_PROCESS, 0);
   ThreadedView view(model_, scene_, context_);
-  show(view, lookAfterStep(threadedViewEverything()));
+  show(view, requestAfterStep(threadedViewEverything()));
   EXPECT_EQ(getpriority(PRIO_PROCESS, 0), own);
   int behind = 0;
   for (const auto& [thread, nice] : niceOfThreads()) {
@@ -334,19 +334,19 @@ TEST_F(ThreadedViewTest, DrawingGivesWayToStepping) {
 
 TEST_F(ThreadedViewTest, ShowingMakesNoOpenGlObject) {
   ThreadedView view(model_, scene_, context_);
-  show(view, lookAfterStep(threadedViewEverything()));
+  show(view, requestAfterStep(threadedViewEverything()));
   const size_t before = gpu::objectsCreated();
-  for (int t = 0; t < 5; ++t) show(view, lookAfterStep(threadedViewEverything()));
+  for (int t = 0; t < 5; ++t) show(view, requestAfterStep(threadedViewEverything()));
   EXPECT_EQ(gpu::objectsCreated(), before);
 }
 
 TEST_F(ThreadedViewTest, WhatGoesWrongOnItsThreadIsThrownToTheStepperFromThenOn) {
   ThreadedView view(model_, scene_, context_);
-  show(view, lookAfterStep(threadedViewEverything()));
+  show(view, requestAfterStep(threadedViewEverything()));
   tissue_.broken = true;
   tissue_.cut();  // so nodes are uploaded
-  EXPECT_THROW(show(view, lookAfterStep(threadedViewEverything())), GpuError);
-  EXPECT_THROW(show(view, lookAfterStep(threadedViewEverything())), GpuError);
+  EXPECT_THROW(show(view, requestAfterStep(threadedViewEverything())), GpuError);
+  EXPECT_THROW(show(view, requestAfterStep(threadedViewEverything())), GpuError);
   EXPECT_THROW(view.reset(), GpuError);
 }
 
@@ -371,12 +371,12 @@ class SlowView : public ThreadedViewTest {
   SlowView() : ThreadedViewTest(slowScene()) {}
 
   /// Makes ticks of a millisecond that leave the processor to drawing. @returns their duration [s]
-  double timeTicks(View& view, int ticks, const FrameRequest& wants) {
+  double timeTicks(View& view, int ticks, const FrameRequest& outputs) {
     const auto begun = std::chrono::steady_clock::now();
     for (int t = 0; t < ticks; ++t) {
       Pictures out;
       std::this_thread::sleep_for(milliseconds(1));
-      view.capture(tissue_, lookAfterStep(wants), out);
+      view.capture(tissue_, requestAfterStep(outputs), out);
       view.collect(out, false);
       images_ += out.images.size();
     }
@@ -408,14 +408,14 @@ TEST_F(SlowView, SkipsAndCountsWhatItCannotKeepUpWith) {
   EXPECT_EQ(counters.readbacks, images_ + rest.images.size());
 }
 
-TEST_F(SlowView, WantsThatAreOvertakenAreMetByTheNewerState) {
+TEST_F(SlowView, RequestsThatAreOvertakenAreMetByTheNewerState) {
   ThreadedView view(model_, scene_, context_);
   Pictures out;
-  view.capture(tissue_, lookAfterStep({false, {true}, false}), out);  // keeps the view busy
+  view.capture(tissue_, requestAfterStep({false, {true}, false}), out);  // keeps the view busy
   std::this_thread::sleep_for(milliseconds(2));
   constexpr int kTicks = 4;
   for (int t = 0; t < kTicks; ++t) {
-    view.capture(tissue_, lookAfterStep(t % 2 ? FrameRequest{true, {}, false} : FrameRequest{false, {true}, false}),
+    view.capture(tissue_, requestAfterStep(t % 2 ? FrameRequest{true, {}, false} : FrameRequest{false, {true}, false}),
                  out);
   }
   view.collect(out, true);

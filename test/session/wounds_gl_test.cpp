@@ -135,10 +135,10 @@ TEST(WoundInALattice, MakesNoGpuObjectWhileThereIsRoom) {
   Session session(cutScene(Backend::kGpu, Structure::kLattice), context);
   (void)surfaceAfter(session, {});
   const uint64_t made = gpu::objectsCreated();
-  FrameRequest wants;
-  wants.surface = true;
-  wants.cameras = {true};
-  play(session, cut, kCutTicks, wants);
+  FrameRequest outputs;
+  outputs.surface = true;
+  outputs.cameras = {true};
+  play(session, cut, kCutTicks, outputs);
   EXPECT_EQ(gpu::objectsCreated(), made);
 }
 

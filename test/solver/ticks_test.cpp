@@ -21,51 +21,51 @@ constexpr int kNever = 1000000;
 /// The CPU backend with the monitor's lag of a GPU: measurements arrive some calls after their request.
 class LateBackend : public CpuBackend {
  public:
-  LateBackend(const Model& model, const Scene& scene, const TickPlan& plan, int looks)
-      : CpuBackend(model, scene, plan), looks_(looks) {}
+  LateBackend(const Model& model, const Scene& scene, const TickPlan& plan, int checks)
+      : CpuBackend(model, scene, plan), checks_(checks) {}
 
   int waits() const { return waits_; }
-  int under_way() const { return static_cast<int>(under_way_.size()); }
+  int in_flight() const { return static_cast<int>(in_flight_.size()); }
 
   int lag() const override { return 1; }
 
   bool requestStats() override {
-    Late late{{}, looks_};
+    Late late{{}, checks_};
     CpuBackend::requestStats();
     CpuBackend::takeStats(late.stats, true);
-    under_way_.push_back(late);
+    in_flight_.push_back(late);
     return true;
   }
 
   bool takeStats(layout::TickStats& stats, bool wait) override {
-    if (under_way_.empty()) return false;
-    Late& oldest = under_way_.front();
-    if (oldest.looks_left > 0 && !wait) {
-      --oldest.looks_left;
+    if (in_flight_.empty()) return false;
+    Late& oldest = in_flight_.front();
+    if (oldest.checks_left > 0 && !wait) {
+      --oldest.checks_left;
       return false;
     }
-    waits_ += oldest.looks_left > 0;
+    waits_ += oldest.checks_left > 0;
     stats = oldest.stats;
-    under_way_.pop_front();
+    in_flight_.pop_front();
     return true;
   }
 
  private:
   struct Late {
     layout::TickStats stats;
-    int looks_left;
+    int checks_left;
   };
-  std::deque<Late> under_way_;
-  int looks_, waits_ = 0;
+  std::deque<Late> in_flight_;
+  int checks_, waits_ = 0;
 };
 
 class LateSolver : public TissueStepper {
  public:
-  LateSolver(const Model& model, const Scene& scene, const TickPlan& plan, int looks)
-      : TissueStepper(model, scene, plan, std::make_unique<LateBackend>(model, scene, plan, looks)) {}
+  LateSolver(const Model& model, const Scene& scene, const TickPlan& plan, int checks)
+      : TissueStepper(model, scene, plan, std::make_unique<LateBackend>(model, scene, plan, checks)) {}
 
   int waits() const { return late().waits(); }
-  int under_way() const { return late().under_way(); }
+  int in_flight() const { return late().in_flight(); }
 
  private:
   const LateBackend& late() const { return static_cast<const LateBackend&>(ticked()); }
@@ -74,7 +74,7 @@ class LateSolver : public TissueStepper {
 class LaggingBackend : public ::testing::Test {
  protected:
   /// @param fraction  of the stable substep
-  LateSolver make(double fraction, int looks) const {
+  LateSolver make(double fraction, int checks) const {
     Scene scene = sceneWith(Integrator::kLeapfrog, model_, 10, fraction);
     scene.solver.stability_monitor = true;
     scene.solver.threads = 1;
@@ -82,7 +82,7 @@ class LaggingBackend : public ::testing::Test {
     scene.styluses = {StylusConfig{}};
     SolverOptions options;
     options.allow_unstable = true;
-    return LateSolver(model_, scene, planTicks(model_, scene, options), looks);
+    return LateSolver(model_, scene, planTicks(model_, scene, options), checks);
   }
 
   static ToolMotions probe() { return probeAt({0.02, 0.02, 0.038}); }
@@ -92,7 +92,7 @@ class LaggingBackend : public ::testing::Test {
 };
 
 /// Returns the published measurements of a tick as text.
-std::string told(const layout::TickStats& stats) {
+std::string textOf(const layout::TickStats& stats) {
   return std::to_string(stats.kinetic_j) + ' ' + std::to_string(stats.elastic_j) + ' ' +
          std::to_string(stats.impulse[0].z) + ' ' + std::to_string(stats.max_speed_bits);
 }
@@ -105,7 +105,7 @@ TEST_F(LaggingBackend, NoTickIsWaitedForBeforeTheNextOneIsUnderWay) {
   const int before = solver.waits();  // writing a state measures it
   for (int t = 0; t < 20; ++t) {
     solver.step(probe());
-    EXPECT_EQ(solver.under_way(), 1) << "tick " << t;
+    EXPECT_EQ(solver.in_flight(), 1) << "tick " << t;
   }
   EXPECT_EQ(solver.waits() - before, 19);  // for each tick but the last
 }
@@ -118,24 +118,24 @@ TEST_F(LaggingBackend, MeasurementsThatHaveComeAreNotWaitedFor) {
 
 TEST_F(LaggingBackend, ResultsAreTheSameHoweverLateMeasurementsCome) {
   std::vector<std::string> first;
-  for (int looks : {0, 1, 2, kNever}) {
+  for (int checks : {0, 1, 2, kNever}) {
     for (double fraction : {0.5, 10.0}) {  // calm; explodes until the stability monitor recovers it, repeatedly
-      SCOPED_TRACE(testing::Message() << looks << " looks, fraction " << fraction);
-      LateSolver solver = make(fraction, looks);
+      SCOPED_TRACE(testing::Message() << checks << " looks, fraction " << fraction);
+      LateSolver solver = make(fraction, checks);
       solver.writeState(wild_);
       std::vector<std::string> states, stats;
       layout::TickStats tick;
       for (int t = 0; t < 30; ++t) {
         solver.step(probe());
-        while (solver.pollStats(tick, false)) stats.push_back(told(tick));
+        while (solver.pollStats(tick, false)) stats.push_back(textOf(tick));
         states.push_back(std::to_string(stateHash(model_, solver.readState())));
       }
-      while (solver.pollStats(tick, true)) stats.push_back(told(tick));
+      while (solver.pollStats(tick, true)) stats.push_back(textOf(tick));
       ASSERT_EQ(stats.size(), 30u);
       EXPECT_EQ(solver.health().trips > 0, fraction > 1);
       states.insert(states.end(), stats.begin(), stats.end());
       states.push_back(std::to_string(solver.health().trips));
-      if (looks == 0) {
+      if (checks == 0) {
         first.insert(first.end(), states.begin(), states.end());
       } else {
         const auto same = first.begin() + (fraction > 1 ? static_cast<std::ptrdiff_t>(states.size()) : 0);

@@ -80,21 +80,21 @@ TEST_P(VerletPaper, GrabbedNodesFollowTheToolAndAreLetGoAtTheReleaseSpeed) {
   config.grab.release_speed_m_per_s = 0.01;
   const auto solver = make(model, sceneWith(Integrator::kVerletPaper, model, 1, 0.1, 1, {config}));
   const uint32_t corner = static_cast<uint32_t>(model.bodies[0].lattice.slotAt({0, 0, 0}));
-  const double way_m = 0.5 * solver->dt_s();  // half a metre per second
+  const double offset_m = 0.5 * solver->dt_s();  // half a metre per second
   ToolMotions motions;
   for (int t = 0; t < 3; ++t) {
-    motions = tool(ToolMode::kGrab, {-t * way_m, 0, 0}, {-(t + 1) * way_m, 0, 0});
+    motions = tool(ToolMode::kGrab, {-t * offset_m, 0, 0}, {-(t + 1) * offset_m, 0, 0});
     motions[0].hold_begins = t == 0;
     solver->step(motions);
     motions[0].hold_begins = false;
     // At most 0.01 m of spacing and of grab offset, rounded a few times.
-    EXPECT_NEAR(solver->readState().displacement_m[corner].x, -(t + 1) * way_m, 4 * kVerletPaperRounding * 0.01);
+    EXPECT_NEAR(solver->readState().displacement_m[corner].x, -(t + 1) * offset_m, 4 * kVerletPaperRounding * 0.01);
   }
   motions[0].mode = ToolMode::kNone;
   motions[0].hold_ended = ToolMode::kGrab;
   solver->step(motions);
   // The springs pull it back, so it moves by less than the release speed times the substep.
-  const double moved_m = -3 * way_m - solver->readState().displacement_m[corner].x;
+  const double moved_m = -3 * offset_m - solver->readState().displacement_m[corner].x;
   EXPECT_LT(moved_m, config.grab.release_speed_m_per_s * solver->dt_s());
 }
 

@@ -318,16 +318,16 @@ void expectToMoveAsWithoutSleep() {
   Sleeper sleeper(model, sleepyScene(model)), watcher(model, sleepyScene(model, {0}));
   ASSERT_LT(settle(sleeper), 50);
   size_t slept = 0;
-  double farthest_m = 0, way_m = 0;
+  double farthest_m = 0, offset_m = 0;
   for (int t = 0; t < 30; ++t) {
     sleeper.step(probeAtEnd(model));
     watcher.step(probeAtEnd(model));
     slept += sleeper.bricks() - sleeper.awakeBricks();
     farthest_m = std::max(farthest_m, farthestApart_m(model, sleeper.readState(), watcher.readState()));
-    way_m = std::max(way_m, farthestApart_m(model, sleeper.readState(), restState(model)));
+    offset_m = std::max(offset_m, farthestApart_m(model, sleeper.readState(), restState(model)));
   }
   EXPECT_GT(slept, 0u);
-  EXPECT_GT(way_m, 1e-3);
+  EXPECT_GT(offset_m, 1e-3);
   EXPECT_LT(farthest_m, left_out_m);
 }
 

@@ -23,16 +23,16 @@ inline Body twoPartBody() {
 }
 
 /// Initial states that no gentle simulation reaches.
-enum class Abuse { kRandomPlaces, kRandomVelocities, kBoth, kOnePoint, kMirrored };
-constexpr Abuse kAbuses[] = {Abuse::kRandomPlaces, Abuse::kRandomVelocities, Abuse::kBoth, Abuse::kOnePoint,
+enum class Abuse { kRandomPositions, kRandomVelocities, kBoth, kOnePoint, kMirrored };
+constexpr Abuse kAbuses[] = {Abuse::kRandomPositions, Abuse::kRandomVelocities, Abuse::kBoth, Abuse::kOnePoint,
                              Abuse::kMirrored};
 
 /// Returns a state with positions up to +-10 h and velocities up to 100 m/s.
 inline HostState abusedState(const Model& model, Abuse abuse) {
   const Lattice& lattice = model.bodies[0].lattice;
-  const bool places = abuse == Abuse::kRandomPlaces || abuse == Abuse::kBoth;
+  const bool positions = abuse == Abuse::kRandomPositions || abuse == Abuse::kBoth;
   const bool velocities = abuse == Abuse::kRandomVelocities || abuse == Abuse::kBoth;
-  HostState state = randomState(model, places ? 10 * lattice.spacing_m : 0, velocities ? 100 : 0, 7);
+  HostState state = randomState(model, positions ? 10 * lattice.spacing_m : 0, velocities ? 100 : 0, 7);
   for (uint32_t slot : lattice.active_slots) {
     const Vector3d x = lattice.restPosition(slot);
     if (abuse == Abuse::kOnePoint) state.displacement_m[slot] = vec4(Vector3d::Constant(0.015) - x);

@@ -21,7 +21,7 @@ using namespace viscera::testing;
 namespace {
 
 constexpr double kSpacing_m = 0.01;
-constexpr double kPlace_m = 1e-6;           // float rounding of positions of some centimetres
+constexpr double kPosition_m = 1e-6;        // float rounding of positions of some centimetres
 constexpr double kNormalError = 2.0 / 511;  // a step of a packed normal per axis: rounding may go either way
 
 Vector3d deformed(const Vector3d& x) {
@@ -71,7 +71,7 @@ class HostSurfaceTest : public ::testing::Test {
     EXPECT_EQ(mesh.topology->triangles, rig_.surface.skin().shown(rig_.surface.alive().read().data())->triangles);
     const std::vector<Vector3d> positions = rig_.positions(), normals = rig_.normals();
     for (size_t v = 0; v < mesh.vertices(); ++v) {
-      ASSERT_LT((mesh.position_m(v).cast<double>() - positions[v]).norm(), kPlace_m)
+      ASSERT_LT((mesh.position_m(v).cast<double>() - positions[v]).norm(), kPosition_m)
           << "vertex " << v << ": " << mesh.position_m(v).transpose() << " here, " << positions[v].transpose()
           << " on the GPU";
       ASSERT_LT((unpackNormal(mesh.normals[v]).cast<double>() - normals[v]).norm(), kNormalError) << "vertex " << v;
@@ -99,7 +99,7 @@ TEST_F(HostSurfaceTest, RestIsTheMesh) {
   size_t vertex = 0;
   for (const Body& body : rig_.model.bodies) {
     for (size_t v = 0; v < body.skin.mesh.positions_m.size(); ++v) {
-      ASSERT_LT((mesh.position_m(vertex + v) - body.skin.mesh.positions_m[v]).norm(), kPlace_m) << body.name << v;
+      ASSERT_LT((mesh.position_m(vertex + v) - body.skin.mesh.positions_m[v]).norm(), kPosition_m) << body.name << v;
     }
     vertex += body.skin.bindings.size() + 2 * body.skin.split_edges.size();
   }

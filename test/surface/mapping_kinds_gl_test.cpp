@@ -20,7 +20,8 @@ using namespace viscera::testing;
 namespace {
 
 constexpr double kMappingKindsSpacing_m = 0.01, kMappingKindsRadius_m = 0.05;
-constexpr double kMappingKindsPlace_m = 1e-6;  // float rounding of positions of up to 0.3 m, carried through directions
+constexpr double kMappingKindsPosition_m =
+    1e-6;  // float rounding of positions of up to 0.3 m, carried through directions
 constexpr double kMappingKindsNormalError =
     2.0 / 511;  // a step of a packed normal per axis: rounding may go either way
 const std::vector<Mapping> kAll = {Mapping::kOneToOne, Mapping::kConstant, Mapping::kInterpolated,
@@ -147,7 +148,7 @@ class Egve {
     }
     return sum.normalized();
   }
-  Vector3d alongAt(const std::vector<Vector3d>& p, uint32_t slot, const Vector3d& way) const {
+  Vector3d alongAt(const std::vector<Vector3d>& p, uint32_t slot, const Vector3d& direction) const {
     Vector3d out = Vector3d::Zero();
     for (int axis = 0; axis < 3; ++axis) {
       const auto spring = static_cast<uint32_t>(2 * axis);
@@ -156,7 +157,7 @@ class Egve {
                                                          : slot;
       };
       const size_t ahead = end(spring), behind = end(spring + 1);
-      out += way[axis] * (p[ahead] - p[behind]) / (rest_[ahead] - rest_[behind]).norm();
+      out += direction[axis] * (p[ahead] - p[behind]) / (rest_[ahead] - rest_[behind]).norm();
     }
     return out;
   }
@@ -226,9 +227,11 @@ TEST_F(MappingKinds, EachIsItsEquationsInFloat64OnBothBackends) {
         const Egve::Vertex expected = egve.map(own, v, rest_normals[v].cast<double>());
         if (own != Mapping::kConstant && !expected.clear) continue;
         judged += own == mapping ? 1 : 0;
-        ASSERT_LT((positions[v] - expected.position).norm(), kMappingKindsPlace_m) << int(mapping) << ", vertex " << v;
+        ASSERT_LT((positions[v] - expected.position).norm(), kMappingKindsPosition_m)
+            << int(mapping) << ", vertex " << v;
         ASSERT_LT((normals[v] - expected.normal).norm(), kMappingKindsNormalError) << int(mapping) << ", vertex " << v;
-        ASSERT_LT((host.position_m(v).cast<double>() - expected.position).norm(), kMappingKindsPlace_m) << int(mapping);
+        ASSERT_LT((host.position_m(v).cast<double>() - expected.position).norm(), kMappingKindsPosition_m)
+            << int(mapping);
         ASSERT_LT((unpackNormal(host.normals[v]).cast<double>() - expected.normal).norm(), kMappingKindsNormalError);
       }
       EXPECT_GT(judged, positions.size() / 2) << int(mapping) << (partial ? ", partial" : "");
@@ -245,8 +248,8 @@ TEST_F(MappingKinds, EachIsExactAtRest) {
       const VisibleMesh host = onHost(rig);
       for (size_t v = 0; v < positions.size(); ++v) {
         const Vector3d rest = rig.model.bodies[0].skin.mesh.positions_m[v].cast<double>();
-        ASSERT_LT((positions[v] - rest).norm(), kMappingKindsPlace_m) << int(mapping) << ", vertex " << v;
-        ASSERT_LT((host.position_m(v).cast<double>() - rest).norm(), kMappingKindsPlace_m)
+        ASSERT_LT((positions[v] - rest).norm(), kMappingKindsPosition_m) << int(mapping) << ", vertex " << v;
+        ASSERT_LT((host.position_m(v).cast<double>() - rest).norm(), kMappingKindsPosition_m)
             << int(mapping) << ", vertex " << v;
       }
     }
@@ -265,7 +268,7 @@ TEST_F(MappingKinds, AlongNormalLiesOnTheNormalAtRest) {
     const Vector3d foot = egve.at(egve.rest(), node, s.weights.y, s.weights.z);
     const Vector3d offset = body.skin.mesh.positions_m[v].cast<double>() - foot;
     ASSERT_LT((offset - s.weights.w * egve.normalAt(egve.rest(), node, s.weights.y, s.weights.z)).norm(),
-              kMappingKindsPlace_m);
+              kMappingKindsPosition_m);
   }
   EXPECT_GT(along, body.skin.bindings.size() / 2);
   EXPECT_EQ(along + body.skin.constant_vertices, body.skin.bindings.size());
@@ -287,7 +290,7 @@ TEST_F(MappingKinds, OneToOneDoesNotTurnItsOffsets) {
     return largest;
   };
   for (const Mapping mapping : {Mapping::kConstant, Mapping::kInterpolated, Mapping::kAlongNormal})
-    EXPECT_LT(largestError(mapping), kMappingKindsPlace_m) << int(mapping);
+    EXPECT_LT(largestError(mapping), kMappingKindsPosition_m) << int(mapping);
   // The longest offset is near 0.87 cells, rotated by 69 degrees: an error of at most 2 sin(34.4 degrees) of it.
   EXPECT_GT(largestError(Mapping::kOneToOne), 0.5 * kMappingKindsSpacing_m);
 }
@@ -313,18 +316,18 @@ TEST_F(MappingKinds, ConstantHasJumpsUnderBendingWhereInterpolatedHasNone) {
     rig.follow();
     const std::vector<Vector3d> positions = rig.positions(), normals = rig.normals();
     const Skin& skin = rig.model.bodies[0].skin;
-    double place = 0, angle = 0;
+    double position = 0, angle = 0;
     for (const auto& t : skin.mesh.triangles) {
       for (size_t i = 0; i < 3; ++i) {
         const uint32_t a = t[i], b = t[(i + 1) % 3];
         const Vector3d rest_a = skin.mesh.positions_m[a].cast<double>(),
                        rest_b = skin.mesh.positions_m[b].cast<double>();
         if (!isAbove(rest_a) || !isAbove(rest_b)) continue;
-        place = std::max(place, ((positions[b] - positions[a]) - (bent(rest_b) - bent(rest_a))).norm());
+        position = std::max(position, ((positions[b] - positions[a]) - (bent(rest_b) - bent(rest_a))).norm());
         angle = std::max(angle, std::atan2(normals[a].cross(normals[b]).norm(), normals[a].dot(normals[b])));
       }
     }
-    return std::array<double, 2>{place / kMappingKindsSpacing_m, angle};
+    return std::array<double, 2>{position / kMappingKindsSpacing_m, angle};
   };
   const auto constant = largestJumps(Mapping::kConstant), interpolated = largestJumps(Mapping::kInterpolated);
   EXPECT_GT(constant[0], 0.03);  // cells: 0.4 of offset times 1/8 rad between two triangles is 0.05
@@ -352,7 +355,8 @@ TEST_F(MappingKinds, WoundsOfEachAreShutAtRestAndClosedWhenOpened) {
     rig.follow();
     const std::vector<Vector3d> still = rig.positions();
     for (size_t v = 0; v < rig.model.bodies[0].skin.bindings.size(); ++v)
-      ASSERT_LT((still[v] - rig.model.bodies[0].skin.mesh.positions_m[v].cast<double>()).norm(), kMappingKindsPlace_m);
+      ASSERT_LT((still[v] - rig.model.bodies[0].skin.mesh.positions_m[v].cast<double>()).norm(),
+                kMappingKindsPosition_m);
     rig.moveNodes([&](const Vector3d& x) {
       return Vector3d(mappingKindsDeformed(x) + (side(x) ? 0.02 : 0) * Vector3d::UnitX());
     });
@@ -360,7 +364,7 @@ TEST_F(MappingKinds, WoundsOfEachAreShutAtRestAndClosedWhenOpened) {
     const std::vector<Vector3d> opened = rig.positions();
     std::map<std::pair<std::array<int64_t, 3>, std::array<int64_t, 3>>, int> balance;
     const auto key = [&](uint32_t v) {
-      const Vector3d at = opened[v] / kMappingKindsPlace_m;
+      const Vector3d at = opened[v] / kMappingKindsPosition_m;
       return std::array<int64_t, 3>{std::llround(at.x()), std::llround(at.y()), std::llround(at.z())};
     };
     const auto topology = rig.surface.skin().shown(rig.surface.alive().read().data(), rig.surface.wounds().get());

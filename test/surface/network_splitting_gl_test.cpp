@@ -17,7 +17,7 @@ using test::clothBody;
 constexpr double kNetworkSplittingSpacing_m = 0.01;
 constexpr double kUlp = 1.2e-7;  // [-] spacing of floats at 1
 // For a vertex of a sheet 0.2 m wide: its position, and a part of an edge rotated in some ten operations.
-constexpr double kPlace_m = 10 * kUlp * 0.2;
+constexpr double kPosition_m = 10 * kUlp * 0.2;
 // A step of a packed normal is 1/511 per axis and rounding errs by half of it; plus float noise.
 constexpr double kNetworkSplittingNormalError = 1.0 / 511;
 
@@ -93,7 +93,7 @@ TEST_F(NetworkSplitting, CutThroughKeepsTheShownAreaAndMakesTwoPieces) {
   const std::vector<Corners> drawn = drawnTriangles(rig.surface);
   EXPECT_GT(drawn.size(), rig.surface.triangles());
   EXPECT_EQ(countPieces(drawn), 2u);
-  EXPECT_NEAR(areaOf(drawn, rig.positions()), area_m2, kPlace_m * 0.2 * 4);  // rounding of every border
+  EXPECT_NEAR(areaOf(drawn, rig.positions()), area_m2, kPosition_m * 0.2 * 4);  // rounding of every border
 }
 
 TEST_F(NetworkSplitting, NewVerticesLieWhereTheBladeCrossed) {
@@ -106,7 +106,7 @@ TEST_F(NetworkSplitting, NewVerticesLieWhereTheBladeCrossed) {
   for (const auto& [v, piece] : drawnPieces(drawnTriangles(rig.surface))) {
     if (v < nodes) continue;
     ++crossed;
-    ASSERT_NEAR(height(at[v]), 0, kPlace_m);
+    ASSERT_NEAR(height(at[v]), 0, kPosition_m);
   }
   EXPECT_GT(crossed, 40u);
 }
@@ -139,7 +139,7 @@ TEST_F(NetworkSplitting, FlapMovesAsIfItsPieceWereRigid) {
   for (const auto& [v, piece] : drawnPieces(drawnTriangles(rig.surface))) {
     const bool beyond = isBeyond(rig, piece);
     turned += beyond && v >= rig.model.bodies[0].skin.bindings.size();
-    ASSERT_LT((at[v] - (beyond ? turn * rest[v] : rest[v])).norm(), 2 * kPlace_m) << "vertex " << v;
+    ASSERT_LT((at[v] - (beyond ? turn * rest[v] : rest[v])).norm(), 2 * kPosition_m) << "vertex " << v;
     const Vector3d up = beyond ? turn.linear() * Vector3d::UnitZ() : Vector3d(Vector3d::UnitZ());
     ASSERT_LT((normals[v] - up).norm(), kNetworkSplittingNormalError) << "vertex " << v;
   }
@@ -178,7 +178,7 @@ TEST_F(NetworkSplitting, TwoCrossedEdgesPartTheCornerBetweenThem) {
                                           0.75 * at[i] + 0.25 * at[j],
                                           at[k],
                                           0.5 * (at[i] + at[k])};
-    for (size_t n = 0; n < 9; ++n) ASSERT_LT((at[shown[n]] - wanted[n]).norm(), kPlace_m) << n;
+    for (size_t n = 0; n < 9; ++n) ASSERT_LT((at[shown[n]] - wanted[n]).norm(), kPosition_m) << n;
     EXPECT_NE(shown[1], shown[3]);  // one copy per side
     EXPECT_NE(shown[2], shown[8]);
   }
@@ -197,7 +197,7 @@ TEST_F(NetworkSplitting, ThreeCrossedEdgesLeaveThreeCorners) {
   ASSERT_EQ(shown.size(), 9u);
   for (size_t n = 0; n < 9; n += 3) {
     EXPECT_NEAR(areaOf({{shown[n], shown[n + 1], shown[n + 2]}}, rig.positions()), whole_m2 / 4,
-                kPlace_m * kNetworkSplittingSpacing_m);
+                kPosition_m * kNetworkSplittingSpacing_m);
   }
 }
 
@@ -246,7 +246,7 @@ TEST_F(NetworkSplitting, FlapOfANodeWithoutAWholeTriangleIsNotTurned) {
     const float cut = rig.spring_cut[edge.spring];
     if (edge.a != node || cut == 0) continue;
     const Vector3d d = body.network->positions_m[edge.b] - body.network->positions_m[edge.a];
-    EXPECT_LT((at[first_split + 2 * e] - (at[node] + cut * d)).norm(), kPlace_m);
+    EXPECT_LT((at[first_split + 2 * e] - (at[node] + cut * d)).norm(), kPosition_m);
     ++seen;
   }
   EXPECT_GT(seen, 0u);
@@ -259,8 +259,8 @@ TEST_F(NetworkSplitting, VerticesThatAreNotSeenLieOnTheirEdges) {
   const std::vector<Vector3d> at = rig.positions();
   for (size_t e = 0; e < skin.split_edges.size(); ++e) {
     const Vector3d middle = 0.5 * (at[skin.split_edges[e].a] + at[skin.split_edges[e].b]);
-    ASSERT_LT((at[skin.bindings.size() + 2 * e] - middle).norm(), kPlace_m);
-    ASSERT_LT((at[skin.bindings.size() + 2 * e + 1] - middle).norm(), kPlace_m);
+    ASSERT_LT((at[skin.bindings.size() + 2 * e] - middle).norm(), kPosition_m);
+    ASSERT_LT((at[skin.bindings.size() + 2 * e + 1] - middle).norm(), kPosition_m);
   }
 }
 
@@ -285,12 +285,12 @@ TEST_F(NetworkSplitting, WhatIsDrawnIsWhatIsTold) {
   cutThrough(rig, 2, [](const Vector3d& x) { return x.y() + 0.004; });
   apply(rig);
   const std::vector<uint32_t> alive = rig.surface.alive().read(), &indices = rig.surface.skin().indices();
-  std::vector<uint32_t> told;
+  std::vector<uint32_t> shown;
   for (size_t t = 0; t < alive.size(); ++t) {
-    appendShown(&indices[3 * t], &rig.surface.skin().splits()[6 * t], alive[t], told);
+    appendShown(&indices[3 * t], &rig.surface.skin().splits()[6 * t], alive[t], shown);
   }
   std::vector<Corners> expected;
-  for (size_t i = 0; i < told.size(); i += 3) expected.push_back({told[i], told[i + 1], told[i + 2]});
+  for (size_t i = 0; i < shown.size(); i += 3) expected.push_back({shown[i], shown[i + 1], shown[i + 2]});
   std::vector<Corners> drawn = drawnTriangles(rig.surface);
   std::sort(expected.begin(), expected.end());
   std::sort(drawn.begin(), drawn.end());

@@ -86,13 +86,13 @@ class ReferenceMapping {
     const Vector3d p1 = lattice_.restPosition(s.slot0), p2 = lattice_.restPosition(s.slot1),
                    p3 = lattice_.restPosition(s.slot2);
     const Vector3d t = (p2 - p1).normalized(), n = t.cross(p3 - p1).normalized(), b = n.cross(t);
-    const Vector3d place = p1 + s.weights.y * (p2 - p1) + s.weights.z * (p3 - p1) + sum(s.offset_constant, t, n, b);
+    const Vector3d point = p1 + s.weights.y * (p2 - p1) + s.weights.z * (p3 - p1) + sum(s.offset_constant, t, n, b);
     const Vector3d normal = sum(s.normal_constant, t, n, b).normalized();
     const Vector3d tangent = normal.unitOrthogonal() * 1e-4 * lattice_.spacing_m, other = normal.cross(tangent);
     const auto carried = [&](const Vector3d& x) { return carriedInCell(lowestCorner(s), x); };
-    const Vector3d along = carried(place + tangent) - carried(place - tangent);
-    const Vector3d aside = carried(place + other) - carried(place - other);
-    return {carried(place), along.cross(aside).normalized()};
+    const Vector3d along = carried(point + tangent) - carried(point - tangent);
+    const Vector3d aside = carried(point + other) - carried(point - other);
+    return {carried(point), along.cross(aside).normalized()};
   }
   Vector3d carriedInCell(const Vector3i& lowest, const Vector3d& x) const {
     const Vector3d p = (x - lattice_.origin_m) / lattice_.spacing_m - lowest.cast<double>();

@@ -19,22 +19,23 @@
 
 namespace viscera::testing {
 
-using Place = std::array<int64_t, 3>;
-constexpr double kSamePlace_m = 1e-6;  // rounding of float bindings in a box of 0.1 m is 1e-8; any edge is far longer
+using Position = std::array<int64_t, 3>;
+constexpr double kSamePosition_m =
+    1e-6;  // rounding of float bindings in a box of 0.1 m is 1e-8; any edge is far longer
 
-inline Place keyOf(const Vector3d& at) {
-  return {std::llround(at.x() / kSamePlace_m), std::llround(at.y() / kSamePlace_m),
-          std::llround(at.z() / kSamePlace_m)};
+inline Position keyOf(const Vector3d& at) {
+  return {std::llround(at.x() / kSamePosition_m), std::llround(at.y() / kSamePosition_m),
+          std::llround(at.z() / kSamePosition_m)};
 }
 
 /// Returns the number of edges, welded by the nodes that carry their ends, without exactly one triangle on either side.
 template <class Of>
 size_t openEdges(const Of& of, const std::vector<Vector3d>& at) {
-  std::map<std::pair<Place, Place>, int> balance;
+  std::map<std::pair<Position, Position>, int> balance;
   const std::vector<uint32_t> triangles = of.triangles();
   for (size_t t = 0; t < triangles.size(); t += 3) {
     for (size_t i = 0; i < 3; ++i) {
-      const Place a = keyOf(at[triangles[t + i]]), b = keyOf(at[triangles[t + (i + 1) % 3]]);
+      const Position a = keyOf(at[triangles[t + i]]), b = keyOf(at[triangles[t + (i + 1) % 3]]);
       if (a == b) continue;
       if (a < b)
         ++balance[{a, b}];
@@ -164,7 +165,7 @@ class BackCamera {
   }
 
  private:
-  static constexpr double place(int pixel) { return (pixel + 0.5) / kPixels * 2 - 1; }  ///< centre of a pixel, -1..1
+  static constexpr double position(int pixel) { return (pixel + 0.5) / kPixels * 2 - 1; }  ///< centre of a pixel, -1..1
   static int pixelBefore(double share) {
     return static_cast<int>(std::floor(std::clamp((share + 1) / 2, -0.1, 1.1) * kPixels - 0.5));
   }
@@ -188,10 +189,11 @@ class BackCamera {
     const double whole = a.dot(bc);
     const double bc_x = bc.x(), ca_x = ca.x(), ab_x = ab.x();
     for (int y = top; y <= bottom; ++y) {  // u, v and w: by the ray of a pixel, with z = 1
-      const double way_y = place(y);
-      const double u_y = way_y * bc.y() + bc.z(), v_y = way_y * ca.y() + ca.z(), w_y = way_y * ab.y() + ab.z();
+      const double offset_y = position(y);
+      const double u_y = offset_y * bc.y() + bc.z(), v_y = offset_y * ca.y() + ca.z(), w_y = offset_y * ab.y() + ab.z();
       for (int x = left; x <= right; ++x) {
-        const double way_x = place(x), u = way_x * bc_x + u_y, v = way_x * ca_x + v_y, w = way_x * ab_x + w_y;
+        const double offset_x = position(x), u = offset_x * bc_x + u_y, v = offset_x * ca_x + v_y,
+                     w = offset_x * ab_x + w_y;
         if (!((u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0))) continue;
         const double sum = u + v + w;
         if (sum == 0) continue;
@@ -237,13 +239,13 @@ double backsSeen(const Of& of, const std::vector<Vector3d>& at, const Vector3d& 
   std::uniform_real_distribution<double> share(0, 1);
   size_t backs = 0;
   for (int view = 0; view < kViews;) {
-    Vector3d way = Vector3d(any(random), any(random), any(random)).normalized();
+    Vector3d offset = Vector3d(any(random), any(random), any(random)).normalized();
     double far_m = 1.2 * size_m;
     if (view % 2 == 0) {
-      way = (way + 1.2 * outward).normalized();
+      offset = (offset + 1.2 * outward).normalized();
       far_m = reach_m * (1 + 3 * share(random));
     }
-    const Vector3d eye = wound_m + far_m * way;
+    const Vector3d eye = wound_m + far_m * offset;
     if (std::abs(windingNumber(triangles, at, eye)) > 0.5) continue;  // within tissue
     backs += BackCamera(eye, wound_m, 1.2 * reach_m).backsSeen(triangles, at);
     ++view;

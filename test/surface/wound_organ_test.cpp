@@ -35,8 +35,8 @@ struct Incision {
 std::vector<Incision> incisionsOf(const Skin& skin) {
   const std::vector<Vector3f> normals = vertexNormals(skin.mesh);
   std::vector<Incision> out;
-  for (const Vector3d& way : anglesOfCuts()) {
-    const Vector3f along = way.cast<float>();
+  for (const Vector3d& direction : anglesOfCuts()) {
+    const Vector3f along = direction.cast<float>();
     size_t best = 0;
     for (size_t v = 0; v < normals.size(); ++v) {
       if (skin.mesh.positions_m[v].dot(along) > skin.mesh.positions_m[best].dot(along)) best = v;
@@ -44,7 +44,7 @@ std::vector<Incision> incisionsOf(const Skin& skin) {
     Incision incision;
     incision.middle_m = skin.mesh.positions_m[best].cast<double>();
     incision.outward = normals[best].cast<double>();
-    const Vector3d across = incision.outward.cross(Vector3d(way.y(), -way.z(), way.x())).normalized();
+    const Vector3d across = incision.outward.cross(Vector3d(direction.y(), -direction.z(), direction.x())).normalized();
     incision.normal = (across + 0.04 * static_cast<double>(out.size()) * incision.outward).normalized();
     out.push_back(incision);
   }

@@ -79,9 +79,9 @@ TEST(WoundWork, OfASkinWithABorderHolesAreCountedAlike) {
 }
 
 /// Cuts springs of nodes within two spacings of a position, as Wounded::cut().
-void cutNear(Wounded& body, const Vector3d& place_m, const Vector3d& normal, double reach_m) {
+void cutNear(Wounded& body, const Vector3d& position_m, const Vector3d& normal, double reach_m) {
   const Lattice& lattice = body.lattice;
-  const Vector3i home = ((place_m - lattice.origin_m) / lattice.spacing_m).array().floor().cast<int>();
+  const Vector3i home = ((position_m - lattice.origin_m) / lattice.spacing_m).array().floor().cast<int>();
   for (int i = 0; i < 125; ++i) {
     const int64_t slot = lattice.slotAt(home + Vector3i(i % 5 - 2, i / 5 % 5 - 2, i / 25 - 2));
     for (uint32_t spring = 0; slot >= 0 && spring < layout::kSpringsPerNode; ++spring) {
@@ -89,14 +89,14 @@ void cutNear(Wounded& body, const Vector3d& place_m, const Vector3d& normal, dou
       const int64_t other = lattice.neighborSlot(near, spring);
       if (other < 0 || springCount(body.nodes[near], spring) == 0) continue;
       const Vector3d a = lattice.restPosition(near), b = lattice.restPosition(static_cast<uint32_t>(other));
-      const double da = normal.dot(a - place_m), db = normal.dot(b - place_m), share = da / (da - db);
-      if ((da >= 0) == (db >= 0) || (a + share * (b - a) - place_m).cwiseAbs().maxCoeff() > reach_m) continue;
-      for (const auto& [end, way] :
+      const double da = normal.dot(a - position_m), db = normal.dot(b - position_m), share = da / (da - db);
+      if ((da >= 0) == (db >= 0) || (a + share * (b - a) - position_m).cwiseAbs().maxCoeff() > reach_m) continue;
+      for (const auto& [end, direction] :
            {std::make_pair(near, spring), {static_cast<uint32_t>(other), oppositeSpring(spring)}}) {
-        setSpringCount(body.nodes[end], way, 0);
+        setSpringCount(body.nodes[end], direction, 0);
         body.nodes[end].lo |= layout::kSeveredBit;
-        if (way < layout::kAxialSprings && way % 2 == 0)
-          body.axial_cut[3 * size_t{end} + way / 2] = static_cast<float>(way == spring ? share : 1 - share);
+        if (direction < layout::kAxialSprings && direction % 2 == 0)
+          body.axial_cut[3 * size_t{end} + direction / 2] = static_cast<float>(direction == spring ? share : 1 - share);
       }
     }
   }
@@ -111,11 +111,11 @@ TEST(WoundWork, OfALaterCutIsThatOfAnEarlyOne) {
   size_t first = 0, last = 0;
   for (int cut = 0; cut < kCuts; ++cut) {  // adjacent strokes; each cut is a patch of a spacing's size
     const int stroke = cut / (kAlong * kDeep), along = cut / kDeep % kAlong, deep = cut % kDeep;
-    Vector3d place_m((2.53 * stroke + 2.5) * kWoundWorkSpacing_m, (along + 0.5) * kWoundWorkSpacing_m,
-                     size_m.z() - (deep + 0.5) * kWoundWorkSpacing_m);
-    const Vector3d from_middle = place_m - size_m / 2;
-    place_m.x() -= (normal.y() * from_middle.y() + normal.z() * from_middle.z()) / normal.x();
-    cutNear(body, place_m, normal, 0.51 * kWoundWorkSpacing_m);
+    Vector3d position_m((2.53 * stroke + 2.5) * kWoundWorkSpacing_m, (along + 0.5) * kWoundWorkSpacing_m,
+                        size_m.z() - (deep + 0.5) * kWoundWorkSpacing_m);
+    const Vector3d from_middle = position_m - size_m / 2;
+    position_m.x() -= (normal.y() * from_middle.y() + normal.z() * from_middle.z()) / normal.x();
+    cutNear(body, position_m, normal, 0.51 * kWoundWorkSpacing_m);
     body.update();
     if (cut < kSome) first += body.wound.work().all();
     if (cut >= kCuts - kSome) last += body.wound.work().all();

@@ -110,8 +110,8 @@ OrganFit fitFrom(double times) {
 TEST(Anchor, AndItsStrokesFollowAnOrganInThePlaceOfALargerOne) {
   Strokes strokes = anchored({0.03, -0.3, 0.02}, {0.03, 0, 0.02}, {Vector3d(0.004, 0, 0.008), {}});
   resolveAnchors(strokes, boxModel(), fitFrom(4));
-  const Vector3d place(0.03 / 4, -kHalfM, 0.02 / 4), key(0.004 / 4, -0.008 / 4, 0);
-  EXPECT_LT((strokes.strokes[0].keys[0].pose.position_m - place - key).norm(), kRoundingM);
+  const Vector3d position(0.03 / 4, -kHalfM, 0.02 / 4), key(0.004 / 4, -0.008 / 4, 0);
+  EXPECT_LT((strokes.strokes[0].keys[0].pose.position_m - position - key).norm(), kRoundingM);
 }
 
 TEST(Anchor, OfAnotherOrganMovesToWhereTheSkinIsBroadEnoughForAllStrokes) {

@@ -56,7 +56,7 @@ TEST(Jaws, AButtonClosesThemInTheirTimeAndTheyOpenWhenItIsLetGo) {
   EXPECT_NEAR(tools.advance(at(true))[0].opens_from_rad, 0.44, kTight);
 }
 
-TEST(Jaws, FollowAHandThatTellsThemFromItsFirstTickOn) {
+TEST(Jaws, FollowAStylusThatReportsThemFromItsFirstTickOn) {
   StylusConfig config = grasper();
   config.idle = ToolMode::kGrasper;
   Tools tools = toolsOf(config);
@@ -104,7 +104,7 @@ TEST(Jaws, OfAGrasperThatCloseOnNothingHoldNothingWhateverComesThen) {
   for (int t = 1; t <= 8; ++t) EXPECT_FALSE(tools.advance(at(true), tissueOf(0.2))[0].hold_begins);
 }
 
-TEST(Jaws, OfAGrasperLetGoWhenAHandOpensThemWiderThanWhatTheyHold) {
+TEST(Jaws, OfAGrasperLetGoWhenAUserOpensThemWiderThanWhatTheyHold) {
   StylusConfig config = grasper();
   config.idle = ToolMode::kGrasper;
   Tools tools = toolsOf(config);

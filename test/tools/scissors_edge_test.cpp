@@ -24,8 +24,8 @@ TEST(ScissorsEdge, TheMomentDoesTheWorkOfTheEdge) {
   double work_j = 0;
   for (double opening = kWide_rad; opening > kShears.closed_rad; opening -= step)
     work_j += step * closingMoment_n_m(kShears, opening - 0.5 * step, edge_n);
-  const double way_m = kShears.length_m - crossing_m(kShears, kWide_rad);
-  EXPECT_NEAR(work_j, edge_n * way_m, 1e-3 * edge_n * way_m);
+  const double offset_m = kShears.length_m - crossing_m(kShears, kWide_rad);
+  EXPECT_NEAR(work_j, edge_n * offset_m, 1e-3 * edge_n * offset_m);
 }
 
 TEST(ScissorsEdge, AnEdgeStandsWhereTheBladesCrossAndIsAsLongAsTheMouthWas) {

@@ -78,7 +78,7 @@ TEST(StrokesFile, FileThatCannotBeUsedIsNamed) {
   EXPECT_TRUE(says(loading(folder.write("broken.yaml", "strokes:\n  - {stylus: [\n")), {"broken.yaml:3: "}));
 }
 
-constexpr const char* kTwoHands =
+constexpr const char* kTwoTools =
     "strokes:\n"
     "  - stylus: right\n"
     "    keys:\n"
@@ -90,40 +90,40 @@ constexpr const char* kTwoHands =
     "marks: [{name: touch, t_s: 1.5}]\n";
 
 TEST(Strokes, LastAsLongAsTheirLastKey) {
-  EXPECT_EQ(parseStrokes(kTwoHands, "f.yaml").duration_s(), 3);
+  EXPECT_EQ(parseStrokes(kTwoTools, "f.yaml").duration_s(), 3);
 }
 
 TEST(Strokes, KeepTheirMarks) {
-  const Strokes strokes = parseStrokes(kTwoHands, "f.yaml");
+  const Strokes strokes = parseStrokes(kTwoTools, "f.yaml");
   ASSERT_EQ(strokes.marks.size(), 1u);
   EXPECT_EQ(strokes.marks[0].name, "touch");
   EXPECT_EQ(strokes.marks[0].time_s, 1.5);
 }
 
 TEST(Strokes, GoToTheStylusOfTheirName) {
-  EXPECT_EQ(sample(kTwoHands, 2.5, 0).pose.position_m.x(), 7);
-  EXPECT_LT(sample(kTwoHands, 2.5, 1).pose.position_m.x(), 1);
+  EXPECT_EQ(sample(kTwoTools, 2.5, 0).pose.position_m.x(), 7);
+  EXPECT_LT(sample(kTwoTools, 2.5, 1).pose.position_m.x(), 1);
 }
 
 TEST(Strokes, StylusIsUnknownBeforeItsFirstKey) {
-  EXPECT_FALSE(sample(kTwoHands, 0.999, 1).valid);
-  EXPECT_TRUE(sample(kTwoHands, 1, 1).valid);
+  EXPECT_FALSE(sample(kTwoTools, 0.999, 1).valid);
+  EXPECT_TRUE(sample(kTwoTools, 1, 1).valid);
 }
 
 TEST(Strokes, PoseIsInterpolatedBetweenKeysAndHeldAfterTheLast) {
   constexpr double kRounding = 1e-12;
-  const StylusSample quarter = sample(kTwoHands, 1.5, 1);
+  const StylusSample quarter = sample(kTwoTools, 1.5, 1);
   EXPECT_LT((quarter.pose.position_m - Vector3d(0.05, 0, 0.1)).norm(), kRounding);
   EXPECT_LT(quarter.pose.orientation.angularDistance(rotationFromDegrees({0, 0, 22.5})), kRounding);
-  const StylusSample after = sample(kTwoHands, 100, 1);
+  const StylusSample after = sample(kTwoTools, 100, 1);
   EXPECT_TRUE(after.valid);
   EXPECT_LT((after.pose.position_m - Vector3d(0.2, 0, 0.4)).norm(), kRounding);
 }
 
 TEST(Strokes, ButtonsAreThoseOfTheLastKey) {
-  EXPECT_TRUE(sample(kTwoHands, 2.999, 1).button1);
-  EXPECT_FALSE(sample(kTwoHands, 3, 1).button1);
-  EXPECT_TRUE(sample(kTwoHands, 100, 0).button2);
+  EXPECT_TRUE(sample(kTwoTools, 2.999, 1).button1);
+  EXPECT_FALSE(sample(kTwoTools, 3, 1).button1);
+  EXPECT_TRUE(sample(kTwoTools, 100, 0).button2);
 }
 
 TEST(Strokes, LaterStrokeOfAStylusTakesOverWhenItBegins) {
@@ -198,10 +198,10 @@ TEST(RecordedStrokes, ComeBackToTheBit) {
   was.strokes[0].stylus = "left";
   was.strokes[1].stylus = "right";  // a stylus that was never tracked
   for (uint64_t tick = 1; tick <= 300; ++tick) {
-    const Vector3d place(anywhere(random), 1e-9 * anywhere(random), 1e-310 * anywhere(random));
+    const Vector3d position(anywhere(random), 1e-9 * anywhere(random), 1e-310 * anywhere(random));
     const Quaterniond turn = Quaterniond(anywhere(random), anywhere(random), anywhere(random), anywhere(random));
     const float jaw_rad = tick % 5 == 0 ? kNoJaw : static_cast<float>(std::abs(anywhere(random)));
-    was.strokes[0].samples.push_back({tick, {place, turn.normalized()}, tick % 3 == 0, tick % 2 == 0, jaw_rad});
+    was.strokes[0].samples.push_back({tick, {position, turn.normalized()}, tick % 3 == 0, tick % 2 == 0, jaw_rad});
   }
   const Strokes is = parseStrokes(strokesYaml(was), "f.yaml");
   EXPECT_EQ(is.tick_hz, was.tick_hz);

@@ -47,10 +47,10 @@ TEST(ToolMetrics, WaysAndForcesAreMeasuredWhereTheyAre) {
   ToolTrack track;
   track.rate_hz = 10;
   // Three sides of a square of 1 cm, then lost for a moment, then elsewhere: the gap adds no path.
-  const Vector3d places[] = {{0, 0, 0}, {0.01, 0, 0}, {0.01, 0.01, 0}, {0, 0.01, 0}, {5, 5, 5}, {0.5, 0.01, 0}};
-  for (const Vector3d& place : places) {
-    track.places_m.push_back(place);
-    track.tracked.push_back(place.z() == 0);
+  const Vector3d positions[] = {{0, 0, 0}, {0.01, 0, 0}, {0.01, 0.01, 0}, {0, 0.01, 0}, {5, 5, 5}, {0.5, 0.01, 0}};
+  for (const Vector3d& position : positions) {
+    track.positions_m.push_back(position);
+    track.tracked.push_back(position.z() == 0);
     track.forces_n.push_back(Vector3d::Zero());
   }
   track.forces_n[1] = {3, 0, 4};
@@ -71,7 +71,7 @@ TEST(ToolMetrics, VolumeOfForceIsThatOfItsEllipsoid) {
   track.rate_hz = 10;
   for (int corner = 0; corner < 8; ++corner) {
     track.forces_n.emplace_back(10 + (corner & 1 ? 1 : -1), corner & 2 ? 2 : -2, corner & 4 ? 3 : -3);
-    track.places_m.push_back(Vector3d::Zero());
+    track.positions_m.push_back(Vector3d::Zero());
     track.tracked.push_back(true);
   }
   EXPECT_NEAR(metricsOf(track).force_volume_n3, 4.0 / 3.0 * 3.14159265358979 * 6, 1e-9);

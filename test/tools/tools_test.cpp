@@ -209,7 +209,7 @@ TEST(Tools, StylusThatAppearsFeelsUntilItIsFoundOutside) {
   EXPECT_EQ(tools.advance(one(0))[0].feels_m, 0.01);
 }
 
-TEST(Tools, ForgottenHandAppearsAgainAndItsHoldBeginsAgain) {
+TEST(Tools, ClearedToolAppearsAgainAndItsHoldBeginsAgain) {
   Tools tools = feelingStylus();
   tools.advance(one(0, true));
   EXPECT_FALSE(tools.advance(one(0, true))[0].hold_begins);

@@ -36,7 +36,8 @@ class Mesh {
   explicit Mesh(const Revolution& body) : body_(body), rows_(2 * body.across + 1), columns_(2 * body.along + 1) {
     for (int i = 0; i < rows_; ++i) {
       for (int j = 0; j < columns_; ++j) {
-        places_.push_back(body.section(static_cast<double>(i) / (rows_ - 1), static_cast<double>(j) / (columns_ - 1)));
+        positions_.push_back(
+            body.section(static_cast<double>(i) / (rows_ - 1), static_cast<double>(j) / (columns_ - 1)));
       }
     }
     const double nu = body.poisson_ratio, young = body.young_modulus_pa, mu = young / (2 * (1 + nu));
@@ -63,13 +64,13 @@ class Mesh {
  private:
   static constexpr double kHeld = 1e9;  ///< penalty stiffness of a fixed displacement, relative to the material
 
-  int dofs() const { return 3 * static_cast<int>(places_.size()); }
+  int dofs() const { return 3 * static_cast<int>(positions_.size()); }
   void addElement(int i, int j) {
     std::array<int, 9> nodes;
     Vector9 r, z;
     for (int n = 0; n < 9; ++n) {
       nodes[static_cast<size_t>(n)] = (2 * i + n / 3) * columns_ + 2 * j + n % 3;
-      const Eigen::Vector2d& at = places_[static_cast<size_t>(nodes[static_cast<size_t>(n)])];
+      const Eigen::Vector2d& at = positions_[static_cast<size_t>(nodes[static_cast<size_t>(n)])];
       r[n] = at.x(), z[n] = at.y();
     }
     Eigen::Matrix<double, 27, 27> k = Eigen::Matrix<double, 27, 27>::Zero();
@@ -119,15 +120,15 @@ class Mesh {
     const int n = body_.waves;
     fixed_.assign(static_cast<size_t>(dofs()), false);
     size_t low = 0, high = 0;
-    for (size_t i = 0; i < places_.size(); ++i) {
-      const Eigen::Vector2d& at = places_[i];
+    for (size_t i = 0; i < positions_.size(); ++i) {
+      const Eigen::Vector2d& at = positions_[i];
       if (n == 0) fixed_[3 * i + 1] = true;
       if (at.x() < kOnAxis) {
         if (n != 1) fixed_[3 * i] = fixed_[3 * i + 1] = true;
         if (n > 0) fixed_[3 * i + 2] = true;
       }
-      if (at.x() - at.y() > places_[low].x() - places_[low].y()) low = i;
-      if (at.x() + at.y() > places_[high].x() + places_[high].y()) high = i;
+      if (at.x() - at.y() > positions_[low].x() - positions_[low].y()) low = i;
+      if (at.x() + at.y() > positions_[high].x() + positions_[high].y()) high = i;
     }
     if (n == 0) fixed_[3 * low + 2] = true;
     if (n == 1) fixed_[3 * low] = fixed_[3 * high] = true;
@@ -135,7 +136,7 @@ class Mesh {
 
   const Revolution& body_;
   int rows_, columns_;
-  std::vector<Eigen::Vector2d> places_;  ///< [nodes] r, z
+  std::vector<Eigen::Vector2d> positions_;  ///< [nodes] r, z
   Eigen::Matrix<double, 6, 6> elasticity_ = Eigen::Matrix<double, 6, 6>::Zero();
   std::vector<Eigen::Triplet<double>> stiffness_;
   Eigen::VectorXd load_ = Eigen::VectorXd::Zero(3 * (2 * body_.across + 1) * (2 * body_.along + 1));

@@ -20,14 +20,14 @@ ScalarLattice::ScalarLattice(const Model& model, const HostState& start, double 
       kick_s_(static_cast<float>(0.5 * dt_s)) {
   const Lattice& lattice = model.bodies[0].lattice;
   const Vector3i size = lattice.nodes_per_axis.array() + 2 * kBorder;
-  const auto placeOf = [&](const Vector3i& node) {
+  const auto positionOf = [&](const Vector3i& node) {
     return node.x() + size.x() * (node.y() + static_cast<std::ptrdiff_t>(size.y()) * node.z());
   };
-  const size_t places = static_cast<size_t>(placeOf({0, 0, size.z()}));
-  nodes_.resize(places);
-  bits_.resize(places);
+  const size_t positions = static_cast<size_t>(positionOf({0, 0, size.z()}));
+  nodes_.resize(positions);
+  bits_.resize(positions);
   for (uint32_t slot : lattice.active_slots) {
-    const size_t at = static_cast<size_t>(placeOf(lattice.nodeAt(slot).array() + kBorder));
+    const size_t at = static_cast<size_t>(positionOf(lattice.nodeAt(slot).array() + kBorder));
     const layout::vec4 &u = start.displacement_m[slot], &v = start.velocity_m_per_s[slot];
     active_.push_back(static_cast<uint32_t>(at));
     nodes_[at] = {{u.x, u.y, u.z}, {v.x, v.y, v.z}};
@@ -38,7 +38,7 @@ ScalarLattice::ScalarLattice(const Model& model, const HostState& start, double 
   for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
     const auto& o = kNeighborOffsets[s];
     const float length = isAxial(s) ? h : std::sqrt(2.0f) * h;
-    neighbors_[s] = {placeOf({o[0], o[1], o[2]}),
+    neighbors_[s] = {positionOf({o[0], o[1], o[2]}),
                      {h * static_cast<float>(o[0]), h * static_cast<float>(o[1]), h * static_cast<float>(o[2])},
                      length,
                      isAxial(s) ? body_.axial_quarter_n_per_m : body_.diagonal_half_n_per_m};

@@ -102,12 +102,12 @@ Scene pigHeartScene(int nodes, double stiffness_damping_ratio) {
 
 Vector3d farthestNode(const Model& model, const HostState& state, const Vector3d& direction) {
   const Lattice& lattice = model.bodies[0].lattice;
-  const auto placeOf = [&](uint32_t slot) -> Vector3d {
+  const auto positionOf = [&](uint32_t slot) -> Vector3d {
     return lattice.restPosition(slot) + xyz(state.displacement_m[slot]);
   };
-  Vector3d best = placeOf(lattice.active_slots[0]);
+  Vector3d best = positionOf(lattice.active_slots[0]);
   for (uint32_t slot : lattice.active_slots) {
-    const Vector3d at = placeOf(slot);
+    const Vector3d at = positionOf(slot);
     if (at.dot(direction) > best.dot(direction)) best = at;
   }
   return best;

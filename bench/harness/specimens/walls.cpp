@@ -52,8 +52,8 @@ class Grid {
   }
   /// Returns the displacement at a position, both in the wall's axes [m]; not finite outside the cells.
   /// @param u_m  [slots]
-  Vector3d movedAt(const Lattice& lattice, const Field& u_m, const Vector3d& place_m) const {
-    const Vector3d at = placing_.turn * place_m / spacing_m_ + placing_.shift - low_.cast<double>();
+  Vector3d movedAt(const Lattice& lattice, const Field& u_m, const Vector3d& position_m) const {
+    const Vector3d at = placing_.turn * position_m / spacing_m_ + placing_.shift - low_.cast<double>();
     const Vector3i cell = at.array().floor().cast<int>();
     if (solid_.label(cell.x(), cell.y(), cell.z()) == 0) return Vector3d::Constant(std::nan(""));
     Vector3d out = Vector3d::Zero();
@@ -95,15 +95,15 @@ class Grid {
     int inside = 0;
     for (int s = 0; s < all; ++s) {
       const Vector3d at = (Vector3d(s % samples, s / samples % samples, s / samples / samples).array() + 0.5) / samples;
-      const Vector3d place = own(cell, at);
-      if (!wall_.inside(place)) continue;
+      const Vector3d position = own(cell, at);
+      if (!wall_.inside(position)) continue;
       const Vector3d p = at.array() - 0.5;
       ++inside;
       out.fill.share += share;
       out.fill.first += share * p;
       out.fill.second += share * p * p.transpose();
       out.fill.second.diagonal().array() += share / (12.0 * samples * samples);
-      const Vector3d force = share * std::pow(spacing_m_, 3) * (placing_.turn * wall_.load_n_per_m3(place));
+      const Vector3d force = share * std::pow(spacing_m_, 3) * (placing_.turn * wall_.load_n_per_m3(position));
       for (int c = 0; c < 8; ++c) out.load_n[static_cast<size_t>(c)] += weightOf(c, at) * force;
     }
     out.inside = static_cast<double>(inside) / all;
@@ -210,7 +210,8 @@ BentWall bendWall(const Wall& wall, const Placing& placing, double spacing_m, do
     return out;  // it has hinges: a mechanism
   }
   out.excess = work(load, u) / wall.true_j(poisson_ratio) - 1;
-  for (const Vector3d& place_m : watched_m) out.moved_m.push_back(grid.movedAt(model.bodies[0].lattice, u, place_m));
+  for (const Vector3d& position_m : watched_m)
+    out.moved_m.push_back(grid.movedAt(model.bodies[0].lattice, u, position_m));
   const double scale = kSmall * spacing_m / largestNorm(u);
   for (Vector3d& at : u) at *= scale;
   for (Backend backend : backends) {

@@ -58,7 +58,7 @@ Scene sceneOf(const Organ& organ, double spacing_m, Law law) {
 
 /// Position and direction of a press.
 struct Press {
-  Vector3d place_m, way;
+  Vector3d position_m, direction;
 };
 
 /// Returns the farthest positions below the clamp in several directions, pressed inwards.
@@ -70,7 +70,7 @@ std::vector<Press> pressesOn(const Model& model) {
     Press press{lattice.restPosition(lattice.active_slots[0]), -direction.normalized()};
     for (uint32_t slot : lattice.active_slots) {
       const Vector3d at = lattice.restPosition(slot);
-      if (at.dot(direction) > press.place_m.dot(direction) && at.z() < 0) press.place_m = at;
+      if (at.dot(direction) > press.position_m.dot(direction) && at.z() < 0) press.position_m = at;
     }
     out.push_back(press);
   }
@@ -83,10 +83,10 @@ Field pressOn(const ReferenceSolver& solver, const Press& press) {
   Field out(solver.slots(), Vector3d::Zero());
   double sum = 0;
   for (uint32_t slot : solver.active) {
-    const double away = (solver.restPosition(slot) - press.place_m).norm() / kAccuracySpacingProbeRadius_m;
+    const double away = (solver.restPosition(slot) - press.position_m).norm() / kAccuracySpacingProbeRadius_m;
     if (away >= 1 || isFixed(solver.nodes[slot])) continue;
     const double weight = solver.mass(slot) * std::pow(1 - away * away, 2);
-    out[slot] = weight * press.way;
+    out[slot] = weight * press.direction;
     sum += weight;
   }
   for (Vector3d& f : out) f /= sum;
@@ -94,26 +94,26 @@ Field pressOn(const ReferenceSolver& solver, const Press& press) {
 }
 
 /// Returns the index of each free component by degree of freedom; -1 for the others.
-std::vector<int> freePlaces(const ReferenceSolver& solver, int& free) {
-  std::vector<int> place(static_cast<size_t>(solver.dofs()), -1);
+std::vector<int> freePositions(const ReferenceSolver& solver, int& free) {
+  std::vector<int> position(static_cast<size_t>(solver.dofs()), -1);
   free = 0;
   for (uint32_t slot : solver.active) {
     if (isFixed(solver.nodes[slot]) || solver.isIsolated(slot)) continue;
-    for (int axis = 0; axis < 3; ++axis) place[static_cast<size_t>(solver.dof(slot, axis))] = free++;
+    for (int axis = 0; axis < 3; ++axis) position[static_cast<size_t>(solver.dof(slot, axis))] = free++;
   }
-  return place;
+  return position;
 }
 
-Eigen::SparseMatrix<double> freeStiffness(const ReferenceSolver& solver, const std::vector<int>& place, int free) {
+Eigen::SparseMatrix<double> freeStiffness(const ReferenceSolver& solver, const std::vector<int>& position, int free) {
   const Field rest(solver.slots(), Vector3d::Zero());
   const Eigen::SparseMatrix<double> whole = solver.stiffnessMatrix(rest);
   std::vector<Eigen::Triplet<double>> kept;
   kept.reserve(static_cast<size_t>(whole.nonZeros()));
   for (int column = 0; column < whole.outerSize(); ++column) {
-    if (place[static_cast<size_t>(column)] < 0) continue;
+    if (position[static_cast<size_t>(column)] < 0) continue;
     for (Eigen::SparseMatrix<double>::InnerIterator it(whole, column); it; ++it) {
-      const int row = place[static_cast<size_t>(it.row())];
-      if (row >= 0) kept.emplace_back(row, place[static_cast<size_t>(column)], it.value());
+      const int row = position[static_cast<size_t>(it.row())];
+      if (row >= 0) kept.emplace_back(row, position[static_cast<size_t>(column)], it.value());
     }
   }
   Eigen::SparseMatrix<double> k(free, free);
@@ -126,8 +126,8 @@ Eigen::SparseMatrix<double> freeStiffness(const ReferenceSolver& solver, const s
 std::vector<double> responses(const Model& model, const std::vector<Press>& presses) {
   const ReferenceSolver solver(model, Vector3d::Zero(), 1);
   int free = 0;
-  const std::vector<int> place = freePlaces(solver, free);
-  const Eigen::SparseMatrix<double> k = freeStiffness(solver, place, free);
+  const std::vector<int> position = freePositions(solver, free);
+  const Eigen::SparseMatrix<double> k = freeStiffness(solver, position, free);
   Eigen::ConjugateGradient<Eigen::SparseMatrix<double>, Eigen::Lower | Eigen::Upper> gradients(k);
   gradients.setTolerance(kResidual);
   std::vector<double> out;
@@ -135,7 +135,7 @@ std::vector<double> responses(const Model& model, const std::vector<Press>& pres
     const Field load = pressOn(solver, press);
     Eigen::VectorXd f = Eigen::VectorXd::Zero(free);
     for (uint32_t slot : solver.active) {
-      const int at = place[static_cast<size_t>(solver.dof(slot, 0))];
+      const int at = position[static_cast<size_t>(solver.dof(slot, 0))];
       if (at >= 0) f.segment<3>(at) = load[slot];
     }
     out.push_back(f.dot(gradients.solve(f)));

@@ -59,24 +59,24 @@ Scene blockOf(const Vector3d& size_m, double spacing_m, const char* tissue, cons
   return scene;
 }
 
-class Hand {
+class Tool {
  public:
-  Hand(const Scene& scene, const Pose& pose) : model_(buildModel(scene)), solver_(model_, scene), at_(pose) {}
+  Tool(const Scene& scene, const Pose& pose) : model_(buildModel(scene)), solver_(model_, scene), at_(pose) {}
 
-  void go(const Vector3d& way_m, double speed_m_per_s) {
-    const int ticks = std::max(1, static_cast<int>(way_m.norm() / speed_m_per_s * kTick_hz));
+  void go(const Vector3d& offset_m, double speed_m_per_s) {
+    const int ticks = std::max(1, static_cast<int>(offset_m.norm() / speed_m_per_s * kTick_hz));
     for (int i = 0; i < ticks; ++i) {
       ToolMotions motions;
       motions[0].mode = ToolMode::kCut;
       motions[0].present = true;
       motions[0].from = at_;
-      at_.position_m += way_m / ticks;
+      at_.position_m += offset_m / ticks;
       motions[0].to = at_;
       solver_.step(motions);
       layout::TickStats stats;
       while (solver_.pollStats(stats, true)) last_ = stats;
       const Vector3d impulse(last_.impulse[0].x, last_.impulse[0].y, last_.impulse[0].z);
-      gone_m_ += way_m.norm() / ticks;
+      gone_m_ += offset_m.norm() / ticks;
       time_s_ += 1 / kTick_hz;
       moments_.push_back({time_s_, gone_m_, kTick_hz * impulse.norm()});
     }
@@ -127,7 +127,7 @@ struct Published {
   static constexpr double kFirst_n = 1.41, kFirst_m = 0.01915, kThen_n = 0.42, kSecond_n = 2.32, kSecond_m = 0.0367;
 };
 
-Hand pricked(double spacing_m) {
+Tool pricked(double spacing_m) {
   StylusConfig needle;
   needle.cut.blade_length_m = 0.08;
   needle.cut.friction_n_per_m = Published::kFriction_n_per_m;
@@ -138,9 +138,9 @@ Hand pricked(double spacing_m) {
   body.layers = {{0.001, Vector3d::Ones(), Published::kCapsule},
                  {0.0145, Vector3d::Ones(), 0},
                  {0.0175, Vector3d::Ones(), Published::kMembrane}};
-  Hand hand(scene, {{0.0013, 0.0007, kClear_m}, Quaterniond::Identity()});
-  hand.go({0, 0, -Published::kDeep_m - kClear_m}, 0.05);
-  return hand;
+  Tool tool(scene, {{0.0013, 0.0007, kClear_m}, Quaterniond::Identity()});
+  tool.go({0, 0, -Published::kDeep_m - kClear_m}, 0.05);
+  return tool;
 }
 
 Series curveOf(const std::string& name, const std::vector<Moment>& moments, bool over_time) {
@@ -174,18 +174,18 @@ void bladeOnset(Report& report) {
     if (report.isShort() && spacing_m < 0.004) continue;
     const std::string name = "h " + Cell(spacing_m / kMilli).text(2) + " mm";
     report.stage("onset, " + name);
-    const Hand hand = pricked(spacing_m);
-    const std::vector<Moment>& moments = hand.moments();
-    Toughness capsule = toughnessOf(hand.model().bodies[0]);
+    const Tool tool = pricked(spacing_m);
+    const std::vector<Moment>& moments = tool.moments();
+    Toughness capsule = toughnessOf(tool.model().bodies[0]);
     capsule.asked_j_per_m2 = Published::kCapsule;
     const double carried = capsule.ofPoint_n(Published::kWidth_m, capsule.pointKernel_m(Published::kWidth_m)) /
                            (Published::kCapsule * Published::kWidth_m);
     const Moment first = largest(moments, 0, 0.013), then = leastAfter(moments, first.gone_m, first.gone_m + 0.006),
                  second = largest(moments, then.gone_m + 0.004, 0.028);
     table.add({spacing_m / kMilli, carried, first.force_n, (first.gone_m - kClear_m) / kMilli, then.force_n,
-               second.force_n, (second.gone_m - kClear_m) / kMilli, moments.back().force_n, hand.trips()});
+               second.force_n, (second.gone_m - kClear_m) / kMilli, moments.back().force_n, tool.trips()});
     plot.series.push_back(curveOf(name, moments, false));
-    report.checkAtMost("trips, needle, " + name, hand.trips(), 0);
+    report.checkAtMost("trips, needle, " + name, tool.trips(), 0);
     report.checkAtMost("drop after the first peak, " + name, then.force_n / first.force_n, kMostLeft);
     if (carried > kAllCarried)
       report.checkAtLeast("left after the first peak, " + name, then.force_n / first.force_n, kLeastLeft);
@@ -202,7 +202,7 @@ void bladeOnset(Report& report) {
   report.add(plot, "onset");
 }
 
-void bladeHand(Report& report) {
+void bladeTool(Report& report) {
   Table table("A blade is pressed 10 mm into 40 mm of tissue and drawn 24 mm along itself, 4 mm deeper",
               {{"tissue"},
                {"J", "J/m2"},
@@ -221,23 +221,23 @@ void bladeHand(Report& report) {
     knife.cut.blade_length_m = 0.08;
     const Quaterniond lies = rotationBetween(Vector3d::UnitZ(), -Vector3d::UnitX());
     const Scene scene = blockOf({0.04, 0.048, 0.036}, report.isShort() ? 0.004 : 0.003, tissue, knife);
-    Hand hand(scene, {{0.022, 0.0004, kClear_m}, lies});
-    hand.go({0, 0, -0.01 - kClear_m}, 0.03);
-    const size_t pressed = hand.moments().size();
-    hand.go({0.024, 0, -0.004}, 0.06);
-    const size_t drawn = hand.moments().size();
-    hand.go({0, 0, 0.03}, 0.06);
-    const std::vector<Moment>& moments = hand.moments();
+    Tool tool(scene, {{0.022, 0.0004, kClear_m}, lies});
+    tool.go({0, 0, -0.01 - kClear_m}, 0.03);
+    const size_t pressed = tool.moments().size();
+    tool.go({0.024, 0, -0.004}, 0.06);
+    const size_t drawn = tool.moments().size();
+    tool.go({0, 0, 0.03}, 0.06);
+    const std::vector<Moment>& moments = tool.moments();
     double most_n = 0, sum_n = 0;
     for (size_t i = 0; i < drawn; ++i) {
       if (i < pressed) most_n = std::max(most_n, moments[i].force_n);
       if (i >= pressed) sum_n += moments[i].force_n / static_cast<double>(drawn - pressed);
     }
-    const Toughness toughness = toughnessOf(hand.model().bodies[0]);
+    const Toughness toughness = toughnessOf(tool.model().bodies[0]);
     table.add({Cell(tissue), toughness.asked_j_per_m2, toughness.carried_j_per_m2() / toughness.asked_j_per_m2, most_n,
-               sum_n, 1e6 * hand.work().area_m2, hand.trips()});
+               sum_n, 1e6 * tool.work().area_m2, tool.trips()});
     plot.series.push_back(curveOf(tissue, moments, true));
-    report.checkAtMost(std::string("trips, hand in ") + tissue, hand.trips(), 0);
+    report.checkAtMost(std::string("trips, hand in ") + tissue, tool.trips(), 0);
   }
   report.add(table, "hand");
   report.add(plot, "hand");

@@ -7,8 +7,8 @@
 namespace viscera::bench {
 
 /// Parts of the suite. Compares a needle in liver with the published curve (bladeOnset), and measures a user's stroke
-/// that presses a blade into tissues and draws it (bladeHand).
+/// that presses a blade into tissues and draws it (bladeTool).
 void bladeOnset(Report& report);
-void bladeHand(Report& report);
+void bladeTool(Report& report);
 
 }  // namespace viscera::bench

@@ -216,7 +216,7 @@ void bladeSuite(Report& report) {
                         {"prestress", prestressSlits},
                         {"strokes", bladeStrokes},
                         {"onset", bladeOnset},
-                        {"hand", bladeHand},
+                        {"hand", bladeTool},
                         {"tear", bladeTears},
                         {"cost", cost},
                         {"gpu", onTheGpu}});

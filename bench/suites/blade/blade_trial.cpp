@@ -116,7 +116,7 @@ class Stroke {
         solver_(solverOn(trial.backend, model_, scene_)) {
     const double angle = trial.angle_deg * kDegree;
     go_ = {std::cos(angle), std::sin(angle), 0};
-    way_ = go_ - trial.slicing * Vector3d::UnitZ();
+    direction_ = go_ - trial.slicing * Vector3d::UnitZ();
     at_ = {-0.5 * trial.length_m - kBladeTrialClear_m,
            -0.5 * trial.stroke_m * std::sin(angle) + trial.beside * trial.spacing_m,
            -0.5 * trial.thickness_m - kOver_m};
@@ -140,7 +140,7 @@ class Stroke {
     motions[0].mode = trial_.there ? ToolMode::kCut : ToolMode::kNone;
     motions[0].present = trial_.there;
     motions[0].from.position_m = at_;
-    at_ += tick_s * trial_.speed_m_per_s * way_;
+    at_ += tick_s * trial_.speed_m_per_s * direction_;
     motions[0].to.position_m = at_;
     gone_m_ += tick_s * trial_.speed_m_per_s;
     const Clock::time_point start = Clock::now();
@@ -201,7 +201,7 @@ class Stroke {
   Scene scene_;
   Model model_;
   std::unique_ptr<TissueStepper> solver_;
-  Vector3d go_, way_, at_;
+  Vector3d go_, direction_, at_;
   std::optional<ReferenceLattice> lattice_;  ///< used for the power of damping
   double damped_j_ = 0, gone_m_ = 0, force_unit_n_ = 0;
   layout::TickStats last_{};

@@ -92,9 +92,9 @@ class Slit {
     solver_.step(motions);
     settle();
     const HostState state = solver_.readState();
-    for (size_t i = 0; i < kSlitPlaces.size(); ++i) {
-      const double x = kSlitPlaces[i] * trial_.half_m;
-      const double law = out.asked * std::sqrt(1 - kSlitPlaces[i] * kSlitPlaces[i]);
+    for (size_t i = 0; i < kSlitPositions.size(); ++i) {
+      const double x = kSlitPositions[i] * trial_.half_m;
+      const double law = out.asked * std::sqrt(1 - kSlitPositions[i] * kSlitPositions[i]);
       out.opening[i] = (sideAt(above_m_, x, state) - sideAt(below_m_, x, state)) / law;
     }
     out.nodes = model_.activeNodes();

@@ -21,13 +21,13 @@ struct SlitTrial {
 };
 
 struct SlitResult {
-  std::array<double, 3> opening{};  ///< opening relative to the law's, at kSlitPlaces
+  std::array<double, 3> opening{};  ///< opening relative to the law's, at kSlitPositions
   double asked = 0;                 ///< opening in the centre by the law [m]
   double uncut = 0;                 ///< largest displacement of a node before the cut, relative to the law's opening
   size_t nodes = 0;
   double trips = 0;
 };
-constexpr std::array<double, 3> kSlitPlaces = {0, 0.5, 0.8};  ///< distances from the centre, over a
+constexpr std::array<double, 3> kSlitPositions = {0, 0.5, 0.8};  ///< distances from the centre, over a
 
 /// Measures the opening of a slit. In a large sheet it is 4 sigma a / E sqrt(1 - x^2 / a^2), sigma the stress before
 /// the cut. A rim fixed at the radius R reduces it: sigma / (1 + c (a / R)^2),

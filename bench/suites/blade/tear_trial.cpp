@@ -182,7 +182,7 @@ std::vector<double> legForces(const TearTrial& trial, Plate& plate) {
   }
   const double step_m = kSpeed_m_per_s / kTearTrialTick_hz, law_n = 0.5 * trial.toughness_j_per_m2 * trial.thickness_m;
   std::vector<double> out;
-  for (double way_m = 0; way_m < kLongest * trial.length_m; way_m += step_m) {
+  for (double offset_m = 0; offset_m < kLongest * trial.length_m; offset_m += step_m) {
     for (const size_t s : {0, 1}) {
       motions[s].from = motions[s].to;
       motions[s].to.position_m.z() += s ? step_m : -step_m;

@@ -43,8 +43,8 @@ Vector3d indented(const Vector3d& x) {
     const double z = 0.5 * kWidth_m + kAbove_m - p.z(), r = std::hypot(p.x(), p.y()), big = std::hypot(r, z);
     const double down = 2 * (1 - kNu) / big + z * z / (big * big * big);
     const double out = r / (big * big * big) * z - (1 - 2 * kNu) * r / (big * (big + z));
-    const Vector3d way = r > 1e-12 ? Vector3d(p.x() / r, p.y() / r, 0) : Vector3d(0, 0, 0);
-    return Vector3d(out * way - down * Vector3d::UnitZ());
+    const Vector3d direction = r > 1e-12 ? Vector3d(p.x() / r, p.y() / r, 0) : Vector3d(0, 0, 0);
+    return Vector3d(out * direction - down * Vector3d::UnitZ());
   };
   const double at_top = -shape({0, 0, 0.5 * kWidth_m}).z();
   return x + kDepth_m / at_top * shape(x);

@@ -9,15 +9,15 @@ namespace viscera::bench {
 
 namespace {
 
-struct Way {
+struct Variant {
   const char* name;
   Wanted wanted;
   bool waits;
 };
-constexpr Way kWays[] = {{"nothing", Wanted::kNothing, false},
-                         {"skin and image, in flight", Wanted::kSurfaceAndImages, false},
-                         {"nothing, waiting for every tick", Wanted::kNothing, true},
-                         {"skin and image, waiting for every tick", Wanted::kSurfaceAndImages, true}};
+constexpr Variant kVariants[] = {{"nothing", Wanted::kNothing, false},
+                                 {"skin and image, in flight", Wanted::kSurfaceAndImages, false},
+                                 {"nothing, waiting for every tick", Wanted::kNothing, true},
+                                 {"skin and image, waiting for every tick", Wanted::kSurfaceAndImages, true}};
 
 /// Returns a session with outputs after every tick: its surface mesh and its only image.
 Scene viewedHeart(int nodes) {
@@ -37,15 +37,15 @@ void measureFlight(Report& report) {
   Table table(
       "read-back of a heart of " + std::to_string(nodes) + " nodes, 60 ticks/s of simulated time, as fast as possible",
       {{"read back after each tick"}, {"tick", "ms", 3}, {"read back", "per tick", 3}, {"overtaken", "per tick", 3}});
-  for (const Way& way : kWays) {
-    report.stage(std::string("read-back: ") + way.name);
+  for (const Variant& variant : kVariants) {
+    report.stage(std::string("read-back: ") + variant.name);
     const auto samples = [&] {
-      if (way.waits) session.drain();
+      if (variant.waits) session.drain();
       return pressing.now();
     };
-    const SessionSpeed speed = measureSession(session, way.wanted, report.isShort() ? 0.2 : 3, samples);
+    const SessionSpeed speed = measureSession(session, variant.wanted, report.isShort() ? 0.2 : 3, samples);
     const double ticks = speed.ticks;
-    table.add({way.name, 1e3 * speed.tick_s, static_cast<double>(speed.work.readbacks) / ticks,
+    table.add({variant.name, 1e3 * speed.tick_s, static_cast<double>(speed.work.readbacks) / ticks,
                static_cast<double>(speed.work.skipped) / ticks});
   }
   report.add(table, "flight");
@@ -55,7 +55,7 @@ namespace {
 
 constexpr double kLiveSeconds = 5, kStagesSeconds = 2, kShortSeconds = 0.2;
 
-StylusSamples noHands() {
+StylusSamples noTools() {
   return {};
 }
 
@@ -63,7 +63,7 @@ StylusSamples noHands() {
 void addStages(Session& session, Wanted wanted, double seconds, Table& table) {
   gpu::StageClock clock;
   const auto begun_with = session.tick();
-  measureSession(session, wanted, seconds, noHands);
+  measureSession(session, wanted, seconds, noTools);
   const double ticks = static_cast<double>(session.tick() - begun_with);
   const auto& times = clock.collect(true);
   for (size_t s = 0; s < gpu::kStages; ++s) {
@@ -100,7 +100,7 @@ void measureLive(Report& report) {
     report.stage("live: wanted: " + nameOf(wanted));
     const uint64_t ticks_before = session.tick(), substeps_before = session.solver().substepsDone();
     const SessionSpeed speed =
-        measureSession(session, wanted, report.isShort() ? kShortSeconds : kLiveSeconds, noHands);
+        measureSession(session, wanted, report.isShort() ? kShortSeconds : kLiveSeconds, noTools);
     const double substeps = static_cast<double>(session.solver().substepsDone() - substeps_before) /
                             static_cast<double>(session.tick() - ticks_before);
     table.add({static_cast<double>(session.model().activeNodes()), static_cast<double>(session.model().skinTriangles()),

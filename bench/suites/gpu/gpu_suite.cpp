@@ -91,15 +91,15 @@ void measureGroupSizes(Report& report) {
 
 // ---- ways to read ----
 
-struct GpuWay {
+struct GpuVariant {
   const char *name, *feature;
   size_t bytes;  ///< bytes per node
 };
-constexpr GpuWay kGpuWays[] = {{"vec4, storage buffer", "STORAGE", 16},
-                               {"vec4, texel fetches", "TEXELS", 16},
-                               {"vec4, image loads", "IMAGES", 16},
-                               {"three floats, storage buffer", "PACKED", 12},
-                               {"three half floats, storage buffer", "HALVES", 8}};
+constexpr GpuVariant kGpuVariants[] = {{"vec4, storage buffer", "STORAGE", 16},
+                                       {"vec4, texel fetches", "TEXELS", 16},
+                                       {"vec4, image loads", "IMAGES", 16},
+                                       {"three floats, storage buffer", "PACKED", 12},
+                                       {"three half floats, storage buffer", "HALVES", 8}};
 
 uint16_t halfOf(float value) {  // valid for 0 and normal numbers between 2^-14 and 1
   uint32_t bits;
@@ -111,13 +111,13 @@ uint16_t halfOf(float value) {  // valid for 0 and normal numbers between 2^-14 
 }
 
 /// Returns numbers below 1 that are the same for all ways of reading.
-std::vector<float> stateFor(const GpuWay& way, size_t nodes) {
-  std::vector<float> out(way.bytes / sizeof(float) * nodes, 0.0f);
+std::vector<float> stateFor(const GpuVariant& variant, size_t nodes) {
+  std::vector<float> out(variant.bytes / sizeof(float) * nodes, 0.0f);
   for (size_t i = 0; i < nodes; ++i) {
     float v[3];
     for (size_t k = 0; k < 3; ++k) v[k] = static_cast<float>((i * 2654435761u + k * 40503u) % 1024) / 1024;
-    if (way.bytes > 8) {
-      std::copy_n(v, 3, &out[way.bytes / sizeof(float) * i]);
+    if (variant.bytes > 8) {
+      std::copy_n(v, 3, &out[variant.bytes / sizeof(float) * i]);
     } else {
       const uint16_t halves[4] = {halfOf(v[0]), halfOf(v[1]), halfOf(v[2]), 0};
       std::memcpy(&out[2 * i], halves, sizeof halves);
@@ -141,15 +141,15 @@ void measureReads(Report& report) {
   const gpu::Buffer<layout::vec4> sums(nodes, "sums");
   std::vector<layout::vec4> first;
   double apart = 0;
-  for (const GpuWay& way : kGpuWays) {
-    report.stage(way.name);
-    const gpu::Buffer<float> state(stateFor(way, nodes), "state");
+  for (const GpuVariant& variant : kGpuVariants) {
+    report.stage(variant.name);
+    const gpu::Buffer<float> state(stateFor(variant, nodes), "state");
     const gpu::Program program =
-        gpu::Program::compute("gpu_reads.comp", {"GROUP_SIZE " + std::to_string(layout::kGroupSize), way.feature});
+        gpu::Program::compute("gpu_reads.comp", {"GROUP_SIZE " + std::to_string(layout::kGroupSize), variant.feature});
     gpu::TexelView texels;
-    if (way.bytes == 16) texels = gpu::TexelView(state.raw(), gpu::TexelFormat::kRgba32f);
-    if (std::string(way.feature) == "TEXELS") texels.bind(0);
-    if (std::string(way.feature) == "IMAGES")
+    if (variant.bytes == 16) texels = gpu::TexelView(state.raw(), gpu::TexelFormat::kRgba32f);
+    if (std::string(variant.feature) == "TEXELS") texels.bind(0);
+    if (std::string(variant.feature) == "IMAGES")
       glBindImageTexture(0, texels.id(), 0, GL_FALSE, 0, GL_READ_ONLY, GL_RGBA32F);
     program.use();
     program.set("edge", edge);
@@ -171,8 +171,8 @@ void measureReads(Report& report) {
     for (size_t i = 0; i < nodes; ++i)
       apart =
           std::max(apart, static_cast<double>(std::abs(found[i].x - first[i].x) + std::abs(found[i].z - first[i].z)));
-    const double bytes = static_cast<double>(way.bytes), count = static_cast<double>(nodes);
-    table.add({way.name, bytes, 1e3 * seconds, 1e-6 * count / seconds, 1e-9 * 19 * bytes * count / seconds,
+    const double bytes = static_cast<double>(variant.bytes), count = static_cast<double>(nodes);
+    table.add({variant.name, bytes, 1e3 * seconds, 1e-6 * count / seconds, 1e-9 * 19 * bytes * count / seconds,
                (bytes + sizeof(layout::vec4)) * count / seconds / copy});
   }
   report.note(

@@ -31,13 +31,13 @@ class BentBeam {
       angle_ = std::min(angle, angle_ + 2 * M_PI / kSteps);
       for (uint32_t slot : solver_.active) {  // moves sections along the circle and keeps their other displacements
         const Vector3d rest = solver_.restPosition(slot);
-        solver_.u_m[slot] += bentPlace(rest, angle_) - bentPlace(rest, before);
+        solver_.u_m[slot] += bentPosition(rest, angle_) - bentPosition(rest, before);
       }
       std::vector<PrescribedDof> ends;
       for (uint32_t slot : solver_.active) {
         const Vector3d rest = solver_.restPosition(slot);
         if (rest.x() > 1e-9 && rest.x() < length_ - 1e-9) continue;
-        const Vector3d u = bentPlace(rest, angle_) - rest;
+        const Vector3d u = bentPosition(rest, angle_) - rest;
         // Sections stay plane and on their line; they are free to contract across and along y.
         ends.push_back({slot, 0, u.x()});
         ends.push_back({slot, 2, u.z()});
@@ -58,7 +58,7 @@ class BentBeam {
     return blockModel({length_, depth_, depth_}, 1, material);
   }
   /// Maps a point onto a circle of curvature angle / length; the mid-plane keeps its length.
-  Vector3d bentPlace(const Vector3d& rest, double angle) const {
+  Vector3d bentPosition(const Vector3d& rest, double angle) const {
     if (angle == 0) return rest;
     const double radius = length_ / angle, turn = (rest.x() / length_ - 0.5) * angle;
     const double r = radius + rest.z() - depth_ / 2.0;

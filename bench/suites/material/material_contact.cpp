@@ -62,7 +62,7 @@ struct Slide {
   double start_s, end_s;         ///< time span that is evaluated [s]
   double speed_m_per_s = 0;      ///< initial speed [m/s]
   double acceleration_m_per_s2;  ///< result: mean, down the slope [m/s2]
-  double way_m;                  ///< result: displacement [m]
+  double offset_m;               ///< result: displacement [m]
 };
 void slide(Backend backend, double friction, double slope_deg, Slide& run) {
   const Model model = blockModel({4, 4, 2}, kSpacing_m, stiffTissue());
@@ -85,7 +85,7 @@ void slide(Backend backend, double friction, double slope_deg, Slide& run) {
   double time_s = 0;
   const Middle first = run_to(time_s, run.start_s), last = run_to(time_s, run.end_s);
   run.acceleration_m_per_s2 = (last.speed_m_per_s - first.speed_m_per_s).dot(down) / (run.end_s - run.start_s);
-  run.way_m = (last.at_m - first.at_m).dot(down);
+  run.offset_m = (last.at_m - first.at_m).dot(down);
 }
 
 void measureSlopes(Report& report) {
@@ -105,15 +105,15 @@ void measureSlopes(Report& report) {
       const double angle = std::atan(tangent);
       slide(backend, kFriction, angle * 180 / M_PI, run);
       const double law = std::max(0.0, kGravity_m_per_s2 * (std::sin(angle) - kFriction * std::cos(angle)));
-      table.add({nameOf(backend), tangent, kFriction, 0.0, law, run.acceleration_m_per_s2, run.way_m});
+      table.add({nameOf(backend), tangent, kFriction, 0.0, law, run.acceleration_m_per_s2, run.offset_m});
       if (law > 0) worst = std::max(worst, std::abs(run.acceleration_m_per_s2 / law - 1));
-      if (law == 0) crept = std::abs(run.way_m);
+      if (law == 0) crept = std::abs(run.offset_m);
     }
     for (double friction : {0.1, 0.3}) {
       Slide run{0.1, 0.3, 1.2, 0, 0};
       slide(backend, friction, 0, run);
       const double law = -friction * kGravity_m_per_s2;
-      table.add({nameOf(backend), 0.0, friction, run.speed_m_per_s, law, run.acceleration_m_per_s2, run.way_m});
+      table.add({nameOf(backend), 0.0, friction, run.speed_m_per_s, law, run.acceleration_m_per_s2, run.offset_m});
       worst = std::max(worst, std::abs(run.acceleration_m_per_s2 / law - 1));
     }
     const std::string name = nameOf(backend) + ": contact: ";

@@ -215,7 +215,7 @@ void measureProbe(Report& report) {
 void measureThin(Report& report) {
   constexpr double kNu = 0.25;
   const int half_width = report.isShort() ? 4 : 6;
-  const Vector3d places[] = {{0, 0, 0}, {0.25, 0, 0}, {0.5, 0, 0}, {0.25, 0.25, 0}, {0.5, 0.5, 0}};
+  const Vector3d positions[] = {{0, 0, 0}, {0.25, 0, 0}, {0.5, 0, 0}, {0.25, 0.25, 0}, {0.5, 0.5, 0}};
   Table table("Probes of about a cell's size on a block on a plate, nu 1/4: reaction over Hertz's",
               {{"backend"},
                {"R/h"},
@@ -234,8 +234,8 @@ void measureThin(Report& report) {
         const double hertz = hertzForce(materialOf(kNu), radius, depth);
         std::vector<Cell> row{nameOf(backend), radius, depth};
         double worst = 0;
-        for (const Vector3d& place : places) {
-          const Indenter probe(backend, kNu, half_width, {0, radius, depth}, place, kThinTicks);
+        for (const Vector3d& position : positions) {
+          const Indenter probe(backend, kNu, half_width, {0, radius, depth}, position, kThinTicks);
           row.emplace_back(probe.reaction_n() / hertz);
           least = std::min(least, probe.reaction_n() / hertz);
           most = std::max(most, probe.reaction_n() / hertz);

@@ -292,18 +292,18 @@ class WallTests {
 
 /// Returns positions on the mid-surface of a ring's wall, around the whole ring and closed.
 std::vector<Vector3d> ringMiddle() {
-  constexpr int kPlaces = 96;
+  constexpr int kPositions = 96;
   constexpr double kRadius_m = 13;
   std::vector<Vector3d> out;
-  for (int i = 0; i <= kPlaces; ++i) {
-    const double angle = 2 * M_PI * i / kPlaces;
+  for (int i = 0; i <= kPositions; ++i) {
+    const double angle = 2 * M_PI * i / kPositions;
     out.emplace_back(kRadius_m * std::cos(angle), kRadius_m * std::sin(angle), 0);
   }
   return out;
 }
 
 /// Returns displacements without the rigid motion in the plane.
-Field withoutTurn(const std::vector<Vector3d>& places, Field moved) {
+Field withoutTurn(const std::vector<Vector3d>& positions, Field moved) {
   Vector3d mean = Vector3d::Zero();
   double turn = 0, count = 0;
   for (const Vector3d& u : moved) {
@@ -313,9 +313,9 @@ Field withoutTurn(const std::vector<Vector3d>& places, Field moved) {
   }
   for (size_t i = 0; i < moved.size(); ++i) {
     moved[i] -= mean / count;
-    if (moved[i].allFinite()) turn += places[i].cross(moved[i]).z() / places[i].squaredNorm() / count;
+    if (moved[i].allFinite()) turn += positions[i].cross(moved[i]).z() / positions[i].squaredNorm() / count;
   }
-  for (size_t i = 0; i < moved.size(); ++i) moved[i] -= turn * Vector3d::UnitZ().cross(places[i]);
+  for (size_t i = 0; i < moved.size(); ++i) moved[i] -= turn * Vector3d::UnitZ().cross(positions[i]);
   return moved;
 }
 
@@ -324,7 +324,7 @@ Field withoutTurn(const std::vector<Vector3d>& places, Field moved) {
 void drawRing(Report& report, bool is_turned) {
   const std::string placed = is_turned ? "turned" : "aligned";
   report.stage("walls, the shape of a ring, " + placed);
-  const std::vector<Vector3d> places = ringMiddle();
+  const std::vector<Vector3d> positions = ringMiddle();
   const Wall wall = ring();
   Placing placing;
   if (is_turned) placing.turn = turned();
@@ -333,13 +333,13 @@ void drawRing(Report& report, bool is_turned) {
   plot.equal_axes = true;
   double scale = 0;
   const auto add = [&](const std::string& name, double cells, Series::Style style) {
-    const Field bent = bendWall(wall, placing, wall.thickness_m / cells, 0.25, {}, places).moved_m;
+    const Field bent = bendWall(wall, placing, wall.thickness_m / cells, 0.25, {}, positions).moved_m;
     if (bent.empty()) return;  // the lattice falls apart
-    const Field moved = withoutTurn(places, bent);
-    if (scale == 0) scale = 0.2 * places[0].norm() / largestNorm(moved);
+    const Field moved = withoutTurn(positions, bent);
+    if (scale == 0) scale = 0.2 * positions[0].norm() / largestNorm(moved);
     Series series{name, {}, {}, style};
-    for (size_t i = 0; i < places.size(); ++i) {
-      const Vector3d at = places[i] + scale * moved[i];
+    for (size_t i = 0; i < positions.size(); ++i) {
+      const Vector3d at = positions[i] + scale * moved[i];
       series.x.push_back(at.x());
       series.y.push_back(at.y());
     }

@@ -106,12 +106,12 @@ class Stepping {
 };
 
 /// Returns the substeps per second of each, measured in turn.
-std::vector<double> ratesOf(std::vector<Stepping>& ways, double seconds) {
+std::vector<double> ratesOf(std::vector<Stepping>& variants, double seconds) {
   for (int round = 0; round < kRounds; ++round) {
-    for (Stepping& way : ways) way.run(seconds);
+    for (Stepping& variant : variants) variant.run(seconds);
   }
   std::vector<double> rates;
-  for (Stepping& way : ways) rates.push_back(way.takeRate());
+  for (Stepping& variant : variants) rates.push_back(variant.takeRate());
   return rates;
 }
 
@@ -122,14 +122,14 @@ void busySuite(Report& report) {
   report.stage("building");
   const Model model = buildModel(scene);
   const int there = usableProcessors();
-  std::vector<Stepping> ways;
-  ways.emplace_back(model, scene, 1, "1 thread");
-  ways.emplace_back(model, scene, 2, "2 threads");
-  ways.emplace_back(model, scene, 0, "auto (" + std::to_string(there) + ")");
+  std::vector<Stepping> variants;
+  variants.emplace_back(model, scene, 1, "1 thread");
+  variants.emplace_back(model, scene, 2, "2 threads");
+  variants.emplace_back(model, scene, 0, "auto (" + std::to_string(there) + ")");
   const double seconds = report.isShort() ? 0.1 : 2.5;
-  for (Stepping& way : ways) {
-    way.run(report.isShort() ? seconds : kWarmUp_s);
-    way.takeRate();
+  for (Stepping& variant : variants) {
+    variant.run(report.isShort() ? seconds : kWarmUp_s);
+    variant.takeRate();
   }
   Table table(
       "heart of " + std::to_string(model.activeNodes()) + " nodes with a probe in it, next to busy processes, on " +
@@ -140,10 +140,10 @@ void busySuite(Report& report) {
     report.stage("beside: " + busy.load.name);
     const BusyProcesses processes(busy.load);
     if (busy.load.processes > 0) std::this_thread::sleep_for(std::chrono::duration<double>(kSettle_s));
-    const std::vector<double> rates = ratesOf(ways, seconds);
+    const std::vector<double> rates = ratesOf(variants, seconds);
     if (idle.empty()) idle = rates;
-    for (size_t w = 0; w < ways.size(); ++w)
-      table.add({busy.load.name, ways[w].name(), rates[w], rates[w] / idle[w], rates[w] / rates[0]});
+    for (size_t w = 0; w < variants.size(); ++w)
+      table.add({busy.load.name, variants[w].name(), rates[w], rates[w] / idle[w], rates[w] / rates[0]});
     if (busy.least_of_idle > 0)
       report.checkAtLeast("2 threads beside " + busy.load.name + ", over idle", rates[1] / idle[1], busy.least_of_idle);
     if (busy.load.processes > 0)

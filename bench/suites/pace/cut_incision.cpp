@@ -54,12 +54,12 @@ uint64_t springsOf(const Session& session) {
 /// Returns images per second, one after every tick, by the median time from a tick's start to its image.
 template <class Samples>
 double picturesPerSecond(Session& session, int ticks, Samples samples) {
-  FrameRequest wants;
-  wants.cameras = {true};
+  FrameRequest outputs;
+  outputs.cameras = {true};
   std::vector<double> took_s;
   for (int t = 0; t < ticks; ++t) {
     const auto start = std::chrono::steady_clock::now();
-    session.step(samples(t), wants);
+    session.step(samples(t), outputs);
     session.drain();  // as in the paper: an image after every four substeps, without skipping
     took_s.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }

@@ -28,18 +28,19 @@ constexpr double kSwift_hz = 1000, kShort_s = 0.002, kLight_kg = 0.5;
 struct Key {
   double time_s, depth_m;
 };
-constexpr Key kWay[] = {{0, -0.01},    {0.4, 0.004},  {1.6, 0.004}, {1.7, 0.006}, {2.9, 0.006},
-                        {3.1, 0.0125}, {4.6, 0.0425}, {6, 0.0425},  {6.5, -0.02}, {7, -0.02}};
-constexpr double kFirst_s = 1.6, kSecond_s = 2.9, kLook_s = 0.4;  ///< ends of the holds, and evaluated time of each
-constexpr double kLevelFrom_s = 3.6, kLevelTo_s = 4.6;            ///< while it cuts
+constexpr Key kPath[] = {{0, -0.01},    {0.4, 0.004},  {1.6, 0.004}, {1.7, 0.006}, {2.9, 0.006},
+                         {3.1, 0.0125}, {4.6, 0.0425}, {6, 0.0425},  {6.5, -0.02}, {7, -0.02}};
+constexpr double kFirst_s = 1.6, kSecond_s = 2.9,
+                 kCheckEvery_s = 0.4;                   ///< ends of the holds, and evaluated time of each
+constexpr double kLevelFrom_s = 3.6, kLevelTo_s = 4.6;  ///< while it cuts
 constexpr double kStops_s = 6, kEnd_s = 7;
 
 double depthAt(double time_s) {
-  for (size_t i = 1; i < std::size(kWay); ++i) {
-    const Key &a = kWay[i - 1], &b = kWay[i];
+  for (size_t i = 1; i < std::size(kPath); ++i) {
+    const Key &a = kPath[i - 1], &b = kPath[i];
     if (time_s < b.time_s) return a.depth_m + (time_s - a.time_s) / (b.time_s - a.time_s) * (b.depth_m - a.depth_m);
   }
-  return kWay[std::size(kWay) - 1].depth_m;
+  return kPath[std::size(kPath) - 1].depth_m;
 }
 
 struct BladeTrial {
@@ -72,7 +73,7 @@ class Trial : public HeldTrial {
  public:
   explicit Trial(const BladeTrial& trial)
       : HeldTrial(sceneOf(trial), {trial.mass_kg, trial.delay_s, trial.poses_hz, 1 / kPeriod_s, kTip_m}, tipAt(0)) {
-    hand_.listens = true;
+    input_.accepts_force = true;
   }
 
   void run() {
@@ -81,39 +82,40 @@ class Trial : public HeldTrial {
       hear();
       tick();
       tell();
-      device_.step(told_n_, tipAt(now_s_));
-      look();
+      device_.step(sent_force_n_, tipAt(now_s_));
+      sample();
     }
   }
   double stiffness(const Probed ProbedHold::*force) const {
-    return ((looks_[1].*force).mean() - (looks_[0].*force).mean()) / (looks_[1].depth.mean() - looks_[0].depth.mean());
+    return ((samples_[1].*force).mean() - (samples_[0].*force).mean()) /
+           (samples_[1].depth.mean() - samples_[0].depth.mean());
   }
-  const ProbedHold& level() const { return looks_[2]; }
-  const ProbedHold& held() const { return looks_[1]; }
+  const ProbedHold& level() const { return samples_[2]; }
+  const ProbedHold& held() const { return samples_[1]; }
   double least_mj() const { return 1e3 * least_j_; }
   double most_j() const { return most_j_; }
-  double observed_mj() const { return 1e3 * loop_.felt(0).least_j; }
+  double observed_mj() const { return 1e3 * loop_.stats(0).least_j; }
 
  private:
   static Vector3d tipAt(double time_s) {
     return {-0.5 * kLength_m + depthAt(time_s), 0.0003, -0.5 * kThick_m - kOver_m};
   }
 
-  void look() {
+  void sample() {
     least_j_ = std::min(least_j_, device_.energy_j());
     most_j_ = std::max(most_j_, device_.energy_j());
     const std::pair<double, double> spans[] = {
-        {kFirst_s - kLook_s, kFirst_s}, {kSecond_s - kLook_s, kSecond_s}, {kLevelFrom_s, kLevelTo_s}};
+        {kFirst_s - kCheckEvery_s, kFirst_s}, {kSecond_s - kCheckEvery_s, kSecond_s}, {kLevelFrom_s, kLevelTo_s}};
     for (size_t i = 0; i < std::size(spans); ++i) {
       if (now_s_ < spans[i].first || now_s_ >= spans[i].second) continue;
-      looks_[i].force.add(told_n_.norm());
-      looks_[i].ticks.add(ticks_n_);
-      looks_[i].depth.add(device_.position_m().x());
+      samples_[i].force.add(sent_force_n_.norm());
+      samples_[i].ticks.add(ticks_n_);
+      samples_[i].depth.add(device_.position_m().x());
     }
   }
 
   double least_j_ = 0, most_j_ = 0;
-  ProbedHold looks_[3];
+  ProbedHold samples_[3];
 };
 
 Table tableOf() {

@@ -14,7 +14,7 @@ namespace {
 
 /// Limits for every cell of the matrix.
 constexpr double kStaticError = 0.02;      ///< relative to the simulator's force
-constexpr double kFelt_n = 0.05;           ///< least held force of needles and sutures that is checked
+constexpr double kLeastForce_n = 0.05;     ///< least held force of needles and sutures that is checked
 constexpr double kFree_n = 0.05;           ///< largest force in free motion
 constexpr double kHapticsActive_mj = 1;    ///< energy that the loop may give in addition to what it received
 constexpr double kHapticsSwift_hz = 1000;  ///< rate of a driver that is as fast as the loop
@@ -76,7 +76,7 @@ void add(Table& table, const HapticTrial& trial, const HapticOutcome& outcome, c
              outcome.force_n, outcome.simulator_n,
              outcome.simulator_n > 0 ? Cell(100 * outcome.static_error) : Cell(""), outcome.stiffness_n_per_m,
              outcome.swing_n, outcome.swing_mm, cycles(outcome) ? "yes" : "no", outcome.least_energy_mj,
-             outcome.observed_mj, outcome.unheard_mj, outcome.free_n, outcome.share});
+             outcome.observed_mj, outcome.unheard_mj, outcome.free_n, outcome.stiffness_scale});
 }
 
 /// The worst of all cells.
@@ -85,7 +85,7 @@ struct Worst {
   double swift_mj = 0;  ///< least energy with a driver as fast as the loop
   double least_mj = 0;  ///< least energy with any driver, beyond what no loop could avoid
   int cycling = 0;
-  void note(double poses_hz, const HapticOutcome& outcome) {
+  void record(double poses_hz, const HapticOutcome& outcome) {
     error = std::max(error, outcome.static_error);
     free_n = std::max(free_n, outcome.free_n);
     if (poses_hz >= kHapticsSwift_hz) swift_mj = std::min(swift_mj, outcome.least_energy_mj);
@@ -101,7 +101,7 @@ void measure(const Matrix& matrix, const HapticTrial& of_all, Table& table, Wors
     trial.mass_kg = mass;
     const HapticOutcome outcome = runHapticTrial(trial);
     add(table, trial, outcome, nameOf(trial.event));
-    worst.note(trial.poses_hz, outcome);
+    worst.record(trial.poses_hz, outcome);
     series.x.push_back(mass);
     series.y.push_back(outcome.swing_n);
   }
@@ -160,8 +160,8 @@ Worst measureSuture(Report& report, HapticTool tool, const char* name, Table& ta
           for (const HapticStage& stage : runSutureTrial(trial)) {
             HapticOutcome outcome = stage.outcome;
             add(table, trial, outcome, stage.name);
-            if (!stage.held || outcome.simulator_n < kFelt_n) outcome.static_error = 0;
-            worst.note(trial.poses_hz, outcome);
+            if (!stage.held || outcome.simulator_n < kLeastForce_n) outcome.static_error = 0;
+            worst.record(trial.poses_hz, outcome);
           }
         }
       }

@@ -15,8 +15,8 @@ namespace {
 constexpr double kHapticsSutureTrialSpacing_m = 0.003, kHapticsSutureTrialThick_m = 0.009,
                  kHapticsSutureTrialTip_m = 0.006;
 constexpr double kNeedle_m = 0.02;    ///< radius of its arc: large, because the device does not rotate it
-constexpr double kHandOver_m = 0.02;  ///< height of a suture's end over the surface at which it is just taut
-constexpr double kHapticsSutureTrialSettle_s = 1.5, kRings = 6, kHapticsSutureTrialLook_s = 0.4, kLeft_s = 0.05;
+constexpr double kTransfer_m = 0.02;  ///< height of a suture's end over the surface at which it is just taut
+constexpr double kHapticsSutureTrialSettle_s = 1.5, kRings = 6, kHapticsSutureTrialSample_s = 0.4, kLeft_s = 0.05;
 constexpr double kMotion_m_per_s = 0.09;  ///< speed while retracting
 
 /// Intended height of the tip over the surface, or of a suture's end over its taut position [m].
@@ -32,17 +32,17 @@ struct Span {
 
 /// A stroke, and the time spans that are evaluated.
 struct Plan {
-  std::vector<HapticsSutureTrialKey> way;
+  std::vector<HapticsSutureTrialKey> path;
   std::vector<Span> spans;
   double touches_s = 0, left_s = 0;  ///< the tool is free before and after
 
-  double now_s() const { return way.back().time_s; }
+  double now_s() const { return path.back().time_s; }
   void go(double to_m, double m_per_s) {
-    way.push_back({now_s() + std::abs(to_m - way.back().height_m) / m_per_s, to_m});
+    path.push_back({now_s() + std::abs(to_m - path.back().height_m) / m_per_s, to_m});
   }
   void hold(const char* name, double settle_s) {
-    way.push_back({now_s() + settle_s, way.back().height_m});
-    spans.push_back({name, true, now_s() - kHapticsSutureTrialLook_s, now_s()});
+    path.push_back({now_s() + settle_s, path.back().height_m});
+    spans.push_back({name, true, now_s() - kHapticsSutureTrialSample_s, now_s()});
   }
   void pass(const char* name, double to_m, double m_per_s) {
     const double from_s = now_s();
@@ -50,12 +50,12 @@ struct Plan {
     spans.push_back({name, false, from_s, now_s()});
   }
   double at(double time_s) const {
-    for (size_t i = 1; i < way.size(); ++i) {
-      const HapticsSutureTrialKey &a = way[i - 1], &b = way[i];
+    for (size_t i = 1; i < path.size(); ++i) {
+      const HapticsSutureTrialKey &a = path[i - 1], &b = path[i];
       if (time_s < b.time_s)
         return a.height_m + (time_s - a.time_s) / (b.time_s - a.time_s) * (b.height_m - a.height_m);
     }
-    return way.back().height_m;
+    return path.back().height_m;
   }
 };
 
@@ -63,7 +63,7 @@ Plan planOf(HapticTool tool, double settle_s) {
   constexpr double kSlow = 0.02, kQuick = 0.04;
   Plan out;
   if (tool == HapticTool::kNeedle) {
-    out.way = {{0, 0.012}, {0.2, 0.004}, {0.4, 0.012}, {0.6, 0.003}};
+    out.path = {{0, 0.012}, {0.2, 0.004}, {0.4, 0.012}, {0.6, 0.003}};
     out.touches_s = 0.6;
     out.go(-0.0004, kSlow);
     out.hold("skin, less", settle_s);
@@ -74,7 +74,7 @@ Plan planOf(HapticTool tool, double settle_s) {
     out.pass("far skin", -kHapticsSutureTrialThick_m - 0.004, kSlow);
     out.hold("through", settle_s);
   } else {
-    out.way = {{0, 0}, {0.2, -0.008}, {0.4, -0.004}, {0.6, -0.008}};
+    out.path = {{0, 0}, {0.2, -0.008}, {0.4, -0.004}, {0.6, -0.008}};
     out.touches_s = 0.6;
     out.go(0.001, kQuick);
     out.hold("pulled, less", settle_s);
@@ -83,7 +83,7 @@ Plan planOf(HapticTool tool, double settle_s) {
   }
   out.pass("out", tool == HapticTool::kNeedle ? 0.012 : -0.008, kMotion_m_per_s);
   out.left_s = out.now_s() + kLeft_s;
-  out.way.push_back({out.now_s() + 0.3, out.way.back().height_m});
+  out.path.push_back({out.now_s() + 0.3, out.path.back().height_m});
   return out;
 }
 
@@ -104,7 +104,7 @@ BodyConfig slab(double young_modulus_pa) {
 
 Vector3d tipAt(HapticTool tool, double height_m) {
   if (tool == HapticTool::kNeedle) return {0.0033, -0.0007, height_m};
-  return {0.006, 0, kHandOver_m + height_m};
+  return {0.006, 0, kTransfer_m + height_m};
 }
 
 /// Adds a needle with its tip pointing down, at the device's initial position.
@@ -162,8 +162,8 @@ class SutureTrial : public HeldTrial {
       hear();
       tick();
       tell();
-      device_.step(told_n_, tipAt(trial_.tool, plan_.at(now_s_)));
-      look();
+      device_.step(sent_force_n_, tipAt(trial_.tool, plan_.at(now_s_)));
+      sample();
     }
     std::vector<HapticStage> out;
     for (size_t s = 0; s < plan_.spans.size(); ++s)
@@ -176,8 +176,8 @@ class SutureTrial : public HeldTrial {
       : HeldTrial(sceneOf(trial), setting, tipAt(trial.tool, trial.tool == HapticTool::kNeedle ? 0.012 : 0)),
         trial_(trial),
         plan_(planOf(trial.tool, settle_s(deviceOf(setting)))),
-        looks_(plan_.spans.size()) {
-    hand_.listens = true;
+        samples_(plan_.spans.size()) {
+    input_.accepts_force = true;
   }
   static double settle_s(const SimulatedDeviceConfig& device) {
     return kHapticsSutureTrialSettle_s +
@@ -190,48 +190,48 @@ class SutureTrial : public HeldTrial {
     return trial_.tool == HapticTool::kNeedle ? -height_m : height_m;
   }
 
-  void look() {
+  void sample() {
     least_j_ = std::min(least_j_, device_.energy_j());
-    const double size_n = told_n_.norm();
+    const double size_n = sent_force_n_.norm();
     if (now_s_ < plan_.touches_s || now_s_ > plan_.left_s) free_n_ = std::max(free_n_, size_n);
-    for (size_t s = 0; s < looks_.size(); ++s) {
+    for (size_t s = 0; s < samples_.size(); ++s) {
       if (now_s_ < plan_.spans[s].from_s || now_s_ >= plan_.spans[s].to_s) continue;
-      looks_[s].force.add(size_n);
-      looks_[s].depth.add(depth_m());
-      looks_[s].ticks.add(ticks_n_);
+      samples_[s].force.add(size_n);
+      samples_[s].depth.add(depth_m());
+      samples_[s].ticks.add(ticks_n_);
     }
   }
 
   HapticOutcome outcomeOf(size_t s) const {
-    const ProbedHold& look = looks_[s];
+    const ProbedHold& sample = samples_[s];
     HapticOutcome out;
     out.least_energy_mj = 1e3 * least_j_;
     out.free_n = free_n_;
-    const ForceLoop::HapticStats felt = loop_.felt(0);
-    out.observed_mj = 1e3 * felt.least_j;
-    out.share = felt.share;
+    const ForceLoop::HapticStats stats = loop_.stats(0);
+    out.observed_mj = 1e3 * stats.least_j;
+    out.stiffness_scale = stats.stiffness_scale;
     double most_held_n = 0;
-    for (size_t k = 0; k < looks_.size(); ++k)
-      if (plan_.spans[k].held) most_held_n = std::max(most_held_n, looks_[k].force.mean());
+    for (size_t k = 0; k < samples_.size(); ++k)
+      if (plan_.spans[k].held) most_held_n = std::max(most_held_n, samples_[k].force.mean());
     out.unheard_mj = 1e3 * (trial_.delay_s + 0.5 * kPeriod_s + 1 / trial_.poses_hz) * most_held_n * kMotion_m_per_s;
-    out.depth_mm = 1e3 * look.depth.mean();
-    out.force_n = look.force.most;
-    out.simulator_n = look.ticks.most;
+    out.depth_mm = 1e3 * sample.depth.mean();
+    out.force_n = sample.force.most;
+    out.simulator_n = sample.ticks.most;
     if (!plan_.spans[s].held) return out;
-    out.force_n = look.force.mean();
-    out.simulator_n = look.ticks.mean();
+    out.force_n = sample.force.mean();
+    out.simulator_n = sample.ticks.mean();
     if (out.simulator_n > 0) out.static_error = std::abs(out.force_n - out.simulator_n) / out.simulator_n;
-    out.swing_n = look.force.swing();
-    out.swing_mm = 1e3 * look.depth.swing();
+    out.swing_n = sample.force.swing();
+    out.swing_mm = 1e3 * sample.depth.swing();
     if (s == 1)
       out.stiffness_n_per_m =
-          (look.force.mean() - looks_[0].force.mean()) / (look.depth.mean() - looks_[0].depth.mean());
+          (sample.force.mean() - samples_[0].force.mean()) / (sample.depth.mean() - samples_[0].depth.mean());
     return out;
   }
 
   const HapticTrial trial_;
   const Plan plan_;
-  std::vector<ProbedHold> looks_;
+  std::vector<ProbedHold> samples_;
   double least_j_ = 0, free_n_ = 0;
 };
 

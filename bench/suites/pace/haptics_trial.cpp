@@ -28,38 +28,38 @@ bool goesAway(HapticEvent event) {
 }
 
 /// Returns the user's stroke. @param settle_s  duration of a hold
-std::vector<HapticsTrialKey> wayOf(double settle_s, HapticEvent event) {
-  std::vector<HapticsTrialKey> way = {{0, 0.012}, {0.2, 0.004}, {0.4, 0.012}, {0.6, 0.003}, {1.1, -0.004}};
-  if (event != HapticEvent::kNone) way.push_back({kEvent_s, -0.004});
+std::vector<HapticsTrialKey> pathOf(double settle_s, HapticEvent event) {
+  std::vector<HapticsTrialKey> path = {{0, 0.012}, {0.2, 0.004}, {0.4, 0.012}, {0.6, 0.003}, {1.1, -0.004}};
+  if (event != HapticEvent::kNone) path.push_back({kEvent_s, -0.004});
   if (goesAway(event)) {
-    way.push_back({kOver_s, -0.004 + kAway_m});
-    way.push_back({kReturns_s, -0.004 + kAway_m});
+    path.push_back({kOver_s, -0.004 + kAway_m});
+    path.push_back({kReturns_s, -0.004 + kAway_m});
   }
-  if (event != HapticEvent::kNone) way.push_back({kBack_s, -0.004});
-  const double first = way.back().time_s + settle_s, second = first + 0.2 + settle_s;
+  if (event != HapticEvent::kNone) path.push_back({kBack_s, -0.004});
+  const double first = path.back().time_s + settle_s, second = first + 0.2 + settle_s;
   for (const HapticsTrialKey& key : {HapticsTrialKey{first, -0.004},
                                      {first + 0.2, -0.006},
                                      {second, -0.006},
                                      {second + 0.2, 0.012},
                                      {second + 0.5, 0.012}})
-    way.push_back(key);
-  return way;
+    path.push_back(key);
+  return path;
 }
-/// Indices into wayOf(), from its end: the ends of the holds, and the end of the retraction.
+/// Indices into pathOf(), from its end: the ends of the holds, and the end of the retraction.
 constexpr size_t kHoldEnds[2] = {5, 3}, kOut = 2;
 constexpr double kLeaves_m_per_s = 0.018 / 0.2;  ///< speed while retracting
 constexpr double kTouches_s = 0.6;               ///< time before which the tip is free
 constexpr double kHapticsTrialLeft_s = 0.05;     ///< time after the retraction at which the tip is free again
-constexpr double kHapticsTrialLook_s = 0.4;      ///< time at the end of a hold that is evaluated
+constexpr double kHapticsTrialSample_s = 0.4;    ///< time at the end of a hold that is evaluated
 constexpr double kHapticsTrialSettle_s = 1.5;    ///< duration of a hold, in addition to the ringing of the device
 constexpr double kHapticsTrialRings = 6;
 
-double heightAt(const std::vector<HapticsTrialKey>& way, double time_s) {
-  for (size_t i = 1; i < way.size(); ++i)
-    if (time_s < way[i].time_s)
-      return way[i - 1].height_m + (time_s - way[i - 1].time_s) / (way[i].time_s - way[i - 1].time_s) *
-                                       (way[i].height_m - way[i - 1].height_m);
-  return way.back().height_m;
+double heightAt(const std::vector<HapticsTrialKey>& path, double time_s) {
+  for (size_t i = 1; i < path.size(); ++i)
+    if (time_s < path[i].time_s)
+      return path[i - 1].height_m + (time_s - path[i - 1].time_s) / (path[i].time_s - path[i - 1].time_s) *
+                                        (path[i].height_m - path[i - 1].height_m);
+  return path.back().height_m;
 }
 
 /// Returns a slab of tissue on bone.
@@ -85,30 +85,30 @@ class HapticsTrialRun : public HeldTrial {
       : HapticsTrialRun(trial, {trial.mass_kg, trial.delay_s, trial.poses_hz, trial.rate_hz, kRadius_m}) {}
 
   HapticOutcome run() {
-    const int periods = static_cast<int>(std::lround(way_.back().time_s / kPeriod_s));
+    const int periods = static_cast<int>(std::lround(path_.back().time_s / kPeriod_s));
     for (int i = 0; i < periods; ++i) {
       now_s_ = i * kPeriod_s;
       befall();
       hear();
       tick();
       tell();
-      device_.step(told_n_, tipAt(heightAt(way_, now_s_)));
-      look();
+      device_.step(sent_force_n_, tipAt(heightAt(path_, now_s_)));
+      sample();
     }
     return outcome();
   }
 
  private:
   HapticsTrialRun(const HapticTrial& trial, const Setting& setting)
-      : HapticsTrialRun(trial, setting, ways(trial, setting)) {}
-  HapticsTrialRun(const HapticTrial& trial, const Setting& setting, const std::vector<HapticsTrialKey>& way)
-      : HeldTrial(hapticsTrialSlab(trial.young_modulus_pa), setting, tipAt(heightAt(way, 0))),
+      : HapticsTrialRun(trial, setting, offsets(trial, setting)) {}
+  HapticsTrialRun(const HapticTrial& trial, const Setting& setting, const std::vector<HapticsTrialKey>& path)
+      : HeldTrial(hapticsTrialSlab(trial.young_modulus_pa), setting, tipAt(heightAt(path, 0))),
         trial_(trial),
-        way_(way) {}
-  static std::vector<HapticsTrialKey> ways(const HapticTrial& trial, const Setting& setting) {
+        path_(path) {}
+  static std::vector<HapticsTrialKey> offsets(const HapticTrial& trial, const Setting& setting) {
     const SimulatedDeviceConfig device = deviceOf(setting);
     const double ring_s = 2 * trial.mass_kg / (device.damping_n_s_per_m + device.hand_damping_n_s_per_m);
-    return wayOf(kHapticsTrialSettle_s + kHapticsTrialRings * ring_s, trial.event);
+    return pathOf(kHapticsTrialSettle_s + kHapticsTrialRings * ring_s, trial.event);
   }
   bool within(double from_s, double to_s) const { return now_s_ >= from_s && now_s_ < to_s; }
 
@@ -116,23 +116,23 @@ class HapticsTrialRun : public HeldTrial {
   void befall() {
     const HapticEvent event = trial_.event;
     stalled_ = event == HapticEvent::kStall && within(kEvent_s, kOver_s);
-    hand_.listens = event != HapticEvent::kUnheard || !within(kEvent_s, kOver_s);
+    input_.accepts_force = event != HapticEvent::kUnheard || !within(kEvent_s, kOver_s);
     clutched_ = event == HapticEvent::kClutch && (within(kEvent_s, kOver_s) || within(kReturns_s, kBack_s));
     const double base_m = event == HapticEvent::kLeap && within(kEvent_s, kReturns_s) ? kBaseLeap_m : 0;
     if (base_m != base_m_) reappears_ = true;
     base_m_ = base_m;
   }
 
-  double keyTime(size_t from_end) const { return way_[way_.size() - from_end].time_s; }
+  double keyTime(size_t from_end) const { return path_[path_.size() - from_end].time_s; }
 
-  void look() {
+  void sample() {
     out_.least_energy_mj = std::min(out_.least_energy_mj, 1e3 * device_.energy_j());
-    const double size_n = told_n_.norm();
+    const double size_n = sent_force_n_.norm();
     if (now_s_ < kTouches_s || now_s_ > keyTime(kOut) + kHapticsTrialLeft_s)
       out_.free_n = std::max(out_.free_n, size_n);
     for (int h = 0; h < 2; ++h) {
       const double end_s = keyTime(kHoldEnds[h]);
-      if (!within(end_s - kHapticsTrialLook_s, end_s)) continue;
+      if (!within(end_s - kHapticsTrialSample_s, end_s)) continue;
       holds_[h].force.add(size_n);
       holds_[h].depth.add(kTop_m + kRadius_m - device_.position_m().z());
       holds_[h].ticks.add(ticks_n_);
@@ -155,14 +155,14 @@ class HapticsTrialRun : public HeldTrial {
         std::max(holds_[1].force.mean() * kLeaves_m_per_s,
                  goesAway(trial_.event) ? holds_[0].force.mean() * kAway_m / (kOver_s - kEvent_s) : 0);
     out_.unheard_mj = 1e3 * late_s * leaves;
-    const ForceLoop::HapticStats felt = loop_.felt(0);
-    out_.observed_mj = 1e3 * felt.least_j;
-    out_.share = felt.share;
+    const ForceLoop::HapticStats stats = loop_.stats(0);
+    out_.observed_mj = 1e3 * stats.least_j;
+    out_.stiffness_scale = stats.stiffness_scale;
     return out_;
   }
 
   const HapticTrial trial_;
-  const std::vector<HapticsTrialKey> way_;
+  const std::vector<HapticsTrialKey> path_;
   HapticOutcome out_;
   ProbedHold holds_[2];
 };

@@ -50,8 +50,8 @@ struct HapticOutcome {
   /// delay, from a pose to the force that answers it [mJ]. No loop that renders the simulator's force to a user at rest
   /// can avoid it.
   double unheard_mj = 0;
-  double free_n = 0;  ///< largest force before the first contact and after the last, with the user moving [N]
-  double share = 1;   ///< share of the stiffness that acts on fast motion, at the end
+  double free_n = 0;           ///< largest force before the first contact and after the last, with the user moving [N]
+  double stiffness_scale = 1;  ///< share of the stiffness that acts on fast motion, at the end
 };
 
 /// Runs a trial. @throws as Session does

@@ -62,9 +62,9 @@ class HeldTrial {
     if (now_s_ + 0.5 * kPeriod_s < next_pose_s_) return;
     next_pose_s_ += 1 / setting_.poses_hz;
     const Vector3d device_m = device_.measured_m() + Vector3d(0, 0, base_m_);
-    if (clutched_) offset_m_ = hand_.tip_m - device_m;
-    hand_.tip_m = device_m + offset_m_;
-    hand_.told = at(now_s_);
+    if (clutched_) offset_m_ = input_.tip_m - device_m;
+    input_.tip_m = device_m + offset_m_;
+    input_.pose_time = at(now_s_);
   }
 
   void tick() {
@@ -73,14 +73,14 @@ class HeldTrial {
       StylusSamples samples;
       samples[0].valid = !reappears_;
       reappears_ = false;
-      samples[0].pose.position_m = hand_.tip_m;
+      samples[0].pose.position_m = input_.tip_m;
       const Frame frame = session_.step(samples, {});
       answer_ = {frame.contacts[0].reaction, samples[0].valid && !clutched_, frame.contacts[0]};
       answer_s_ = now_s_ + kComputing * session_.tick_s();
     }
-    hand_.tracked = !clutched_ && !reappears_;
+    input_.tracked = !clutched_ && !reappears_;
     if (answer_s_ < 0 || now_s_ < answer_s_) return;
-    loop_.put({answer_}, {hand_}, at(now_s_));
+    loop_.put({answer_}, {input_}, at(now_s_));
     ticks_n_ = answer_.reaction.force_n.norm();
     ticked_ = true;
     answer_s_ = -1;
@@ -88,9 +88,9 @@ class HeldTrial {
 
   void tell() {
     if (!std::exchange(ticked_, false) && at(now_s_) < loop_.due()) return;
-    told_n_ = loop_.next({hand_}, at(now_s_))[0].force_n;
-    if (!hand_.listens) told_n_.setZero();
-    loop_.sent({told_n_}, at(now_s_));
+    sent_force_n_ = loop_.next({input_}, at(now_s_))[0].force_n;
+    if (!input_.accepts_force) sent_force_n_.setZero();
+    loop_.sent({sent_force_n_}, at(now_s_));
   }
 
   const Setting setting_;
@@ -98,8 +98,8 @@ class HeldTrial {
   Session session_;
   SimulatedDevice device_;
   ForceLoop loop_;
-  ForceLoop::Hand hand_;
-  Vector3d told_n_ = Vector3d::Zero();
+  ForceLoop::Input input_;
+  Vector3d sent_force_n_ = Vector3d::Zero();
   double now_s_ = 0, base_m_ = 0, ticks_n_ = 0;
   bool stalled_ = false, clutched_ = false, reappears_ = false;
 

@@ -29,20 +29,20 @@ double msSince(SteadyTime time) {
   return std::chrono::duration<double, std::milli>(Clock::now() - time).count();
 }
 
-void note(std::vector<double>& delays, SteadyTime pose_received) {
+void record(std::vector<double>& delays, SteadyTime pose_received) {
   if (pose_received != SteadyTime{}) delays.push_back(msSince(pose_received));
 }
 
 /// Records the delay of a force. Each pose counts once.
-void noteForce(const Frame& frame, SteadyTime& last, std::vector<double>& delays) {
+void recordForce(const Frame& frame, SteadyTime& last, std::vector<double>& delays) {
   const SteadyTime pose = frame.poses_received[0];
-  if (pose != last) note(delays, pose);
+  if (pose != last) record(delays, pose);
   last = pose;
 }
 
-void notePictures(const Frame& frame, Delays& delays) {
-  if (frame.surface) note(delays.surface, frame.surface->pose_received);
-  for (const ImageFrame& image : frame.images) note(delays.image, image.pose_received);
+void recordPictures(const Frame& frame, Delays& delays) {
+  if (frame.surface) record(delays.surface, frame.surface->pose_received);
+  for (const ImageFrame& image : frame.images) record(delays.image, image.pose_received);
 }
 
 /// Runs ticks at the scene's rate, like the simulator node: after a late tick the next one starts at once.
@@ -55,11 +55,11 @@ Delays measureDelays(Session& session, const Pressing& pressing, Wanted wanted, 
     std::this_thread::sleep_until(due);
     due = std::max(due + tick, Clock::now());
     const Clock::time_point began = Clock::now();
-    const Frame frame = session.step(pressing.now(), wantsOf(session, wanted));
+    const Frame frame = session.step(pressing.now(), outputsOf(session, wanted));
     const Clock::time_point end = Clock::now();
     if (t == kWarmUpTicks) out = {};
-    noteForce(frame, answered, out.force);
-    notePictures(frame, out);
+    recordForce(frame, answered, out.force);
+    recordPictures(frame, out);
     out.step.push_back(std::chrono::duration<double, std::milli>(end - began).count());
     out.late.push_back(std::chrono::duration<double, std::milli>(end - ended - tick).count());
     ended = end;

@@ -97,23 +97,23 @@ std::vector<Moment> momentsOf(Session& session, const Strokes& strokes, const St
     moment.request.tick = frame.tick;
     moment.request.motions = frame.tools;
     moment.request.cameras = frame.cameras;
-    moment.request.wants.cameras = {true};
-    moment.request.wants.every_image = true;
+    moment.request.outputs.cameras = {true};
+    moment.request.outputs.every_image = true;
   }
   return out;
 }
 
 /// A rendering configuration. The last one is the reference.
-struct Way {
+struct Variant {
   const char *name, *stem;
   int supersampling;
   bool tools = true;
 };
-constexpr Way kWays[] = {{"automatic", "automatic", 0},
-                         {"automatic, without tools", "bare", 0, false},
-                         {"1 sample a pixel", "1", 1},
-                         {"4 samples a pixel", "4", 2}};
-constexpr size_t kReference = std::size(kWays) - 1;
+constexpr Variant kVariants[] = {{"automatic", "automatic", 0},
+                                 {"automatic, without tools", "bare", 0, false},
+                                 {"1 sample a pixel", "1", 1},
+                                 {"4 samples a pixel", "4", 2}};
+constexpr size_t kReference = std::size(kVariants) - 1;
 
 /// Optional appearance of images, each by itself (docs/surface.md, Looks).
 struct Extra {
@@ -136,8 +136,8 @@ constexpr Extra kExtras[] = {
 /// Draws moments as a view does, on this thread.
 class Painting {
  public:
-  Painting(const Model& model, Scene scene, const Way& way) : tools_(way.tools), mirror_(model) {
-    scene.cameras[0].supersampling = way.supersampling;
+  Painting(const Model& model, Scene scene, const Variant& variant) : tools_(variant.tools), mirror_(model) {
+    scene.cameras[0].supersampling = variant.supersampling;
     scene_ = scene;
     view_ = std::make_unique<InlineView>(model, scene_);
   }
@@ -187,10 +187,10 @@ Table stageTable() {
   return Table("stages of a picture of 640 x 480, waiting for each", columns);
 }
 
-void addStages(Table& table, const std::string& tissue, const Way& way, const std::vector<double>& seconds) {
+void addStages(Table& table, const std::string& tissue, const Variant& variant, const std::vector<double>& seconds) {
   double sum = 0;
   for (const gpu::Stage stage : kStagesOfPictures) sum += seconds[static_cast<size_t>(stage)];
-  std::vector<Cell> row = {tissue, way.name, 1e3 * sum};
+  std::vector<Cell> row = {tissue, variant.name, 1e3 * sum};
   for (const gpu::Stage stage : kStagesOfPictures) row.emplace_back(1e3 * seconds[static_cast<size_t>(stage)]);
   table.add(std::move(row));
 }
@@ -218,22 +218,22 @@ class Comparison {
  public:
   Comparison(const Report& report, const Model& model, const Scene& scene, const std::vector<Moment>& moments)
       : moments_(moments) {
-    for (const Way& way : kWays) paintings_.push_back(std::make_unique<Painting>(model, scene, way));
+    for (const Variant& variant : kVariants) paintings_.push_back(std::make_unique<Painting>(model, scene, variant));
     took_s_ = timesOf(paintings_, moments_, report.isShort() ? 0.2 : 12);
-    for (const Way& way : kWays) compare(scene.cameras[0], &way - kWays);
+    for (const Variant& variant : kVariants) compare(scene.cameras[0], &variant - kVariants);
   }
 
-  double picture_s(size_t way) const { return median(took_s_[way]); }
-  const Similarity& alike(size_t way) const { return alike_[way]; }
-  std::vector<double> stages(size_t way) const { return paintings_[way]->stages(moments_); }
+  double picture_s(size_t variant) const { return median(took_s_[variant]); }
+  const Similarity& alike(size_t variant) const { return alike_[variant]; }
+  std::vector<double> stages(size_t variant) const { return paintings_[variant]->stages(moments_); }
   /// Returns the image of the middle moment.
-  const std::vector<uint8_t>& picture(size_t way) const { return pictures_[way]; }
+  const std::vector<uint8_t>& picture(size_t variant) const { return pictures_[variant]; }
 
  private:
-  void compare(const CameraConfig& camera, ptrdiff_t way) {
+  void compare(const CameraConfig& camera, ptrdiff_t variant) {
     Similarity mean{0, 0};
     for (const Moment& moment : moments_) {
-      const std::vector<uint8_t> rgb = paintings_[static_cast<size_t>(way)]->draw(moment),
+      const std::vector<uint8_t> rgb = paintings_[static_cast<size_t>(variant)]->draw(moment),
                                  reference = paintings_[kReference]->draw(moment);
       const Similarity of = similarity(rgb, reference, camera.width_px, camera.height_px);
       mean.all += of.all / static_cast<double>(moments_.size());
@@ -271,17 +271,17 @@ void addExtras(Report& report, const std::string& tissue, const Model& model, co
 
 void addRows(Report& report, const std::string& tissue, const Comparison& of, const CameraConfig& camera,
              Tables& tables) {
-  for (size_t w = 0; w < std::size(kWays); ++w) {
-    const Way& way = kWays[w];
-    std::vector<Cell> row = {tissue, way.name, 1e3 * of.picture_s(w), of.picture_s(w) / of.picture_s(kReference)};
-    if (way.tools) {
+  for (size_t w = 0; w < std::size(kVariants); ++w) {
+    const Variant& variant = kVariants[w];
+    std::vector<Cell> row = {tissue, variant.name, 1e3 * of.picture_s(w), of.picture_s(w) / of.picture_s(kReference)};
+    if (variant.tools) {
       row.insert(row.end(), {of.alike(w).all, of.alike(w).seen});
     } else {
       row.insert(row.end(), {"", ""});
     }
     tables.pictures.add(row);
-    addStages(tables.stages, tissue, way, of.stages(w));
-    report.add(of.picture(w), camera.width_px, camera.height_px, tissue + "_" + way.stem);
+    addStages(tables.stages, tissue, variant, of.stages(w));
+    report.add(of.picture(w), camera.width_px, camera.height_px, tissue + "_" + variant.stem);
   }
   report.checkAtMost("time of a picture [s], " + tissue, of.picture_s(0), kWanted_s);
   report.checkAtLeast("SSIM to 4 samples a pixel, " + tissue, of.alike(0).all, kAlike);

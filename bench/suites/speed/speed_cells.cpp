@@ -56,24 +56,24 @@ void measureCells(Report& report) {
                                                                     {"law over springs", "", 3},
                                                                     {"spread", "", 2}});
   // Rounds are short and many, so that other load of the machine affects both of a pair alike.
-  const std::vector<std::pair<std::string, std::function<std::shared_ptr<TissueStepper>(const Specimen&)>>> ways = {
+  const std::vector<std::pair<std::string, std::function<std::shared_ptr<TissueStepper>(const Specimen&)>>> variants = {
       {"cpu, 1 thread", [](const Specimen& specimen) { return onCpu(specimen, 1); }},
       {"cpu, all threads", [](const Specimen& specimen) { return onCpu(specimen); }},
       {"gpu", onGpu}};
   for (const Pair& pair : pairsOf(report.isShort())) {
     const size_t nodes = pair.law.nodes();
     report.stage("cells of a " + pair.law.name + " of " + std::to_string(nodes) + " nodes");
-    for (const auto& [way, on] : ways) {
+    for (const auto& [variant, on] : variants) {
       const std::vector<Rate> rates =
           measureRates({candidate("", on(pair.law), nodes), candidate("", on(pair.springs), pair.springs.nodes())},
                        report.isShort() ? 0.01 : 0.03, report.isShort() ? 5 : 25);
       const Rate &law = rates[0], &springs = rates[1];
       const double ratio = law.ns_per_update() / springs.ns_per_update();
-      table.add({pair.law.name, static_cast<double>(nodes), partialShare(pair.law.model), way, law.ns_per_update(),
+      table.add({pair.law.name, static_cast<double>(nodes), partialShare(pair.law.model), variant, law.ns_per_update(),
                  springs.ns_per_update(), ratio, std::max(law.spread, springs.spread)});
-      if (way == "gpu") continue;
+      if (variant == "gpu") continue;
       report.checkAtMost("law: a substep over one of springs, per node, " + pair.law.name + " of " +
-                             std::to_string(nodes) + ", " + way,
+                             std::to_string(nodes) + ", " + variant,
                          ratio, kDearer);
     }
   }

@@ -28,7 +28,7 @@ Specimen withLinks(Specimen specimen) {
   return specimen;
 }
 
-enum Way { kImplicitGpu, kExplicitGpu, kImplicitCpu, kExplicitCpu };
+enum Variant { kImplicitGpu, kExplicitGpu, kImplicitCpu, kExplicitCpu };
 const char* const kConnections[] = {"implicit", "explicit"};
 
 std::vector<Rate> ratesOf(const Specimen& specimen, double seconds) {
@@ -56,13 +56,13 @@ Table explicitTable() {
 
 void addRows(Table& table, const Specimen& specimen, double dashpot, const std::vector<Rate>& rates,
              const Printed& paper) {
-  for (size_t way = 0; way < rates.size(); ++way) {
-    const bool gpu = way < kImplicitCpu, implicit = way == kImplicitGpu || way == kImplicitCpu;
+  for (size_t variant = 0; variant < rates.size(); ++variant) {
+    const bool gpu = variant < kImplicitCpu, implicit = variant == kImplicitGpu || variant == kImplicitCpu;
     const Rate& base = rates[gpu ? kImplicitGpu : kImplicitCpu];
     const double printed = implicit ? paper.implicit_rate : paper.explicit_rate;
     table.add({specimen.name, static_cast<double>(specimen.nodes()), dashpot, gpu ? "gpu" : "cpu",
-               kConnections[way % 2], rates[way].substeps_per_s, rates[way].node_updates_per_s * 1e-6,
-               rates[way].node_updates_per_s / base.node_updates_per_s, rates[way].spread,
+               kConnections[variant % 2], rates[variant].substeps_per_s, rates[variant].node_updates_per_s * 1e-6,
+               rates[variant].node_updates_per_s / base.node_updates_per_s, rates[variant].spread,
                gpu ? Cell(printed) : Cell(""), gpu ? Cell(printed / paper.implicit_rate) : Cell("")});
   }
 }

@@ -93,18 +93,18 @@ void measurePressedHeart(Report& report) {
     report.stage("heart with a probe, dashpot " + Cell(dashpot).text(2));
     const PressedHeart pressed = pressedHeart(report.isShort() ? 5000 : kNodes, dashpot);
     const Specimen& heart = pressed.heart;
-    Pressed ways[] = {{"cpu", onCpu(heart)}, {"gpu", onGpu(heart)}};
-    const std::vector<Rate> rates =
-        measureRates({ways[0].candidateFor(pressed), ways[1].candidateFor(pressed)}, report.isShort() ? 0.02 : 0.5);
+    Pressed variants[] = {{"cpu", onCpu(heart)}, {"gpu", onGpu(heart)}};
+    const std::vector<Rate> rates = measureRates({variants[0].candidateFor(pressed), variants[1].candidateFor(pressed)},
+                                                 report.isShort() ? 0.02 : 0.5);
     for (size_t w = 0; w < 2; ++w) {
-      table.add({static_cast<double>(heart.nodes()), filledShare(heart.model), dashpot, ways[w].name,
-                 rates[w].substeps_per_s, rates[w].substeps_per_s * ways[w].solver->dt_s(), rates[w].spread,
-                 static_cast<double>(ways[w].touched), static_cast<double>(ways[w].solver->health().trips)});
+      table.add({static_cast<double>(heart.nodes()), filledShare(heart.model), dashpot, variants[w].name,
+                 rates[w].substeps_per_s, rates[w].substeps_per_s * variants[w].solver->dt_s(), rates[w].spread,
+                 static_cast<double>(variants[w].touched), static_cast<double>(variants[w].solver->health().trips)});
     }
     if (dashpot > 0) continue;
     report.checkAtLeast("heart with a probe: substeps/s, cpu", rates[0].substeps_per_s, kWanted_per_s);
     report.checkAtMost("heart with a probe: nodes touched, cpu over gpu - 1",
-                       static_cast<double>(ways[0].touched) / ways[1].touched - 1, kTouchedApart);
+                       static_cast<double>(variants[0].touched) / variants[1].touched - 1, kTouchedApart);
   }
   report.add(table, "heart");
 }

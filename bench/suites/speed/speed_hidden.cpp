@@ -60,8 +60,8 @@ class Viewed {
               mirror_.upload(states_[++ticks_ % 2]);
               RenderRequest request;
               request.tick = ticks_;
-              request.wants.cameras.assign(scene_.cameras.size(), false);
-              request.wants.cameras[camera] = true;
+              request.outputs.cameras.assign(scene_.cameras.size(), false);
+              request.outputs.cameras[camera] = true;
               Pictures out;
               view_.capture(mirror_.view(), request, out, mirror_.displacements());
               view_.collect(out, true);

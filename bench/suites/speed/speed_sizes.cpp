@@ -45,12 +45,13 @@ Candidate scalarOf(const Specimen& specimen) {
           }};
 }
 
-enum ScalarOrSimd { kScalar, kOneThread, kAllThreads, kGpu, kWayCount };
-const char* const kWays[] = {"cpu scalar", "cpu simd, 1 thread", "cpu simd, all threads", "gpu"};
+enum ScalarOrSimd { kScalar, kOneThread, kAllThreads, kGpu, kVariantCount };
+const char* const kVariants[] = {"cpu scalar", "cpu simd, 1 thread", "cpu simd, all threads", "gpu"};
 
-Candidate candidateOf(size_t way, const Specimen& specimen) {
-  if (way == kScalar) return scalarOf(specimen);
-  return candidate(kWays[way], way == kGpu ? onGpu(specimen) : onCpu(specimen, way == kOneThread ? 1 : 0),
+Candidate candidateOf(size_t variant, const Specimen& specimen) {
+  if (variant == kScalar) return scalarOf(specimen);
+  return candidate(kVariants[variant],
+                   variant == kGpu ? onGpu(specimen) : onCpu(specimen, variant == kOneThread ? 1 : 0),
                    specimen.nodes());
 }
 
@@ -81,10 +82,10 @@ class Sizes {
     report_.note("The heart fills " + Cell(filledShare(heart.model)).text(2) + " of its box, and " +
                  Cell(planeShare(heart.model)).text(2) + " of the planes of 4x4 nodes that hold one; the cube " +
                  Cell(planeShare(cube.model)).text(2) + " of its planes.\n");
-    for (const size_t way : {kAllThreads, kGpu}) {
-      if (of_cube.count(way) > 0)
-        report_.checkAtMost(std::string("a node of the heart over one of the cube, ") + kWays[way],
-                            of_heart.at(way).ns_per_update() / of_cube.at(way).ns_per_update(), kHeartOverCube);
+    for (const size_t variant : {kAllThreads, kGpu}) {
+      if (of_cube.count(variant) > 0)
+        report_.checkAtMost(std::string("a node of the heart over one of the cube, ") + kVariants[variant],
+                            of_heart.at(variant).ns_per_update() / of_cube.at(variant).ns_per_update(), kHeartOverCube);
     }
   }
 
@@ -106,7 +107,7 @@ class Sizes {
   }
 
  private:
-  std::vector<size_t> waysFor(size_t nodes) const {
+  std::vector<size_t> variantsFor(size_t nodes) const {
     std::vector<size_t> out;
     for (const Backend backend : report_.backends()) {
       const bool small = static_cast<double>(nodes) < kGpuUpTo || !report_.nodes().empty();
@@ -135,50 +136,51 @@ class Sizes {
 
   /// Measures the methods in turn, except those of large bodies, which would not fit into memory together.
   Rates ratesOf(const Specimen& specimen, bool in_turn) {
-    const std::vector<size_t> ways = waysFor(specimen.nodes());
+    const std::vector<size_t> variants = variantsFor(specimen.nodes());
     const double seconds = report_.isShort() ? 0.02 : 0.1, before = residentBytes();
     Rates out;
     std::vector<Candidate> candidates;
     bytes_ = 0;
-    for (const size_t way : ways) {
-      candidates.push_back(candidateOf(way, specimen));
-      if (way == kOneThread && !in_turn) bytes_ = (residentBytes() - before) / static_cast<double>(specimen.nodes());
+    for (const size_t variant : variants) {
+      candidates.push_back(candidateOf(variant, specimen));
+      if (variant == kOneThread && !in_turn)
+        bytes_ = (residentBytes() - before) / static_cast<double>(specimen.nodes());
       if (in_turn) continue;
-      out[way] = measureRates(candidates, seconds)[0];
+      out[variant] = measureRates(candidates, seconds)[0];
       candidates.clear();
     }
     if (!in_turn) return out;
     const std::vector<Rate> rates = measureRates(candidates, seconds);
-    for (size_t c = 0; c < ways.size(); ++c) out[ways[c]] = rates[c];
+    for (size_t c = 0; c < variants.size(); ++c) out[variants[c]] = rates[c];
     return out;
   }
 
   void addRows(const Specimen& specimen, double dashpot, const Rates& rates, int nodes) {
     const Work work = workOf(specimen.model, dashpot);
     const auto paper = kTable1Paper.find(nodes);
-    for (const auto& [way, rate] : rates) {
+    for (const auto& [variant, rate] : rates) {
       const auto over = [&, &rate = rate](size_t other) {
         const auto found = rates.find(other);
         return found == rates.end() ? Cell("") : Cell(rate.node_updates_per_s / found->second.node_updates_per_s);
       };
-      const bool simd = way == kOneThread || way == kAllThreads;
-      const Limits& limits = way == kOneThread ? limits_.one : limits_.all;
+      const bool simd = variant == kOneThread || variant == kAllThreads;
+      const Limits& limits = variant == kOneThread ? limits_.one : limits_.all;
       table_.add(
-          {specimen.name, static_cast<double>(specimen.nodes()), dashpot, kWays[way], rate.substeps_per_s,
+          {specimen.name, static_cast<double>(specimen.nodes()), dashpot, kVariants[variant], rate.substeps_per_s,
            rate.node_updates_per_s * 1e-6, rate.ns_per_update(), over(kScalar), over(kGpu),
            simd ? Cell(rate.node_updates_per_s * work.flop / limits.fma) : "",
            simd ? Cell(rate.node_updates_per_s * work.bytes / limits.copy) : "",
-           way == kOneThread && bytes_ > 0 ? Cell(bytes_) : "", rate.spread,
-           paper == kTable1Paper.end() ? Cell("") : Cell(way == kScalar ? paper->second.cpu : paper->second.gpu)});
+           variant == kOneThread && bytes_ > 0 ? Cell(bytes_) : "", rate.spread,
+           paper == kTable1Paper.end() ? Cell("") : Cell(variant == kScalar ? paper->second.cpu : paper->second.gpu)});
     }
   }
 
   void addPoints(double nodes, const Rates& rates) {
-    for (const auto& [way, rate] : rates) {
+    for (const auto& [variant, rate] : rates) {
       for (Plot* plot : {&rates_, &costs_}) {
-        const auto named = [&, way = way](const Series& series) { return series.name == kWays[way]; };
+        const auto named = [&, variant = variant](const Series& series) { return series.name == kVariants[variant]; };
         auto series = std::find_if(plot->series.begin(), plot->series.end(), named);
-        if (series == plot->series.end()) series = plot->series.insert(series, Series{kWays[way], {}, {}});
+        if (series == plot->series.end()) series = plot->series.insert(series, Series{kVariants[variant], {}, {}});
         series->x.push_back(nodes);
         series->y.push_back(plot == &rates_ ? rate.substeps_per_s : rate.ns_per_update());
       }
@@ -192,7 +194,7 @@ class Sizes {
   void check(const Rates& cube) {
     if (cube.count(kAllThreads) == 0) return;
     const double best = cube.at(kAllThreads).node_updates_per_s;
-    const auto over = [&](size_t way) { return best / cube.at(way).node_updates_per_s; };
+    const auto over = [&](size_t variant) { return best / cube.at(variant).node_updates_per_s; };
     report_.checkAtLeast("cube: M node updates/s, cpu, all threads", best * 1e-6, kRate_per_s * 1e-6);
     report_.checkAtLeast("cube: cpu, all threads, over the scalar loop", over(kScalar), kOverScalar);
     if (cube.count(kGpu) > 0 && report_.context()->isSoftware())

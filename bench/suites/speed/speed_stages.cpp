@@ -48,9 +48,9 @@ void addStages(Table& table, const Model& model, Scene scene) {
   InlineView view(model, scene);
   RenderRequest request;
   request.motions = probeAndBlade(model);
-  request.wants.surface = request.wants.every_image = true;
-  request.wants.cameras.assign(scene.cameras.size(), false);
-  request.wants.cameras[0] = true;
+  request.outputs.surface = request.outputs.every_image = true;
+  request.outputs.cameras.assign(scene.cameras.size(), false);
+  request.outputs.cameras[0] = true;
   const auto tick = [&] {
     Pictures pictures;
     layout::TickStats stats;

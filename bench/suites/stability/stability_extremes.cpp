@@ -185,13 +185,13 @@ void units(Report& report) {
 }
 
 /// A method of running the same substeps on one backend; all must end in the same bits.
-struct Way {
+struct Variant {
   std::string name;
   std::function<std::unique_ptr<TissueStepper>(const Model&, const Scene&)> make;
 };
 
-std::vector<Way> waysOf(Backend backend) {
-  std::vector<Way> out;
+std::vector<Variant> variantsOf(Backend backend) {
+  std::vector<Variant> out;
   if (backend == Backend::kGpu) {
     for (uint32_t group : {32u, 64u, 128u, 256u}) {
       out.push_back({"groups of " + std::to_string(group), [group](const Model& model, const Scene& scene) {
@@ -224,15 +224,15 @@ void hashes(Report& report, Law law, const std::string& stem) {
   for (Backend backend : report.backends()) {
     report.stage(stem + ", " + nameOf(backend));
     std::vector<std::string> all;
-    const std::vector<Way> ways = waysOf(backend);
-    for (const Way& way : ways) {
+    const std::vector<Variant> variants = variantsOf(backend);
+    for (const Variant& variant : variants) {
       for (bool stability_monitor : {true, false}) {
-        for (int again = 1; again <= (&way == &ways[1] ? 2 : 1); ++again) {
+        for (int again = 1; again <= (&variant == &variants[1] ? 2 : 1); ++again) {
           scene.solver.stability_monitor = stability_monitor;
-          const std::unique_ptr<TissueStepper> solver = way.make(model, scene);
+          const std::unique_ptr<TissueStepper> solver = variant.make(model, scene);
           while (solver->substepsDone() < substeps) solver->step({});
           all.push_back(StateHash::text(stateHash(model, solver->readState())));
-          table.add({nameOf(backend), way.name, stability_monitor ? "on" : "off", again, all.back()});
+          table.add({nameOf(backend), variant.name, stability_monitor ? "on" : "off", again, all.back()});
         }
       }
     }

@@ -24,12 +24,12 @@ class Pose {
     middle_ = box.center();
   }
   /// Creates a start. @param place  rest position -> position [m]
-  template <class Place>
-  Start at(const std::string& name, Place place) const {
+  template <class Position>
+  Start at(const std::string& name, Position position) const {
     Start start{name, restState(model_)};
     for (uint32_t slot : lattice_.active_slots) {
       const Vector3d rest = lattice_.restPosition(slot);
-      start.state.displacement_m[slot] = vec4(place(rest) - rest);
+      start.state.displacement_m[slot] = vec4(position(rest) - rest);
     }
     return start;
   }
@@ -57,10 +57,10 @@ Start fast(const Model& model, const Pose& pose, std::mt19937& random) {
 Start swapped(const Model& model, const Pose& pose, std::mt19937& random) {
   Start start{"swapped nodes", restState(model)};
   const std::vector<uint32_t>& slots = pose.lattice().active_slots;
-  std::vector<uint32_t> places = slots;
-  std::shuffle(places.begin(), places.end(), random);
+  std::vector<uint32_t> positions = slots;
+  std::shuffle(positions.begin(), positions.end(), random);
   for (size_t i = 0; i < slots.size(); ++i) {
-    const Vector3d away = pose.lattice().restPosition(places[i]) - pose.lattice().restPosition(slots[i]);
+    const Vector3d away = pose.lattice().restPosition(positions[i]) - pose.lattice().restPosition(slots[i]);
     start.state.displacement_m[slots[i]] = vec4(away);
   }
   return start;

@@ -26,7 +26,7 @@ constexpr double kChecked = 2;  // stretch up to which measured substeps are lon
 struct Strain {
   const char* name;
   double largest_size;
-  std::function<Vector3d(const Vector3d& at, double size, std::mt19937& random)> place;
+  std::function<Vector3d(const Vector3d& at, double size, std::mt19937& random)> position;
 };
 
 std::vector<Strain> strains() {
@@ -105,7 +105,7 @@ Field strained(const ReferenceSolver& reference, const Strain& strain, int cells
   Field u_m(reference.slots(), Vector3d::Zero());
   for (const uint32_t slot : reference.active) {
     const Vector3d rest = reference.restPosition(slot), at = rest / half_m - Vector3d::Ones();
-    u_m[slot] = half_m * (strain.place(at, size, random) + Vector3d::Ones()) - rest;
+    u_m[slot] = half_m * (strain.position(at, size, random) + Vector3d::Ones()) - rest;
   }
   return u_m;
 }

@@ -225,7 +225,7 @@ void stabilitySuite(Report& report) {
                         {"strain", strainOfStability},
                         {"tools", toolsOfStability},
                         {"wounds", woundsOfStability},
-                        {"places", placesOfStability},
+                        {"places", positionsOfStability},
                         {"extremes", extremesOfStability}});
 }
 

@@ -16,7 +16,7 @@ void measuredOfStability(Report& report);   ///< substeps from the measured fast
 void strainOfStability(Report& report);     ///< ratio of the fastest mode of strained tissue to that at rest
 void toolsOfStability(Report& report);      ///< fast and jumping tools, a grab pulled to 10x, random cuts
 void woundsOfStability(Report& report);     ///< ten thousand cuts: cost of the last against the first
-void placesOfStability(Report& report);     ///< far from the origin, with tools and surface mesh; in other sizes
+void positionsOfStability(Report& report);  ///< far from the origin, with tools and surface mesh; in other sizes
 void extremesOfStability(Report& report);   ///< stiffness and mass ratios, a long rest, units, equal hashes
 
 }  // namespace viscera::bench

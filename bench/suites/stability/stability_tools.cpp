@@ -238,10 +238,10 @@ void cutToPieces(Report& report) {
     std::srand(kStabilityToolsSeed);  // for UnitRandom()
     Stage stage(backend, ToolMode::kCut, Law::kSprings, Vector3i(5, 5, 5));
     std::mt19937 random(kStabilityToolsSeed);
-    std::uniform_real_distribution<double> place(-0.005, 0.03);
+    std::uniform_real_distribution<double> position(-0.005, 0.03);
     for (int i = 0; i < strokes; ++i) {
       stage.turn(Quaterniond::UnitRandom());
-      stage.moveTo({place(random), place(random), place(random)});
+      stage.moveTo({position(random), position(random), position(random)});
       if (i % 1000 == 0) report.stage("random cuts, stroke " + std::to_string(i) + ", " + nameOf(backend));
     }
     const double springs = static_cast<double>(stage.model().springs());

@@ -17,7 +17,7 @@ constexpr double kStabilityWoundsSpacing_m = 0.004;
 constexpr double kSofter = 0.005;  // relative to E: a tick is a few substeps, and waves still travel a spacing in it
 constexpr double kDearer = 2;      // cost of the last hundred cuts relative to the first hundred
 constexpr size_t kSome = 100;
-constexpr double kWay = 0.25;  // distance of a line from the nodes [spacings]
+constexpr double kOffset = 0.25;  // distance of a line from the nodes [spacings]
 
 /// A box in which a short blade cuts parallel lines, in levels one below the other.
 struct Block {
@@ -25,7 +25,7 @@ struct Block {
   Vector3d size_m() const { return kStabilityWoundsSpacing_m * cells.cast<double>(); }
   int lines() const { return cells.x() - 2; }
   int levels() const { return cells.z() / 2 - 1; }
-  int places() const { return cells.y() + 2; }  ///< positions of a line: from before the box until behind it
+  int positions() const { return cells.y() + 2; }  ///< positions of a line: from before the box until behind it
 };
 
 Scene sceneOf(const Block& block, Backend backend) {
@@ -50,12 +50,12 @@ Scene sceneOf(const Block& block, Backend backend) {
 
 /// Returns the blade's pose at a tick; between two lines it is away.
 StylusSamples bladeAt(const Block& block, size_t tick) {
-  const auto places = static_cast<size_t>(block.places()), lines = static_cast<size_t>(block.lines());
-  const size_t line = tick / (places + 1), place = tick % (places + 1);
+  const auto positions = static_cast<size_t>(block.positions()), lines = static_cast<size_t>(block.lines());
+  const size_t line = tick / (positions + 1), position = tick % (positions + 1);
   StylusSamples out;
-  out[0].valid = place > 0;
-  const Vector3d along(static_cast<double>(line % lines) + 1 + kWay, static_cast<double>(place) - 1.5 + kWay,
-                       static_cast<double>(block.cells.z()) - 2 * static_cast<double>(line / lines) - 1 - kWay);
+  out[0].valid = position > 0;
+  const Vector3d along(static_cast<double>(line % lines) + 1 + kOffset, static_cast<double>(position) - 1.5 + kOffset,
+                       static_cast<double>(block.cells.z()) - 2 * static_cast<double>(line / lines) - 1 - kOffset);
   out[0].pose.position_m = kStabilityWoundsSpacing_m * along - block.size_m() / 2;
   return out;
 }
@@ -81,17 +81,17 @@ Costs cutOn(Report& report, Backend backend, const Block& block, size_t cuts) {
   const Scene scene = sceneOf(block, backend);
   const std::unique_ptr<Session> session =
       context ? std::make_unique<Session>(scene, *context) : std::make_unique<Session>(scene);
-  FrameRequest wants;
-  wants.surface = true;
+  FrameRequest outputs;
+  outputs.surface = true;
   Costs out;
-  const auto ticks = static_cast<size_t>(block.lines() * block.levels() * (block.places() + 1));
+  const auto ticks = static_cast<size_t>(block.lines() * block.levels() * (block.positions() + 1));
   for (size_t tick = 0; tick < ticks && out.tick_s.size() < cuts; ++tick) {
     if (tick % 1000 == 0) report.stage("cuts with their wounds, tick " + std::to_string(tick) + ", " + nameOf(backend));
     const auto start = std::chrono::steady_clock::now();
     session->step(bladeAt(block, tick), {});
     const double springs = session->drain().stats.springs_cut, tick_s = since(start);
     const auto shown = std::chrono::steady_clock::now();
-    const Pictures pictures = session->show(wants);
+    const Pictures pictures = session->show(outputs);
     if (springs <= out.springs) continue;
     out.springs = springs;
     out.tick_s.push_back(tick_s);

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "bench/suites/suture/channel_trials.h"
 #include "bench/suites/suture/suture_trials.h"
 #include "bench/suites/suture/tearing_trial.h"
+#include "bench/suites/suture/track_trials.h"
 
 namespace viscera::bench {
 
@@ -78,7 +78,7 @@ void channels(Report& report) {
               {{"share of EI"}, {"channels"}, {"ratio / law"}, {"ripple", "%", 2}, {"iterations", "", 3}});
   for (const double share : {1e-3, 1.0}) {
     for (const size_t count : {1, 2, 4}) {
-      const ChannelTrial r = drawnThroughChannels(count, share, 0.1);
+      const TrackTrial r = drawnThroughTracks(count, share, 0.1);
       table.add({share, static_cast<double>(count), r.ratio, kPercent * r.ripple, r.iterations});
       const std::string name = std::to_string(count) + " channels, " + Cell(share).text(3) + " of EI";
       report.checkAtMost("capstan through " + name, std::abs(r.ratio - 1), kCapstan);

@@ -30,8 +30,8 @@ struct Clamped {
         last(static_cast<uint32_t>(nodes - 1)) {
     around.holds = {holdAt(chain, 0), holdAt(chain, 1)};
   }
-  Vector3d tip() const { return chain.places_m()[last] - Vector3d(chain.link_m() / 2, 0, 0); }
-  Vector3d end() const { return (chain.places_m()[last] - chain.places_m()[last - 1]).normalized(); }
+  Vector3d tip() const { return chain.positions_m()[last] - Vector3d(chain.link_m() / 2, 0, 0); }
+  Vector3d end() const { return (chain.positions_m()[last] - chain.positions_m()[last - 1]).normalized(); }
   Chain chain;
   ChainAround around;
   uint32_t last;
@@ -109,13 +109,13 @@ double bentByMoment(double turns, size_t nodes) {
 CatenaryTrial hungUp(double width_m, size_t nodes) {
   constexpr double kLength_m = 0.2, kLimp = 1e-4;
   const double link_m = kLength_m / static_cast<double>(nodes - 1);
-  std::vector<Vector3d> places(nodes);  // a V with links of the right length
+  std::vector<Vector3d> positions(nodes);  // a V with links of the right length
   for (size_t i = 0; i < nodes; ++i) {
-    const double way_m = link_m * static_cast<double>(i);
+    const double path_m = link_m * static_cast<double>(i);
     const double depth = std::sqrt(kLength_m * kLength_m - width_m * width_m) / kLength_m;
-    places[i] = Vector3d(way_m * width_m / kLength_m, 0, -depth * std::min(way_m, kLength_m - way_m));
+    positions[i] = Vector3d(path_m * width_m / kLength_m, 0, -depth * std::min(path_m, kLength_m - path_m));
   }
-  Chain chain(calm(kLimp), places);
+  Chain chain(calm(kLimp), positions);
   ChainAround around;
   around.gravity_m_per_s2 = kGravity;
   around.holds = {holdAt(chain, 0), holdAt(chain, static_cast<uint32_t>(nodes - 1))};
@@ -126,7 +126,7 @@ CatenaryTrial hungUp(double width_m, size_t nodes) {
     (2 * middle * std::sinh(width_m / (2 * middle)) > kLength_m ? low : high) = middle;
   }
   CatenaryTrial out;
-  for (const Vector3d& place : chain.places_m()) out.sag = std::max(out.sag, -place.z());
+  for (const Vector3d& position : chain.positions_m()) out.sag = std::max(out.sag, -position.z());
   out.exact_sag = low * (std::cosh(width_m / (2 * low)) - 1);
   out.tension = chain.tension_n(nodes / 2 - 1);
   out.exact_tension = chain.mass_kg(1) / link_m * -kGravity.z() * low;
@@ -137,23 +137,24 @@ double drawnOverCylinder(double angle_deg) {
   constexpr double kRadius_m = 5e-3, kFriction = 0.3, kBack_n = 0.1, kSpeed_m_per_s = 0.01, kLink_m = 2.5e-4;
   constexpr double kFree_m = 0.02;
   const double angle = angle_deg * kPi / 180, round_m = kRadius_m + nylon().radius_m;
-  std::vector<Vector3d> places;  // straight, round by the angle, straight; the top is in the middle
-  const auto at = [&](double way_m) {
-    const double along = way_m / round_m, inside = std::clamp(along, -angle / 2, angle / 2);
+  std::vector<Vector3d> positions;  // straight, round by the angle, straight; the top is in the middle
+  const auto at = [&](double path_m) {
+    const double along = path_m / round_m, inside = std::clamp(along, -angle / 2, angle / 2);
     const double rest_m = (along - inside) * round_m;
     return Vector3d(round_m * std::sin(inside) + rest_m * std::cos(inside), 0,
                     round_m * std::cos(inside) - rest_m * std::sin(inside));
   };
   const int half = static_cast<int>((kFree_m + angle / 2 * round_m) / kLink_m);
-  for (int i = -half; i <= half; ++i) places.push_back(at(i * kLink_m));
+  for (int i = -half; i <= half; ++i) positions.push_back(at(i * kLink_m));
   ChainMaterial material = nylon(1e-3);
   material.mass_damping_per_s = 20;
-  Chain chain(material, places);
+  Chain chain(material, positions);
   Ground cylinder(Vector3d::Zero(), kRadius_m, -1, kFriction);
   ChainAround around;
-  const uint32_t last = static_cast<uint32_t>(places.size() - 1);
+  const uint32_t last = static_cast<uint32_t>(positions.size() - 1);
   around.holds = {holdAt(chain, last)};
-  const Vector3d back = (places[0] - places[1]).normalized(), ahead = (places[last] - places[last - 1]).normalized();
+  const Vector3d back = (positions[0] - positions[1]).normalized(),
+                 ahead = (positions[last] - positions[last - 1]).normalized();
   double before = 0, behind = 0;
   constexpr int kAll = 2000, kCounted = 500;
   for (int k = 0; k < kAll; ++k) {
@@ -172,12 +173,12 @@ PullTrial pulledBy(double force_n) {
   constexpr size_t kNodes = 300;
   constexpr double kLink_m = 0.2 / 299, kBow_m = 0.01;
   constexpr int kAll = 2000, kRise = 400;
-  std::vector<Vector3d> places(kNodes, Vector3d::Zero());
+  std::vector<Vector3d> positions(kNodes, Vector3d::Zero());
   for (size_t i = 1; i < kNodes; ++i) {
     const double turn = static_cast<double>(i) * kLink_m / kBow_m;
-    places[i] = places[i - 1] + kLink_m * Vector3d(std::cos(turn), 0.1, -std::sin(turn)).normalized();
+    positions[i] = positions[i - 1] + kLink_m * Vector3d(std::cos(turn), 0.1, -std::sin(turn)).normalized();
   }
-  Chain chain(nylon(), places);
+  Chain chain(nylon(), positions);
   ChainAround around;
   around.gravity_m_per_s2 = kGravity;
   around.holds = {holdAt(chain, 0)};
@@ -197,13 +198,13 @@ PullTrial pulledBy(double force_n) {
 FlightTrial thrown() {
   constexpr size_t kNodes = 300;
   constexpr double kLink_m = 0.2 / 299, kCoil_m = 0.012;
-  std::vector<Vector3d> places(kNodes, Vector3d::Zero()), speeds(kNodes);
+  std::vector<Vector3d> positions(kNodes, Vector3d::Zero()), speeds(kNodes);
   for (size_t i = 0; i < kNodes; ++i) {
     const double turn = static_cast<double>(i) * kLink_m / kCoil_m, share = static_cast<double>(i) / kNodes;
-    if (i > 0) places[i] = places[i - 1] + kLink_m * Vector3d(std::cos(turn), -std::sin(turn), 0.1).normalized();
+    if (i > 0) positions[i] = positions[i - 1] + kLink_m * Vector3d(std::cos(turn), -std::sin(turn), 0.1).normalized();
     speeds[i] = Vector3d(std::sin(7 * share), std::cos(11 * share), 0.3);
   }
-  Chain chain(nylon(), places);
+  Chain chain(nylon(), positions);
   chain.setVelocities(speeds);
   ChainAround around;
   double speed = 0, spin = 0;
@@ -212,9 +213,9 @@ FlightTrial thrown() {
     for (size_t i = 0; i < kNodes; ++i) {
       const Vector3d p = chain.mass_kg(i) * chain.velocities_m_per_s()[i];
       out.first += p;
-      out.second += chain.places_m()[i].cross(p);
+      out.second += chain.positions_m()[i].cross(p);
       speed += p.norm();
-      spin += chain.places_m()[i].cross(p).norm();
+      spin += chain.positions_m()[i].cross(p).norm();
     }
     return out;
   };
@@ -242,14 +243,14 @@ ModeTrial plucked(double length_m) {
   Clamped bent(calm(), kNodes, length_m);
   bent.around.loads = {{bent.last, Vector3d(0, 0, 0.06 * material.bending_nm2 / (length_m * length_m))}};
   for (int k = 0; k < 400; ++k) bent.chain.step(kCalmSubstep_s, bent.around);
-  Chain chain(material, bent.chain.places_m());
+  Chain chain(material, bent.chain.positions_m());
   ChainAround around;
   around.holds = {holdAt(chain, 0), holdAt(chain, 1)};
   std::vector<double> times, peaks;
   double one = 0, two = 0, time_s = 0;  // heights before
   while (peaks.size() <= kPeriods && time_s < 10) {
     chain.step(kSubstep_s, around);
-    const double now = chain.places_m().back().z();
+    const double now = chain.positions_m().back().z();
     if (time_s > 0 && one > two && one >= now && one > 0) {
       const double off = (two - now) / 2 / (two - 2 * one + now);
       times.push_back(time_s + off * kSubstep_s);
@@ -302,7 +303,7 @@ StressTrial drawnAbout(double seconds, double bending_share) {
     seed = seed * 1664525U + 1013904223U;
     return static_cast<double>(seed >> 8) / 16777216.0 - 0.5;
   };
-  Vector3d way(-0.8, 0.1, 0.6);
+  Vector3d offset(-0.8, 0.1, 0.6);
   StressTrial out;
   const int all = static_cast<int>(seconds / kSubstep_s), rest = static_cast<int>(4 / kSubstep_s);
   double phase = 0, from_s = cpuTime_s();
@@ -310,9 +311,9 @@ StressTrial drawnAbout(double seconds, double bending_share) {
     if (k < all) phase += kSubstep_s * kSpeed_m_per_s / kReach_m;
     if (phase > 2 * kPi) {
       phase -= 2 * kPi;
-      way = Vector3d(-1 + random(), 2 * random(), 2 * random()).normalized();
+      offset = Vector3d(-1 + random(), 2 * random(), 2 * random()).normalized();
     }
-    around.holds[1].to_m = middle_m + kReach_m * std::sin(phase) * way;
+    around.holds[1].to_m = middle_m + kReach_m * std::sin(phase) * offset;
     ground.touch(chain, kSubstep_s, around);
     chain.step(kSubstep_s, around);
     out.worst_link = std::max(out.worst_link, chain.worstLink());
@@ -320,10 +321,10 @@ StressTrial drawnAbout(double seconds, double bending_share) {
     out.iterations += chain.iterations();
     out.most_iterations = std::max<double>(out.most_iterations, chain.iterations());
     out.most_force_n = std::max(out.most_force_n, around.holds[1].impulse_ns.norm() / kSubstep_s);
-    for (const Vector3d& place : chain.places_m()) {
-      out.nonfinite += !place.allFinite();
-      const double from_axis_m = std::hypot(place.x() - axis_m.x(), place.z() - axis_m.z());
-      out.deepest_m = std::max({out.deepest_m, kCylinder_m - from_axis_m, kHeight_m - place.z()});
+    for (const Vector3d& position : chain.positions_m()) {
+      out.nonfinite += !position.allFinite();
+      const double from_axis_m = std::hypot(position.x() - axis_m.x(), position.z() - axis_m.z());
+      out.deepest_m = std::max({out.deepest_m, kCylinder_m - from_axis_m, kHeight_m - position.z()});
     }
     if (k + 1 == all) out.substep_us = 1e6 * (cpuTime_s() - from_s) / all;
   }

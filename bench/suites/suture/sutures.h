@@ -30,7 +30,7 @@ inline std::vector<Vector3d> straight(size_t nodes, double link_m) {
 inline ChainHold holdAt(const Chain& chain, uint32_t node) {
   ChainHold out;
   out.node = node;
-  out.to_m = chain.places_m()[node];
+  out.to_m = chain.positions_m()[node];
   return out;
 }
 

@@ -16,10 +16,10 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kHand_n = 20, kSpeed_m_per_s = 1, kReach_m = 0.03;
+constexpr double kGrip_n = 20, kSpeed_m_per_s = 1, kReach_m = 0.03;
 constexpr double kLongest_s = 5;  // for a block: what has not torn by then is out of reach
 constexpr double kTop_m = 0.009, kSpacing_m = 0.003;
-const Vector3d kHand_m(0.010, 0, 0.05);
+const Vector3d kTool_m(0.010, 0, 0.05);
 
 /// Returns a point in the plane of the suture [mm].
 Vector3d inPlane(double x, double z) {
@@ -45,7 +45,7 @@ Scene padScene(double young_modulus_pa, int threads) {
   scene.styluses.resize(1);
   scene.styluses[0].idle = ToolMode::kGrab;
   scene.styluses[0].button2 = ToolMode::kCut;
-  scene.styluses[0].max_force_n = kHand_n;
+  scene.styluses[0].max_force_n = kGrip_n;
   SutureConfig suture;
   suture.material = SutureMaterial::kSilk;
   suture.usp = SutureSize::kUsp4;
@@ -54,7 +54,7 @@ Scene padScene(double young_modulus_pa, int threads) {
   addBite(-12, suture);
   addBite(3, suture);
   suture.path.push_back({inPlane(10, 14)});
-  suture.path.push_back({kHand_m});
+  suture.path.push_back({kTool_m});
   scene.sutures.push_back(suture);
   scene.solver.backend = Backend::kCpu;
   scene.solver.threads = threads;
@@ -62,17 +62,17 @@ Scene padScene(double young_modulus_pa, int threads) {
 }
 
 /// A user who moves back and forth, in a different direction each time.
-class RoughHand {
+class RoughTool {
  public:
   /// Returns the next sample. Initially it is at the suture's end.
   StylusSamples next(double tick_s) {
     StylusSamples out;
     out[0].valid = true;
-    out[0].pose.position_m = kHand_m + kReach_m * std::sin(phase_) * way_;
+    out[0].pose.position_m = kTool_m + kReach_m * std::sin(phase_) * direction_;
     phase_ += tick_s * kSpeed_m_per_s / kReach_m;
     if (phase_ > 2 * kPi) {
       phase_ -= 2 * kPi;
-      way_ = Vector3d(random(), random(), random()).normalized();
+      direction_ = Vector3d(random(), random(), random()).normalized();
     }
     return out;
   }
@@ -85,7 +85,7 @@ class RoughHand {
   }
   uint32_t seed_ = 1;
   double phase_ = 0;
-  Vector3d way_{0.1, 0.2, 0.97};
+  Vector3d direction_{0.1, 0.2, 0.97};
 };
 
 }  // namespace
@@ -94,7 +94,7 @@ TearingTrial tornOut(double seconds, double young_modulus_pa, int threads) {
   Session session(padScene(young_modulus_pa, threads));
   const SutureBodies& bodies = *findProcess<SutureBodies>(session.solver());
   const size_t channels = bodies.slides(0).size();
-  RoughHand hand;
+  RoughTool tool;
   TearingTrial out;
   StateHash hash;
   const double from_s = cpuTime_s();
@@ -115,11 +115,11 @@ TearingTrial tornOut(double seconds, double young_modulus_pa, int threads) {
     if (bodies.slides(0).empty() || static_cast<double>(session.tick()) * session.tick_s() > kLongest_s) {
       endBlock();
       session.reset();
-      hand.beginAgain();
+      tool.beginAgain();
       ++out.blocks;
     }
-    session.step(hand.next(session.tick_s()), {});
-    for (const Vector3d& place : suturePositions(session, 0)) out.nonfinite += !place.allFinite();
+    session.step(tool.next(session.tick_s()), {});
+    for (const Vector3d& position : suturePositions(session, 0)) out.nonfinite += !position.allFinite();
     const std::vector<ChainSlide>& slides = bodies.slides(0);
     for (size_t k = 0; k + 1 < slides.size(); ++k)
       out.nearest_links = std::min(out.nearest_links, slides[k].between_rest_m / bodies.chain(0).link_m());

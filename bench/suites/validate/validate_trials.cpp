@@ -105,10 +105,10 @@ Compression compressedCylinder(double poisson_ratio, double spacing_m, double mo
   Compression out{{0}, {0}};
   while (out.strain.back() < most_strain) {
     const Frame frame = session.step({}, {});
-    const double way_m = kPlateSpeed_m_per_s * static_cast<double>(session.tick()) * session.tick_s();
+    const double travel_m = kPlateSpeed_m_per_s * static_cast<double>(session.tick()) * session.tick_s();
     const double force_n = (frame.obstacle_forces[1].force_n.z() - frame.obstacle_forces[0].force_n.z()) / 2;
     // Forces are means over a tick, and this is its middle.
-    out.strain.push_back((way_m - kPlateSpeed_m_per_s * session.tick_s() / 2) / kCylinderHeight_m);
+    out.strain.push_back((travel_m - kPlateSpeed_m_per_s * session.tick_s() / 2) / kCylinderHeight_m);
     out.stress_over_e.push_back(force_n / area_m2 / kYoung_pa);
   }
   return out;
@@ -127,15 +127,15 @@ SpherePress pressedSphere(double poisson_ratio, int radius, const std::vector<do
   scene.styluses = {stylus};
   Session session(scene);
   SpherePress out;
-  StylusSamples hand;
-  hand[0].valid = true;
+  StylusSamples samples;
+  samples[0].valid = true;
   double before_m = -kFromAbove * radius_m, force_n = 0;
   for (const double wanted : depths) {
     while (before_m < wanted * radius_m) {
       const double depth_m = before_m + kSinkSpeed * radius_m * session.tick_s();
-      hand[0].pose.position_m = Vector3d(0, 0, top_m + radius_m - depth_m);
-      hand[0].received = std::chrono::steady_clock::now();
-      force_n = session.step(hand, {}).contacts[0].reaction.force_n.z();
+      samples[0].pose.position_m = Vector3d(0, 0, top_m + radius_m - depth_m);
+      samples[0].received = std::chrono::steady_clock::now();
+      force_n = session.step(samples, {}).contacts[0].reaction.force_n.z();
       before_m = depth_m;
     }
     const double middle_m = before_m - kSinkSpeed * radius_m * session.tick_s() / 2;

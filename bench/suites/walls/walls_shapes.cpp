@@ -41,10 +41,10 @@ Vector3d bowl(double s, double f, double t) {
 /// Returns a tube of radius 12 mm: 20 mm along x, a quarter turn of radius 35 mm, 20 mm up to z = 0.
 Vector3d tube(double s, double f, double t) {
   constexpr double kLeg = 0.02, kBend = 0.035, kTurn = kBend * M_PI / 2;
-  const double r = 0.009 + 0.003 * t, way = (1 - s) * (2 * kLeg + kTurn);
-  const double bent = std::clamp(way - kLeg, 0.0, kTurn) / kBend, out = r * std::cos(f);
-  const double x = kBend * (1 - std::cos(bent)) + std::max(way - kLeg - kTurn, 0.0);
-  const double z = -std::min(way, kLeg) - kBend * std::sin(bent);
+  const double r = 0.009 + 0.003 * t, path = (1 - s) * (2 * kLeg + kTurn);
+  const double bent = std::clamp(path - kLeg, 0.0, kTurn) / kBend, out = r * std::cos(f);
+  const double x = kBend * (1 - std::cos(bent)) + std::max(path - kLeg - kTurn, 0.0);
+  const double z = -std::min(path, kLeg) - kBend * std::sin(bent);
   return {x + out * std::cos(bent), r * std::sin(f), z + out * std::sin(bent)};
 }
 
@@ -72,13 +72,13 @@ FixedConfig clampFrom(int axis, double at_m) {
 class OrganSurface {
  public:
   explicit OrganSurface(const Organ& organ) : organ_(organ), round_(organ.f_high - organ.f_low > 2 * M_PI - 1e-9) {
-    along_ = stepsOf([&](double q) { return place(q, 0.5, 1); });
-    around_ = stepsOf([&](double q) { return place(0.7, q, 1); });
+    along_ = stepsOf([&](double q) { return position(q, 0.5, 1); });
+    around_ = stepsOf([&](double q) { return position(0.7, q, 1); });
     for (int t = 0; t < 2; ++t)
       for (int i = 0; i <= along_; ++i)
         for (int j = 0; j <= around_; ++j)
           mesh_.positions_m.push_back(
-              place(static_cast<double>(i) / along_, static_cast<double>(j) / around_, t).cast<float>());
+              position(static_cast<double>(i) / along_, static_cast<double>(j) / around_, t).cast<float>());
     addWall();
     addEnds();
     if (signedVolume(mesh_) > 0) return;
@@ -88,8 +88,8 @@ class OrganSurface {
 
  private:
   /// @param s, f  0 to 1 within their ranges
-  Vector3d place(double s, double f, double t) const {
-    return organ_.place(organ_.s_low + (1 - organ_.s_low) * s, organ_.f_low + (organ_.f_high - organ_.f_low) * f, t);
+  Vector3d position(double s, double f, double t) const {
+    return organ_.position(organ_.s_low + (1 - organ_.s_low) * s, organ_.f_low + (organ_.f_high - organ_.f_low) * f, t);
   }
   template <class Curve>
   static int stepsOf(const Curve& curve) {
@@ -189,7 +189,7 @@ OrganFile::OrganFile(const Organ& organ)
                 .string()) {
   std::ofstream out(path_);
   out.precision(9);
-  if (organ.place) {
+  if (organ.position) {
     writeMapped(organ, out);
   } else {
     writeBlockPart("soft", {-0.03, -0.02, -0.015}, {kOrganBorder_m, 0.02, 0.015}, 0, out);

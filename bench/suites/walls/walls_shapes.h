@@ -19,9 +19,9 @@ struct Organ {
   double wall_m;
   Vector3d load;  ///< direction of gravity
   FixedConfig clamp;
-  std::function<Vector3d(double s, double f, double t)> place;  ///< [m]; empty: the block of two materials
-  double s_low = 0, f_low = -M_PI, f_high = M_PI;               ///< ranges; f is periodic or has two ends
-  bool pole = true;                                             ///< whether all f coincide at s_low; else an open end
+  std::function<Vector3d(double s, double f, double t)> position;  ///< [m]; empty: the block of two materials
+  double s_low = 0, f_low = -M_PI, f_high = M_PI;                  ///< ranges; f is periodic or has two ends
+  bool pole = true;  ///< whether all f coincide at s_low; else an open end
 };
 
 /// Returns the organs, bowl first.

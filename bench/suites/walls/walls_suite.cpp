@@ -63,7 +63,7 @@ Scene hangingScene(const Organ& organ, const OrganFile& file, double nu, double 
   body.material.density_kg_per_m3 = kWallsDensity_kg_per_m3;
   body.material.law = Law::kNeoHookean;
   body.fixed = {organ.clamp};
-  if (!organ.place) {
+  if (!organ.position) {
     PartConfig part{"soft"};
     part.poisson_ratio = nu;
     part.density_kg_per_m3 = kWallsDensity_kg_per_m3;

@@ -33,14 +33,15 @@ class HapticServo {
   void leave();
   /// Advances the loop by one period.
   /// @param tip_m   newest position of the tip, tissue frame
-  /// @param told_s  time of that position [s]; a device may be slower than the loop   @param now_s  never goes back
+  /// @param pose_time_s  time of that position [s]; a device may be slower than the loop   @param now_s  never goes
+  /// back
   /// @returns the desired reaction on the tip, before force_scale
-  Reaction step(const Vector3d& tip_m, double told_s, double now_s);
+  Reaction step(const Vector3d& tip_m, double pose_time_s, double now_s);
   /// Damps a force on the tip that has been limited since the last step(). @returns the force to send
   Vector3d damped(const Vector3d& limited_n, double now_s);
   /// Records the force that acts from now on, after every limit: force of the device's motors, axes of the tissue
   /// frame.
-  void sent(const Vector3d& hand_force_n, double now_s) { passivity_.sent(hand_force_n, now_s); }
+  void sent(const Vector3d& user_force_n, double now_s) { passivity_.sent(user_force_n, now_s); }
 
   const ContactModel& model() const { return model_; }
   const PassivityControl& passivity() const { return passivity_; }
@@ -48,9 +49,9 @@ class HapticServo {
   double lead_s() const { return lead_s_; }  ///< time from a pose to its force for which the model extrapolates [s]
 
  private:
-  void follow(const Vector3d& tip_m, double told_s);
+  void follow(const Vector3d& tip_m, double pose_time_s);
   void judge();
-  double felt_n_per_m() const;
+  double device_stiffness_n_per_m() const;
   double late_s() const;
   Vector3d softened(const Vector3d& wanted_n);
 
@@ -59,7 +60,7 @@ class HapticServo {
   PassivityControl passivity_;
   double lead_s_;
   bool placed_ = false;
-  double told_s_ = 0, between_poses_s_ = 0;
+  double pose_time_s_ = 0, between_poses_s_ = 0;
   // In the coordinates of the device.
   Vector3d at_m_ = Vector3d::Zero(), moved_m_ = Vector3d::Zero(), acting_n_ = Vector3d::Zero();
   Vector3d velocity_ = Vector3d::Zero(), acceleration_ = Vector3d::Zero(), mean_n_ = Vector3d::Zero();

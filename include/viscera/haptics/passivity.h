@@ -55,22 +55,22 @@ struct PassivityLimits {
 class PassivityControl {
  public:
   /// Length of the force history in addition to a round trip [s]: poses further apart are not used.
-  static constexpr double kLongestWay_s = 0.1;
+  static constexpr double kLongestTransit_s = 0.1;
 
   explicit PassivityControl(const PassivityLimits& limits);
 
   /// Records a displacement of the device. @param from_s, to_s  times of the two poses
   /// @returns the mean force that acted meanwhile. If it is not known, returns nothing, adds no energy, and sets the
   /// remaining energy to zero.
-  std::optional<Vector3d> moved(const Vector3d& way_m, double from_s, double to_s);
+  std::optional<Vector3d> moved(const Vector3d& offset_m, double from_s, double to_s);
   /// Damps a force so that the remaining energy stays positive.
   /// @param velocity_m_per_s  of the device, smoothed
   /// @param wanted_n    force on the device, within every limit
   /// @param stored_j    U: energy that the tissue can give back
-  /// @param told_s      time of the last pose   @param now_s  never goes back
+  /// @param pose_time_s      time of the last pose   @param now_s  never goes back
   /// @param strength    of the controller, 0..1   @param sure_n_s_per_m  damping that is applied at any strength
   /// @returns the force to send
-  Vector3d damped(const Vector3d& velocity_m_per_s, const Vector3d& wanted_n, double stored_j, double told_s,
+  Vector3d damped(const Vector3d& velocity_m_per_s, const Vector3d& wanted_n, double stored_j, double pose_time_s,
                   double now_s, double strength = 1, double sure_n_s_per_m = 0);
   /// Records the force that acts from now on.
   void sent(const Vector3d& force_n, double now_s) { sent_.add(force_n, now_s); }

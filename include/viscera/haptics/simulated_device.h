@@ -28,8 +28,8 @@ class SimulatedDevice {
   /// @param at_m  initial position of the device and of the user's intent
   SimulatedDevice(const SimulatedDeviceConfig& config, const Vector3d& at_m);
 
-  /// Advances by one period. @param force_n  newest command   @param hand_m  intended position at its end
-  void step(const Vector3d& force_n, const Vector3d& hand_m);
+  /// Advances by one period. @param force_n  newest command   @param user_m  intended position at its end
+  void step(const Vector3d& force_n, const Vector3d& user_m);
   /// Returns the encoders' position, delayed by half of the delay.
   const Vector3d& measured_m() const { return measured_[next_measured_]; }
   const Vector3d& position_m() const { return at_m_; }  ///< true position [m]
@@ -42,7 +42,7 @@ class SimulatedDevice {
   Vector3d tremor() const;
 
   SimulatedDeviceConfig config_;
-  Vector3d at_m_, hand_m_, told_m_, velocity_ = Vector3d::Zero(), acting_n_ = Vector3d::Zero();
+  Vector3d at_m_, user_m_, reported_m_, velocity_ = Vector3d::Zero(), acting_n_ = Vector3d::Zero();
   std::vector<Vector3d> measured_, commanded_;  ///< ring buffers of values in transit
   size_t next_measured_ = 0, next_commanded_ = 0;
   double energy_j_ = 0, time_s_ = 0;

@@ -21,7 +21,7 @@ struct Link {
 const uint kNoLatticeSpring = 31u;
 const uint kBendingSpring = 30u;  // resists bending and is no edge of the surface: it spans two other springs
 const uint kLatticeSpringMask = 31u;
-const uint kForcePlaceShift = 5u;  // in the link of the spring's owner, the bits of Link.lattice_spring above these: index of the spring's force on the far end
+const uint kForcePositionShift = 5u;  // in the link of the spring's owner, the bits of Link.lattice_spring above these: index of the spring's force on the far end
 
 // Explicit connection, once per spring: slots of its ends, a < b, and its links there.
 struct SpringEnds {

@@ -113,7 +113,7 @@ struct RenderRequest {
   std::vector<Pose> obstacles;  ///< [obstacles] poses at the end of the tick, tissue frame
   std::vector<Pose> cameras;    ///< [cameras] poses of the optical frames, tissue frame
   ProcessVisuals processes;     ///< processes in the tissue at the end of the tick
-  FrameRequest wants;
+  FrameRequest outputs;
   std::vector<Overlays> overlays;  ///< [cameras]
   std::vector<Arrow> arrows;       ///< arrows of forces and wind, where some camera shows them
 };

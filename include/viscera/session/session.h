@@ -73,7 +73,7 @@ class Session {
   explicit Session(const Scene& scene, const Progress& progress = {}, const SessionOptions& options = {});
   ~Session();
 
-  Frame step(const StylusSamples& samples, const FrameRequest& wants);
+  Frame step(const StylusSamples& samples, const FrameRequest& outputs);
   /// Sets the pose of the tf frame that carries an obstacle: the obstacle moves there over the next tick. The first
   /// pose causes no motion. @param obstacle  index in the scene   @param pose  of the frame, tissue frame
   void setObstacleFrame(size_t obstacle, const Pose& pose);
@@ -96,7 +96,7 @@ class Session {
   /// forces begin at zero.
   void resetInput();
   /// Returns the requested outputs of the last tick without a step; waits for them.
-  Pictures show(const FrameRequest& wants);
+  Pictures show(const FrameRequest& outputs);
   /// Waits for all pending requests and returns images and surface of the last ticks.
   Frame drain();
   uint64_t stateHash() const;

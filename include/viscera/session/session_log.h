@@ -27,14 +27,14 @@ class SessionLog {
   /// the last reset.
   virtual void measured(const Session&, uint64_t /*tick*/, const layout::TickStats&) {}
   virtual void wasReset() {}
-  virtual void handsForgotten() {}
+  virtual void inputCleared() {}
   virtual void restored(Session&) {}  ///< after wasReset(): the session is in another state
   virtual void toolModeSet(size_t /*stylus*/, ToolSwitch, ToolMode) {}
   virtual void forceLimitsSet(size_t /*stylus*/, const ForceLimits&) {}
   virtual void obstacleFrameSet(size_t /*obstacle*/, const Pose&) {}
   virtual void cameraFrameSet(size_t /*camera*/, const Pose&) {}
   virtual void sutureTied(size_t /*piece*/, const SutureTie&) {}
-  virtual void taskNoted(Session&, const std::string& /*name*/, const std::string& /*yaml*/) {}
+  virtual void taskRecorded(Session&, const std::string& /*name*/, const std::string& /*yaml*/) {}
   virtual void overlaysSet(size_t /*camera*/, const Overlays&) {}
 };
 

@@ -60,7 +60,7 @@ class StabilityMonitor {
   int setbacks() const { return setbacks_; }
 
  private:
-  void note(const layout::TickStats& stats);
+  void record(const layout::TickStats& stats);
   void recover();
   void shorten();
 

@@ -16,10 +16,10 @@ enum class TubeKind { kSuture, kNeedle, kClip };
 struct VisibleTube {
   size_t suture = 0;  ///< index of the suture in the scene; 0 for clips
   TubeKind part = TubeKind::kSuture;
-  std::vector<Vector3d> places_m;  ///< [nodes] positions in order, tissue frame [m]; of a needle from its tip on
+  std::vector<Vector3d> positions_m;  ///< [nodes] positions in order, tissue frame [m]; of a needle from its tip on
 
   bool operator==(const VisibleTube& other) const {
-    return suture == other.suture && part == other.part && places_m == other.places_m;
+    return suture == other.suture && part == other.part && positions_m == other.positions_m;
   }
 };
 using VisibleTubes = std::vector<VisibleTube>;

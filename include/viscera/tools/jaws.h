@@ -28,10 +28,10 @@ class Gripper {
   /// Advances by a tick. Sets the openings of the motion and, for jaws that grip, its hold_begins and hold_ended. In a
   /// mode that has just begun, jaws move from open to the opening of the device no faster than a button would close
   /// them.
-  /// @param told_rad  StylusSample::jaw_rad   @param appears  the stylus was not present before
+  /// @param angle_rad  StylusSample::jaw_rad   @param appears  the stylus was not present before
   /// @param grips  the jaws hold what they have met
   /// @param feel  finds tissue between them in this tick by their opening [rad]; none: they have always met tissue
-  void advance(const Jaws& jaws, bool grips, float told_rad, bool appears, double tick_s,
+  void advance(const Jaws& jaws, bool grips, float angle_rad, bool appears, double tick_s,
                const std::function<std::optional<Between>(double)>& feel, StylusMotion& motion);
   /// Applies the force of this tick: above the rated force the held tissue slides, until the force equals it.
   /// @param force_n  of the tissue on the tool, tissue frame

@@ -54,7 +54,7 @@ class Tools {
 
  private:
   void changeMode(size_t stylus, StylusMotion& motion);
-  void close(size_t stylus, float told_rad, const FeelTissue& between, StylusMotion& motion);
+  void close(size_t stylus, float angle_rad, const FeelTissue& between, StylusMotion& motion);
   void holdBack(StylusMotion& motion) const;
   void feel(size_t stylus, StylusMotion& motion) const;
 

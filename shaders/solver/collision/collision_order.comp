@@ -11,9 +11,9 @@ void main() {
   if (e >= buckets[3u * bucket_count]) return;
   uint slot = unsorted[e];
   vec3 x = positionOf(slot);
-  uint b = bucketOf(x), first = buckets[3u * b + 1u], place = first;
-  for (uint k = first; k < first + buckets[3u * b]; ++k) place += unsorted[k] < slot ? 1u : 0u;
+  uint b = bucketOf(x), first = buckets[3u * b + 1u], position = first;
+  for (uint k = first; k < first + buckets[3u * b]; ++k) position += unsorted[k] < slot ? 1u : 0u;
   uvec3 bits = floatBitsToUint(x);
-  entries[place] = uvec4(bits, slot);
-  entries_before[place] = vec4(positionBefore(slot), 0.0);
+  entries[position] = uvec4(bits, slot);
+  entries_before[position] = vec4(positionBefore(slot), 0.0);
 }

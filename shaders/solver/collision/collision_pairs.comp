@@ -10,10 +10,10 @@
 uniform uint most_pairs;
 layout(std430, binding = kBindPairs) buffer PairsBuffer { uint pairs[]; };  // number of pairs, then two slots each
 void addPair(uint a, uint b) {
-  uint place = atomicAdd(pairs[0], 1u);
-  if (place >= most_pairs) return;
-  pairs[1u + 2u * place] = a;
-  pairs[2u + 2u * place] = b;
+  uint position = atomicAdd(pairs[0], 1u);
+  if (position >= most_pairs) return;
+  pairs[1u + 2u * position] = a;
+  pairs[2u + 2u * position] = b;
 }
 #endif
 void visit(Entry me, Entry other, float wanted) {

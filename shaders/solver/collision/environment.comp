@@ -101,8 +101,8 @@ void main() {
 #ifdef TOOLS
     uint held_by = (bits.lo & kGrabMask) >> kGrabShift;
     if (lone || held_by == 0u || (bits.lo & kFixedBit) != 0u) return;
-    vec3 felt = contactKick(slot) + pushKick(slot, bits, u, v);
-    if (felt != vec3(0.0f)) giveMomentum(held_by - 1u, slot, -nodeMass(slot, bits, bodies[bodyOf(bits)]) * felt);
+    vec3 kick = contactKick(slot) + pushKick(slot, bits, u, v);
+    if (kick != vec3(0.0f)) giveMomentum(held_by - 1u, slot, -nodeMass(slot, bits, bodies[bodyOf(bits)]) * kick);
 #endif
     return;
   }

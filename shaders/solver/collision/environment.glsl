@@ -20,8 +20,8 @@ bool meetObstacle(ObstacleMotion o, vec3 x, INOUT(vec3) x_next, INOUT(vec3) v_ne
   vec3 normal = meeting.normal, out_of = meeting.out_of;
   // The displacement of this substep is undone at once; a node inside an obstacle that appeared leaves no faster than a probe
   // pushes.
-  float way = length(out_of), most = max(push_speed * dt_s, 1.001f * meeting.way);
-  x_next += (way > most ? most / way : 1.0f) * out_of;
+  float offset = length(out_of), most = max(push_speed * dt_s, 1.001f * meeting.offset);
+  x_next += (offset > most ? most / offset : 1.0f) * out_of;
   vec3 v = v_next - (xyz(o.velocity) + cross(xyz(o.spin), x_next - xyz(o.to)));
   float approach = dot(v, normal);
   if (approach >= 0.0f) return true;

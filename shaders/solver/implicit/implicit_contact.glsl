@@ -31,7 +31,7 @@ void giveObstacle(uint obstacle, uint slot, vec3 impulse) { obstacle_impulses[ob
 struct Contact {
   vec3 normal;
   float least;     // [m]
-  vec3 way;        // displacement of the surface in the substep [m]
+  vec3 offset;     // displacement of the surface in the substep [m]
   float friction;
   vec3 force;      // on the node, in the last solution [N]
   float owner;     // 1 + stylus, or 1 + kMaxStyluses + obstacle; 0: no contact in this row or later ones
@@ -56,15 +56,15 @@ void clearContacts(uint slot) {
 }
 
 /// @param side  xyz normal; w depth of the node inside [m]: beyond the surface's own motion it leaves no faster than waves travel
-void addContact(uint slot, float owner, vec4 side, vec3 way, float friction) {
+void addContact(uint slot, float owner, vec4 side, vec3 offset, float friction) {
   for (uint row = 0u; row < contact_rows; ++row) {
     uint at = contactAt(slot, row);
     float owned_by = node_contacts[at + 2u].w;
     if (owned_by == owner) return;
     if (owned_by != 0.0f) continue;
-    float most = push_speed * dt_s + max(0.0f, dot(way, xyz(side)));
+    float most = push_speed * dt_s + max(0.0f, dot(offset, xyz(side)));
     node_contacts[at] = vec4(xyz(side), min(side.w, most));
-    node_contacts[at + 1u] = vec4(way, friction);
+    node_contacts[at + 1u] = vec4(offset, friction);
     node_contacts[at + 2u] = vec4(0.0f, 0.0f, 0.0f, owner);
     return;
   }
@@ -90,7 +90,7 @@ void findContacts(uint slot, vec3 u, vec3 du) {
     ObstacleMotion seen = seenFrom(below, obstacles[o]);
     Meeting meeting = meetingOf(seen, x, x_next);
     if (!meeting.touches) continue;
-    addContact(slot, float(1u + kMaxStyluses + o), outsideOf(seen, meeting, x, x_next), wayOfSurface(obstacles[o], x, dt_s),
+    addContact(slot, float(1u + kMaxStyluses + o), outsideOf(seen, meeting, x, x_next), motionOfSurface(obstacles[o], x, dt_s),
                obstacles[o].velocity.w);
   }
 #endif
@@ -126,7 +126,7 @@ vec3 forceOfContact(Contact c, float stiffness_n_per_m, vec3 du, vec3 force) {
   for (int i = 0; i < rounds; ++i) {
     vec3 next = du + (force + own) / stiffness_n_per_m;
     float pressure = max(0.0f, dot(own, c.normal) + (c.least - dot(c.normal, next)) / give);
-    vec3 drag = own - (next - c.way) / slip_gives;
+    vec3 drag = own - (next - c.offset) / slip_gives;
     drag -= dot(drag, c.normal) * c.normal;
     float size = length(drag), most = c.friction * pressure;
     own = pressure * c.normal + (size > most ? most / size : 1.0f) * drag;
@@ -163,7 +163,7 @@ float frictionOf(uint slot, vec3 du) {
   uint count = contactCount(slot);
   for (uint row = 0u; row < count; ++row) {
     Contact c = contactOf(slot, row);
-    vec3 slip = du - c.way;
+    vec3 slip = du - c.offset;
     sum += c.friction * max(0.0f, dot(c.force, c.normal)) * length(slip - dot(slip, c.normal) * c.normal);
   }
   return sum;

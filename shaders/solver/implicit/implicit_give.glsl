@@ -8,7 +8,7 @@
 /// Bounces a fast impact: its approach along the normal is reversed by the restitution. The bounce is at most the velocity that
 /// the substep removed, as its inelastic end dissipated the square of all of it. @return  change of velocity [m/s]
 vec3 bounceOf(Contact c, float restitution, vec3 v_before, vec3 v_next) {
-  vec3 surface = c.way / dt_s;
+  vec3 surface = c.offset / dt_s;
   float approach = -dot(v_before - surface, c.normal);
   if (approach <= resting_speed) return vec3(0.0f);
   return max(0.0f, restitution * approach - dot(v_next - surface, c.normal)) * c.normal;

@@ -57,9 +57,9 @@ void main() {
   if (!isPrescribed(du)) {
     vec3 y = freeIncrement(slot, body), v = xyz(stateAt(velocity, int(slot)));
     for (int c = 0; c < 4; ++c) {
-      vec3 way = share(slot, du, c), off = way - y;
+      vec3 offset = share(slot, du, c), off = offset - y;
       potential[c] = 0.5f * inertia(mass, body) * dot(off, off);
-      motion[c] = 0.5f * mass * dot(way, way) / (dt_s * dt_s) - mass * dot(gravity, way);
+      motion[c] = 0.5f * mass * dot(offset, offset) / (dt_s * dt_s) - mass * dot(gravity, offset);
     }
 #ifdef CONTACT
     // Energy before the substep plus what moving surfaces may add: at share 0 nodes in contact are where the surfaces put them.

@@ -15,7 +15,7 @@ uniform uint active_count;
 #endif
 
 /// Returns the compliance of a node to a contact force [m/N].
-float givesWay(uint slot) {
+float mobilityOf(uint slot) {
   float majoriser = node_pairs[3u * slot].w;
   return majoriser > 0.0f ? node_pairs[3u * slot + 1u].w / majoriser : 0.0f;
 }
@@ -23,7 +23,7 @@ float givesWay(uint slot) {
 /// Returns the force of b on a [N]: the last one, corrected by the remaining overlap and slip.
 /// @param a  has the lower slot, so that both ends compute the same   @param plane  xyz normal; w gap [m]
 vec3 forceBetween(uint a, uint b, vec4 plane, vec3 last) {
-  float give = givesWay(a) + givesWay(b);
+  float give = mobilityOf(a) + mobilityOf(b);
   if (give == 0.0f) return vec3(0.0f);
   vec3 normal = xyz(plane), apart = xyz(node_pairs[3u * a + 1u]) - xyz(node_pairs[3u * b + 1u]);
   float pressure = max(0.0f, dot(last, normal) - (dot(apart, normal) + plane.w) / give);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Contacts between nodes in the solution of a substep of implicit Euler (physics.md 2). After lattice.glsl.
-// The pairs that may touch are found once, at the first iterate (collision_note.comp). Two such nodes come no nearer than their
+// The pairs that may touch are found once, at the first iterate (collision_record.comp). Two such nodes come no nearer than their
 // contact distance along the normal at the start of the substep: n . (du_a - du_b) >= -gap. A sweep steps all nodes with such
 // contacts together, each by the forces on it (implicit_pull.comp) and those of its contacts, which are equal and opposite and
 // corrected in rounds (implicit_meet.comp, implicit_place.comp).

@@ -4,7 +4,7 @@
 // Step of a node with contacts to other nodes in a sweep: the step of its majoriser under the forces on it and those of these
 // contacts, outside probes and obstacles. After implicit_pull.glsl, implicit_pairs.glsl and, with probes or obstacles,
 // implicit_contact.glsl.
-vec3 placeOf(uint slot, vec4 pulled, vec3 u, vec3 du) {
+vec3 positionOf(uint slot, vec4 pulled, vec3 u, vec3 du) {
   vec3 force = xyz(pulled) + xyz(node_pairs[3u * slot + 2u]);
   vec3 change = force / pulled.w;
 #ifdef CONTACT
@@ -16,5 +16,5 @@ vec3 placeOf(uint slot, vec4 pulled, vec3 u, vec3 du) {
 
 void place(uint slot, vec4 pulled, vec3 u, vec3 du) {
   float pressing = max(1.0f, node_pairs[3u * slot + 2u].w);
-  node_pairs[3u * slot + 1u] = vec4(placeOf(slot, pulled, u, du), pressing);
+  node_pairs[3u * slot + 1u] = vec4(positionOf(slot, pulled, u, du), pressing);
 }

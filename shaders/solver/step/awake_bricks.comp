@@ -5,7 +5,7 @@
 // Owner: solver/gpu/buffers/awake_bricks.h
 // in  state of the nodes; cuts; regions that tools may reach     in/out  sleeping bricks     out  lists
 // LANES invocations per brick: 1, or 64 in a group of their own, which is faster on GPUs. Features, one each: WAKE_ALL, WAKE_NEAR
-// (boxes), WAKE_HELD, WAKE_CUT (after a cut of springs), WAKE_MARKED (another kernel has woken bricks), LOOK (nodes that were
+// (boxes), WAKE_HELD, WAKE_CUT (after a cut of springs), WAKE_MARKED (another kernel has woken bricks), CHECK (nodes that were
 // fast in the last substep; with TOOLS also those that were touched), LIST. The rule is that of src/solver/cpu/state/sleep.h. A
 // pass that invalidates a list empties it; LIST must follow before the next substep. A list is in the order in which bricks
 // arrive: nodes gather forces, so no result depends on it.
@@ -195,9 +195,9 @@ void ask(uint b) {
 }
 #endif
 
-#ifdef LOOK
+#ifdef CHECK
 layout(std430, binding = kBindVelocityOut) readonly buffer VelocityOut { vec4 next_velocity[]; };
-uniform uint look;          // number of this check, > 0
+uniform uint check;         // number of this check, > 0
 uniform float since_s;      // time since the last check
 uniform float sleeps_after_s;
 uniform float slow2;        // largest |v|^2 that counts as slow [m2/s2]
@@ -249,7 +249,7 @@ void ask(uint b) {
   float quiet = uintBitsToFloat(ofFirst(floatBitsToUint(restless ? 0.0 : sleeping[b].quiet_s + since_s)));
   if (isFirst()) sleeping[b].quiet_s = quiet;
   if (quiet >= sleeps_after_s) return;
-  for (uint d = lane(); d < 27u; d += LANES) sleeping[neighborBrick(firstSlot(b), d)].wanted = look;
+  for (uint d = lane(); d < 27u; d += LANES) sleeping[neighborBrick(firstSlot(b), d)].wanted = check;
 }
 #endif
 
@@ -259,7 +259,7 @@ layout(std430, binding = kBindStats) readonly buffer StatsBuffer { TickStats sta
 #ifdef LAW
 layout(std430, binding = kBindCells) readonly buffer CellsBuffer { uint cells[]; };
 #endif
-uniform uint look;  // number of the last check; 0: bricks are awake as stored
+uniform uint check;  // number of the last check; 0: bricks are awake as stored
 uniform uint group_size;
 uniform float sleeps_after_s;
 const uint kMostGroups = 65535u;  // along x, as Program::dispatch folds them
@@ -267,18 +267,18 @@ const uint kMostGroups = 65535u;  // along x, as Program::dispatch folds them
 /// Returns the state of this check, also for bricks that another invocation is writing.
 bool isAwake(uint b) {
   if (sleeping[b].kind != kMayMove) return sleeping[b].kind == kNeverSleeps;
-  return look > 0u ? sleeping[b].wanted == look : sleeping[b].awake != 0u;
+  return check > 0u ? sleeping[b].wanted == check : sleeping[b].awake != 0u;
 }
 
 uint groupsOf(uint count) { return (count + group_size - 1u) / group_size; }
 
 void listNodes(uint b) {
   uint count = sleeping[b].node_count, first = sleeping[b].first_node;
-  uint place = ofFirst(isFirst() ? atomicAdd(nodes_list.count, count) : 0u);
-  for (uint i = lane(); i < count; i += LANES) awake_nodes[place + i] = active_nodes[first + i];
+  uint position = ofFirst(isFirst() ? atomicAdd(nodes_list.count, count) : 0u);
+  for (uint i = lane(); i < count; i += LANES) awake_nodes[position + i] = active_nodes[first + i];
   if (!isFirst()) return;
-  atomicMax(nodes_list.groups_x, min(groupsOf(place + count), kMostGroups));
-  atomicMax(nodes_list.groups_y, (groupsOf(place + count) + kMostGroups - 1u) / kMostGroups);
+  atomicMax(nodes_list.groups_x, min(groupsOf(position + count), kMostGroups));
+  atomicMax(nodes_list.groups_y, (groupsOf(position + count) + kMostGroups - 1u) / kMostGroups);
 }
 
 #ifdef LAW
@@ -303,11 +303,11 @@ void listCells(uint b) {
   if (isFirst()) sleeping[b].cells_listed = needed ? 1u : 0u;
 #endif
   if (!needed || count == 0u) return;
-  uint place = ofFirst(isFirst() ? atomicAdd(cells_list.count, count) : 0u);
-  for (uint i = lane(); i < count; i += LANES) awake_cells[place + i] = cells[first + i];
+  uint position = ofFirst(isFirst() ? atomicAdd(cells_list.count, count) : 0u);
+  for (uint i = lane(); i < count; i += LANES) awake_cells[position + i] = cells[first + i];
   if (!isFirst()) return;
-  atomicMax(cells_list.groups_x, min(groupsOf(place + count), kMostGroups));
-  atomicMax(cells_list.groups_y, (groupsOf(place + count) + kMostGroups - 1u) / kMostGroups);
+  atomicMax(cells_list.groups_x, min(groupsOf(position + count), kMostGroups));
+  atomicMax(cells_list.groups_y, (groupsOf(position + count) + kMostGroups - 1u) / kMostGroups);
 }
 #endif
 
@@ -323,7 +323,7 @@ void follow(uint b, bool now) {
 
 void ask(uint b) {
   bool now = isAwake(b);
-  if (look > 0u && sleeping[b].kind == kMayMove) follow(b, now);
+  if (check > 0u && sleeping[b].kind == kMayMove) follow(b, now);
   if (now) listNodes(b);
 #ifdef LAW
   listCells(b);

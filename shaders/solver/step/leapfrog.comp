@@ -147,8 +147,8 @@ void main() {
 #ifdef TOOLS
   resolveContacts(slot, bits, mass, u, u_next, v_next);
   if (mayFeelEdges(slot, bits, restPosition(slot) + u_next)) {
-    uint place = atomicAdd(edge_count, 1u);
-    if (place < kMostEdgeNodes) edge_nodes[place] = slot;
+    uint position = atomicAdd(edge_count, 1u);
+    if (position < kMostEdgeNodes) edge_nodes[position] = slot;
   }
 #endif
   fallAsleep(bits, u, u_next, v_next);

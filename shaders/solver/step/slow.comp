@@ -13,7 +13,7 @@ layout(std430, binding = kBindVelocityIn) buffer VelocityBuffer { vec4 current_v
 
 uniform uint active_count;
 uniform float dt_s;
-uniform float most_way;  // largest displacement in a substep, over the spacing
+uniform float most_step;  // largest displacement in a substep, over the spacing
 uniform float keeps;     // share of the velocity
 
 void main() {
@@ -21,7 +21,7 @@ void main() {
   if (i >= active_count) return;
   uint slot = active_nodes[i];
   vec3 v = current_velocity[slot].xyz;
-  float most = most_way * bodies[bodyAt(slot)].origin_spacing.w / dt_s, speed = length(v);
+  float most = most_step * bodies[bodyAt(slot)].origin_spacing.w / dt_s, speed = length(v);
   float share = speed > most ? most / speed : 1.0;
   current_displacement[slot].xyz -= (1.0 - share) * dt_s * v;
   current_velocity[slot].xyz = keeps * share * v;

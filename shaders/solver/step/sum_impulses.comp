@@ -38,14 +38,14 @@ layout(std430, binding = kBindImpulses) buffer ImpulsesBuffer { vec4 impulses[];
 void add(inout Partial sum, uint i) {
   uint slot = active_nodes[i];
   for (uint s = 0u; s < kMaxStyluses; ++s) {
-    uint place = (first_giver + s) * slot_count + slot;
-    if (place >= uint(impulses.length())) continue;  // with an odd number of obstacles
-    vec4 impulse = impulses[place];
+    uint position = (first_giver + s) * slot_count + slot;
+    if (position >= uint(impulses.length())) continue;  // with an odd number of obstacles
+    vec4 impulse = impulses[position];
     if (impulse.w == 0.0) continue;
     vec3 arm = restPosition(slot) + displacement[slot].xyz - tips[s];
     sum.impulse[s] += vec4(impulse.xyz, 1.0);
     sum.angular[s].xyz += cross(arm, impulse.xyz);
-    impulses[place] = vec4(0.0);
+    impulses[position] = vec4(0.0);
   }
 }
 #else

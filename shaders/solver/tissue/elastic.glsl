@@ -39,10 +39,10 @@ float nodeMass(uint slot, NodeBits bits, BodyParams body) { return float((bits.l
 #ifdef PARTS
 #ifdef LOADS
 layout(std430, binding = kBindSpringStiffness) restrict readonly buffer SpringStiffnessIn { float spring_stiffness[]; };  // [9 * slots]
-float stiffnessAt(uint place) { return spring_stiffness[place]; }
+float stiffnessAt(uint position) { return spring_stiffness[position]; }
 #else
 layout(binding = kUnitSpringStiffness) uniform samplerBuffer spring_stiffness;  // the same
-float stiffnessAt(uint place) { return texelFetch(spring_stiffness, int(place)).x; }
+float stiffnessAt(uint position) { return texelFetch(spring_stiffness, int(position)).x; }
 #endif
 #if defined(LAW) && defined(LOADS)
 layout(std430, binding = kBindCellStrengths) restrict readonly buffer CellStrengthsIn { vec4 cell_strengths[]; };  // [slots]

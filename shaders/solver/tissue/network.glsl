@@ -7,8 +7,8 @@ layout(binding = kUnitLinkStarts) uniform usamplerBuffer link_starts;  // [slots
 layout(binding = kUnitLinks) uniform usamplerBuffer link_words;        // two texels per Link
 uint linkStart(uint slot) { return texelFetch(link_starts, int(slot)).x; }
 Link linkAt(uint link) {
-  uvec4 place = texelFetch(link_words, int(2u * link)), strength = texelFetch(link_words, int(2u * link + 1u));
-  return Link(uintBitsToFloat(place), uintBitsToFloat(strength.x), uintBitsToFloat(strength.y), strength.z, strength.w);
+  uvec4 position = texelFetch(link_words, int(2u * link)), strength = texelFetch(link_words, int(2u * link + 1u));
+  return Link(uintBitsToFloat(position), uintBitsToFloat(strength.x), uintBitsToFloat(strength.y), strength.z, strength.w);
 }
 #endif
 

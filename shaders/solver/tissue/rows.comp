@@ -13,7 +13,7 @@
 layout(std430, binding = kBindRows) writeonly buffer RowsOut { vec4 rows_out[]; };
 
 /// Returns the displacement of a node over h, predicted with a dashpot.
-vec3 place(uint slot, BodyParams body) {
+vec3 position(uint slot, BodyParams body) {
   vec3 u = xyz(stateAt(displacement, int(slot)));
 #ifdef DASHPOT
   u += body.dashpot_s * xyz(stateAt(velocity, int(slot)));
@@ -24,8 +24,8 @@ vec3 place(uint slot, BodyParams body) {
 /// Returns the second difference at a node within a row, with w = 1; elsewhere 0.
 vec4 differenceAt(uint slot, NodeBits bits, uint axis, BodyParams body) {
   if (!isWithinRow(bits, axis)) return vec4(0.0f);
-  vec3 here = place(slot, body);
-  vec3 below = place(besideInRow(slot, axis, -1), body) - here, above = place(besideInRow(slot, axis, 1), body) - here;
+  vec3 here = position(slot, body);
+  vec3 below = position(besideInRow(slot, axis, -1), body) - here, above = position(besideInRow(slot, axis, 1), body) - here;
   return vec4(below + above, 1.0f);
 }
 

@@ -7,24 +7,24 @@
 
 #ifndef __cplusplus
 #if defined(LAW) && defined(PARTS)
-layout(std430, binding = kBindSurfaceOffsets) readonly buffer SurfaceWaysBuffer { uint surface_offsets[]; };
+layout(std430, binding = kBindSurfaceOffsets) readonly buffer SurfaceOffsetsBuffer { uint surface_offsets[]; };
 uint surfaceOffset(uint slot) { return surface_offsets[slot]; }
 #else
 uint surfaceOffset(uint slot) { return 0u; }
 #endif
 #endif
 
-float wayComponent(uint way, uint axis) {
-  return kWayStep * float(int((way >> (kWayBits * axis)) & ((1u << kWayBits) - 1u)) - kWayZero);
+float offsetComponent(uint offset, uint axis) {
+  return kOffsetStep * float(int((offset >> (kOffsetBits * axis)) & ((1u << kOffsetBits) - 1u)) - kOffsetZero);
 }
 
 /// Returns the displacement from a node to the surface at rest, in cells. @param way  not 0
-vec3 wayInCells(uint way) { return vec3(wayComponent(way, 0u), wayComponent(way, 1u), wayComponent(way, 2u)); }
+vec3 offsetInCells(uint offset) { return vec3(offsetComponent(offset, 0u), offsetComponent(offset, 1u), offsetComponent(offset, 2u)); }
 
 /// Returns the other end of the edge along an axis, towards the surface; the node itself if there is none.
-uint wayEnd(uint slot, uint way, uint axis) {
-  float cells = wayComponent(way, axis);
-  if (cells == 0.0f || (way & (kWayEdgeBit << axis)) == 0u) return slot;
+uint pathEnd(uint slot, uint offset, uint axis) {
+  float cells = offsetComponent(offset, axis);
+  if (cells == 0.0f || (offset & (kOffsetEdgeBit << axis)) == 0u) return slot;
   int side = cells > 0.0f ? 1 : -1;
   return neighborSlot(slot, ivec3(axis == 0u ? side : 0, axis == 1u ? side : 0, axis == 2u ? side : 0));
 }
@@ -36,10 +36,10 @@ vec3 alongEdge(float cells, vec3 u, vec3 u_end, float h) {
   return dot(change, change) < h * h ? abs(cells) * change : vec3(0.0f);
 }
 
-/// Returns the displacement from a node to its tissue [m], given the displacements of the node and of its wayEnd()s along x, y
+/// Returns the displacement from a node to its tissue [m], given the displacements of the node and of its pathEnd()s along x, y
 /// and z. @param way  not 0
-vec3 toTissueIn(uint way, float h, vec3 u, vec3 u_x, vec3 u_y, vec3 u_z) {
-  vec3 cells = wayInCells(way);
+vec3 toTissueIn(uint offset, float h, vec3 u, vec3 u_x, vec3 u_y, vec3 u_z) {
+  vec3 cells = offsetInCells(offset);
   precise vec3 moved = alongEdge(cells.x, u, u_x, h) + alongEdge(cells.y, u, u_y, h);
   precise vec3 turned = moved + alongEdge(cells.z, u, u_z, h);
   precise vec3 out_m = h * cells + turned;

@@ -6,10 +6,10 @@
 
 /// Returns the displacement from a node to its tissue in the current state [m].
 vec3 toTissue(uint slot, float h) {
-  uint way = surfaceOffset(slot);
-  if (way == 0u) return vec3(0.0f);
-  return toTissueIn(way, h, xyz(displacement[slot]), xyz(displacement[wayEnd(slot, way, 0u)]),
-                    xyz(displacement[wayEnd(slot, way, 1u)]), xyz(displacement[wayEnd(slot, way, 2u)]));
+  uint offset = surfaceOffset(slot);
+  if (offset == 0u) return vec3(0.0f);
+  return toTissueIn(offset, h, xyz(displacement[slot]), xyz(displacement[pathEnd(slot, offset, 0u)]),
+                    xyz(displacement[pathEnd(slot, offset, 1u)]), xyz(displacement[pathEnd(slot, offset, 2u)]));
 }
 
 /// Returns the position of a node relative to the blade's first tip [m].

@@ -37,17 +37,17 @@ uint crossedPart(vec3 a, vec3 b, ToolMotion m) {
 /// Returns the offset of the start of the sweep for a spring that has moved by `way` since the last one: there the last sweep
 /// ended, as seen by the spring. Without it, a spring that slips past the blade's edge between two substeps would be in neither
 /// sweep.
-vec3 startOffset(ToolMotion m, vec3 way) {
-  precise vec3 offset = way - kOverlap * (xyz(m.to) - xyz(m.from));
+vec3 startOffset(ToolMotion m, vec3 relative) {
+  precise vec3 offset = relative - kOverlap * (xyz(m.to) - xyz(m.from));
   return offset;
 }
 
 /// Returns the same for a blade that cuts along its edge only. Tissue that moves sideways against its flats is not cut; tissue
 /// that moves along the blade's path is. A blade at rest cuts nothing.
-vec3 startOffsetAlong(ToolMotion m, vec3 way) {
+vec3 startOffsetAlong(ToolMotion m, vec3 relative) {
   precise vec3 move = (xyz(m.to) - xyz(m.from)) + (xyz(m.blade_to) - xyz(m.blade_from));
   precise float move2 = dot(move, move);
-  precise vec3 offset = move2 > 0.0f ? (dot(way, move) / move2) * move - kOverlap * (xyz(m.to) - xyz(m.from)) : vec3(0.0f);
+  precise vec3 offset = move2 > 0.0f ? (dot(relative, move) / move2) * move - kOverlap * (xyz(m.to) - xyz(m.from)) : vec3(0.0f);
   return offset;
 }
 

@@ -29,11 +29,11 @@ void probe(ToolMotion motion, float below, vec3 x, INOUT(vec3) x_next, INOUT(vec
 
 /// Returns the displacement from a node to its tissue at the beginning of the substep [m].
 vec3 toTissueBefore(uint slot) {
-  uint way = surfaceOffset(slot);
-  if (way == 0u) return vec3(0.0f);
-  return toTissueIn(way, bodies[bodyAt(slot)].origin_spacing.w, xyz(stateAt(displacement, int(slot))),
-                    xyz(stateAt(displacement, int(wayEnd(slot, way, 0u)))), xyz(stateAt(displacement, int(wayEnd(slot, way, 1u)))),
-                    xyz(stateAt(displacement, int(wayEnd(slot, way, 2u)))));
+  uint offset = surfaceOffset(slot);
+  if (offset == 0u) return vec3(0.0f);
+  return toTissueIn(offset, bodies[bodyAt(slot)].origin_spacing.w, xyz(stateAt(displacement, int(slot))),
+                    xyz(stateAt(displacement, int(pathEnd(slot, offset, 0u)))), xyz(stateAt(displacement, int(pathEnd(slot, offset, 1u)))),
+                    xyz(stateAt(displacement, int(pathEnd(slot, offset, 2u)))));
 }
 
 /// Returns whether the tissue of a node is within reach of a probe that only feels. A node in the air next to the tip does not

@@ -40,15 +40,15 @@ void rememberSide(uint slot, vec3 x, ToolMotion m) {}
 #endif
 
 #ifndef PARTICLES
-vec3 wayOf(uint first, uint second, ToolMotion m) {
-  precise vec3 way = (0.5f * m.timing.x) * (xyz(velocity[first]) + xyz(velocity[second]));
-  return startOffsetAlong(m, way);
+vec3 moveOf(uint first, uint second, ToolMotion m) {
+  precise vec3 move = (0.5f * m.timing.x) * (xyz(velocity[first]) + xyz(velocity[second]));
+  return startOffsetAlong(m, move);
 }
 
 /// Returns the triangle of the sweep that a segment between two nodes crosses, given its motion in the last substep; 0: none.
 /// @param first, second  the nodes, in the order of their slots   @param a, b  the ends
-uint crossedOnTheWay(uint first, uint second, vec3 a, vec3 b, ToolMotion m) {
-  vec3 offset = wayOf(first, second, m);
+uint crossedInStep(uint first, uint second, vec3 a, vec3 b, ToolMotion m) {
+  vec3 offset = moveOf(first, second, m);
   precise vec3 from = a - offset;
   precise vec3 to = b - offset;
   return crossedPart(from, to, startingAt(m, offset));
@@ -66,7 +66,7 @@ uint severingPart(uint slot, vec3 x, uint other, ToolMotion m, vec4 sphere, floa
   return erased(x, m) || erased(y, m) ? 1u : 0u;
 #else
   bool first = slot < other;  // chosen before the single call: if compiled twice, the test might be rounded in two ways
-  return crossedOnTheWay(first ? slot : other, first ? other : slot, first ? x : y, first ? y : x, m);
+  return crossedInStep(first ? slot : other, first ? other : slot, first ? x : y, first ? y : x, m);
 #endif
 }
 
@@ -78,7 +78,7 @@ void record(uint slot, uint spring, uint other, uint part, ToolMotion m) {
 #ifdef PARTICLES
   axial_cut[3u * slot + (spring >> 1)] = kErasedShare;
 #else
-  vec3 offset = wayOf(min(slot, other), max(slot, other), m);
+  vec3 offset = moveOf(min(slot, other), max(slot, other), m);
   axial_cut[3u * slot + (spring >> 1)] =
       shareBefore(nodeFromBlade(slot, m) - offset, nodeFromBlade(other, m) - offset, part, startingAt(m, offset));
 #endif

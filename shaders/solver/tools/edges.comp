@@ -40,8 +40,8 @@ void sumEdges(EdgeTip tip, uint slot) {
   vec2 sums = vec2(0.0f);
 #define VISIT_EDGE(n)                           \
   {                                             \
-    EdgeWay asked = wayOfEdge(tip, slot, n);    \
-    sums += asked.near * asked.way;             \
+    EdgeShift asked = shiftOfEdge(tip, slot, n); \
+    sums += asked.near * asked.shift;           \
   }
   FOR_EACH_EDGE
 #undef VISIT_EDGE
@@ -59,8 +59,8 @@ EdgePush pushOfEdges(EdgeTip tip, uint slot) {
   float give = 1.0f / massAt(slot);
 #define VISIT_EDGE(n)                                                                                      \
   {                                                                                                        \
-    EdgeWay asked = wayOfEdge(tip, slot, n);                                                               \
-    if (asked.way != vec2(0.0f)) addEdge(asked, vec2(give, 1.0f / massAt(n)), sums, edgeSums(n), push);    \
+    EdgeShift asked = shiftOfEdge(tip, slot, n);                                                           \
+    if (asked.shift != vec2(0.0f)) addEdge(asked, vec2(give, 1.0f / massAt(n)), sums, edgeSums(n), push);  \
   }
   FOR_EACH_EDGE
 #undef VISIT_EDGE

@@ -33,19 +33,19 @@ float chordWithin(float radius, float length2, float share) {
 }
 
 /// Correction that a probe demands of the point of a spring nearest to its centre.
-struct EdgeWay {
-  vec2 way;           // out of the probe: of its position [m] and its velocity [m/s]; 0: none
+struct EdgeShift {
+  vec2 shift;         // out of the probe: of its position [m] and its velocity [m/s]; 0: none
   vec3 normal;
   float near, share;  // weights of the node and of the other end in the point
 };
 
 /// Returns the correction of a spring. @param n  node at the other end of the spring
-EdgeWay wayOfEdge(EdgeTip tip, uint slot, uint n) {
+EdgeShift shiftOfEdge(EdgeTip tip, uint slot, uint n) {
   vec3 x = seenFromTip(tip, slot), along = seenFromTip(tip, n) - x;
-  float length2 = dot(along, along), on_way = -dot(x, along);
-  EdgeWay none = {vec2(0.0f), vec3(0.0f), 1.0f, 0.0f};
-  if (on_way <= 0.0f || on_way >= length2) return none;  // a node is nearest
-  float share = on_way / length2;
+  float length2 = dot(along, along), on_edge = -dot(x, along);
+  EdgeShift none = {vec2(0.0f), vec3(0.0f), 1.0f, 0.0f};
+  if (on_edge <= 0.0f || on_edge >= length2) return none;  // a node is nearest
+  float share = on_edge / length2;
   vec3 point = x + share * along;
   float below = surfaceDepth(slot);
   below += share * (surfaceDepth(n) - below);
@@ -54,7 +54,7 @@ EdgeWay wayOfEdge(EdgeTip tip, uint slot, uint n) {
   v += share * (xyz(next_velocity[n]) - v);
   float approach = dot(v + xyz(tip.motion.from) / dt_s, side.normal);
   float slowest = min(side.depth, 0.0f) / dt_s;  // a point outside may come as far as the surface
-  EdgeWay it = {vec2(clamp(side.depth, 0.0f, push_speed * dt_s), max(slowest - approach, 0.0f)), side.normal, 1.0f - share, share};
+  EdgeShift it = {vec2(clamp(side.depth, 0.0f, push_speed * dt_s), max(slowest - approach, 0.0f)), side.normal, 1.0f - share, share};
   return it;
 }
 
@@ -67,9 +67,9 @@ struct EdgePush {
 };
 
 /// @param give  1/mass of the node and of the other end [1/kg]
-void addEdge(EdgeWay it, vec2 give, vec2 sums, vec2 far_sums, INOUT(EdgePush) push) {
+void addEdge(EdgeShift it, vec2 give, vec2 sums, vec2 far_sums, INOUT(EdgePush) push) {
   const float least = 1e-30f;  // far below any displacement: avoids a division by 0
-  vec2 part = it.near * give.x * it.way * it.way / max(it.near * give.x * sums + it.share * give.y * far_sums, vec2(least));
+  vec2 part = it.near * give.x * it.shift * it.shift / max(it.near * give.x * sums + it.share * give.y * far_sums, vec2(least));
   push.x += part.x * it.normal;
   push.v += part.y * it.normal;
 }

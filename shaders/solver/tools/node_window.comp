@@ -30,7 +30,7 @@ float asleep(uint slot) {
 #endif
 }
 
-void look(uint i, uint slot) {
+void inspect(uint i, uint slot) {
   window[i] = vec4(stateAt(displacement, int(slot)).xyz, asleep(slot));
   window[node_count + i] = stateAt(velocity, int(slot));
 }
@@ -53,9 +53,9 @@ void wake(uint slot) {
 void push(uint slot, vec3 change) {
   NodeBits bits = nodes[slot];
   if (isAtRest(bits) || change == vec3(0.0f)) return;
-  precise vec3 way = dt_s * change;
+  precise vec3 move = dt_s * change;
   own_velocity[slot].xyz += change;
-  own_displacement[slot].xyz += way;
+  own_displacement[slot].xyz += move;
   if (giver < kMaxStyluses)
     impulses[giver * slot_count + slot] += vec4(nodeMass(slot, bits, bodies[bodyOf(bits)]) * change, 1.0f);
   wake(slot);
@@ -66,7 +66,7 @@ void main() {
   uint i = globalIndex();
   if (i >= node_count) return;
 #ifdef GATHER
-  look(i, window_slots[i]);
+  inspect(i, window_slots[i]);
 #else
   push(window_slots[i], xyz(window[i]));
 #endif

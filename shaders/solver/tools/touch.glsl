@@ -121,18 +121,18 @@ Touch touchBox(vec3 half_size, vec3 from, vec3 to) {
   } else {
     float enter = -1.0f, leave = 1.0f;  // shares of the path
     for (int k = 0; k < 3; ++k) {
-      float way = to[k] - from[k];
-      if (way == 0.0f) {
+      float offset = to[k] - from[k];
+      if (offset == 0.0f) {
         if (depth[k] <= 0.0f) return noTouch();
         continue;
       }
-      float side = way > 0.0f ? half_size[k] : -half_size[k];
-      float in_at = (-side - from[k]) / way;
+      float side = offset > 0.0f ? half_size[k] : -half_size[k];
+      float in_at = (-side - from[k]) / offset;
       if (in_at > enter) {
         enter = in_at;
         face = k;
       }
-      leave = min(leave, (side - from[k]) / way);
+      leave = min(leave, (side - from[k]) / offset);
     }
     if (enter < 0.0f || enter >= leave) return noTouch();
   }
@@ -148,7 +148,7 @@ struct Meeting {
   bool touches;
   vec3 normal;    // out of the obstacle
   vec3 out_of;    // from the node's position without contact to the surface [m]
-  float way;      // displacement relative to the obstacle [m]
+  float offset;   // displacement relative to the obstacle [m]
 };
 
 /// Returns an obstacle enlarged by the depth of a node below the surface of its tissue. @param below  surfaceDepth() [m]
@@ -182,7 +182,7 @@ Meeting meetingOf(ObstacleMotion o, vec3 x, vec3 x_next) {
   if (!touch.touches) return meeting;
   meeting.normal = rotated(xyzw(o.to_orientation), touch.normal);
   meeting.out_of = rotated(xyzw(o.to_orientation), touch.surface - to);
-  meeting.way = distance(from, to);
+  meeting.offset = distance(from, to);
   return meeting;
 }
 
@@ -200,5 +200,5 @@ vec4 outsideOf(ObstacleMotion o, Meeting meeting, vec3 x, vec3 x_next) {
 }
 
 /// Returns the displacement of the surface of an obstacle at x in a substep [m].
-vec3 wayOfSurface(ObstacleMotion o, vec3 x, float dt) { return dt * (xyz(o.velocity) + cross(xyz(o.spin), x - xyz(o.to))); }
+vec3 motionOfSurface(ObstacleMotion o, vec3 x, float dt) { return dt * (xyz(o.velocity) + cross(xyz(o.spin), x - xyz(o.to))); }
 #endif

@@ -22,7 +22,7 @@ using Kept = std::vector<gdcm::SmartPointer<gdcm::SequenceOfItems>>;
 
 constexpr size_t kMostFiles = 20000;
 constexpr double kMostSlices = 65534;
-constexpr double kSamePlaceMm = 0.01;                   ///< closer slices are duplicates
+constexpr double kSamePositionMm = 0.01;                ///< closer slices are duplicates
 constexpr double kUnevenMm = 0.1, kUnevenShare = 0.02;  ///< largest deviation of a slice from its position
 constexpr double kSameDirection = 1e-4, kSameSpacingMm = 1e-3;
 const char kSegmentation[] = "1.2.840.10008.5.1.4.1.1.66.4";
@@ -212,16 +212,16 @@ double mostOff(double step) {
 /// Returns the step if every slice is a multiple of `height` above the previous one; nothing otherwise.
 /// @param off  largest accepted deviation
 std::optional<Vector3d> stepOfHeight(const std::vector<Frame>& frames, double height, double off) {
-  std::vector<double> places = {0};
+  std::vector<double> positions = {0};
   for (size_t n = 1; n < frames.size(); ++n) {
     const double step = frames[n].height() - frames[n - 1].height(), times = std::round(step / height);
     if (times < 1 || std::abs(step - times * height) > off) return {};
-    places.push_back(places.back() + times);
+    positions.push_back(positions.back() + times);
   }
-  const Vector3d step = (frames.back().position - frames.front().position) / places.back();
+  const Vector3d step = (frames.back().position - frames.front().position) / positions.back();
   for (size_t n = 0; n < frames.size(); ++n)
-    if ((frames.front().position + places[n] * step - frames[n].position).norm() > off) return {};
-  if (places.back() > kMostSlices)
+    if ((frames.front().position + positions[n] * step - frames[n].position).norm() > off) return {};
+  if (positions.back() > kMostSlices)
     throw SceneError(frames.front().file + ": its slices are not on a grid; accepted: even steps");
   return step;
 }
@@ -232,7 +232,7 @@ Vector3d sparseStep(const std::vector<Frame>& frames, double least) {
   constexpr int kMostParts = 3;  // most fractions of the least step: more would fit anything
   if (const auto step = stepOfHeight(frames, least, mostOff(least))) return *step;
   const double said = frames.front().between;
-  if (said > kSamePlaceMm)
+  if (said > kSamePositionMm)
     if (const auto step = stepOfHeight(frames, said, mostOff(said))) return *step;
   for (int parts = 2; parts <= kMostParts; ++parts)
     if (const auto step = stepOfHeight(frames, least / parts, kUnevenShare * least / parts)) return *step;
@@ -276,7 +276,7 @@ Vector3d stepOf(const std::vector<Frame>& frames, bool gaps) {
   std::vector<double> steps;
   for (size_t n = 1; n < frames.size(); ++n) {
     steps.push_back(frames[n].height() - frames[n - 1].height());
-    if (steps.back() < kSamePlaceMm)
+    if (steps.back() < kSamePositionMm)
       throw SceneError(frames[n].file + ": two slices have the same position, " + text(frames[n].height()) +
                        " mm along the normal (the other is in " + frames[n - 1].file +
                        "); accepted: one slice per position. Remove one of them from the folder");

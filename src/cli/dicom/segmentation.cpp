@@ -69,10 +69,10 @@ void writeSegmentation(const std::string& file, int layer) {
                      std::to_string(numbers.size() - 1));
   const Planes planes = planesOf(file, reader.GetFile(), frames);
   Stack stack = stackOf(frames);
-  std::vector<Frame> places;  // one for each height: segments have frames of their own
+  std::vector<Frame> positions;  // one for each height: segments have frames of their own
   for (const Frame& frame : frames)
-    if (places.empty() || frame.height() - places.back().height() > 0.01) places.push_back(frame);
-  stack.axes.col(2) = stepOf(places, true);
+    if (positions.empty() || frame.height() - positions.back().height() > 0.01) positions.push_back(frame);
+  stack.axes.col(2) = stepOf(positions, true);
   const std::vector<int> slices = slicesOf(frames, stack.axes.col(2));
   stack.size[2] = slices.back() + 1;
   std::multimap<int, const Frame*> of_layer;

@@ -287,9 +287,9 @@ void SlicedSource::next(std::vector<float>& values) {
   if (read_++ == slices.at.z()) slices.values[2] = values;
 }
 
-ScanSlices slicesAt(SliceSource& source, const Vector3d& place_m) {
+ScanSlices slicesAt(SliceSource& source, const Vector3d& position_m) {
   const VolumeFrame& frame = source.frame();
-  const Vector3d voxel = (frame.axes.inverse() * (place_m - frame.origin)).array().round();
+  const Vector3d voxel = (frame.axes.inverse() * (position_m - frame.origin)).array().round();
   if ((voxel.array() < 0).any() || (voxel.array() >= frame.size.cast<double>().array()).any()) return {};
   SlicedSource sliced(source, voxel.cast<int>());
   std::vector<float> values;

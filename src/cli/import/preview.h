@@ -46,7 +46,7 @@ class SlicedSource : public SliceSource {
 };
 
 /// Returns the slices through a point of another scan; empty if the point is outside. Reads the scan once.
-ScanSlices slicesAt(SliceSource& source, const Vector3d& place_m);
+ScanSlices slicesAt(SliceSource& source, const Vector3d& position_m);
 
 /// Writes front.png, left.png and above.png, which show the surfaces from three sides, and slice_axial.png,
 /// slice_coronal.png and slice_sagittal.png. The slices show the scan, the contours of organs in the same colours, and

@@ -15,20 +15,20 @@ namespace {
 constexpr double kUsualOrgan_m = 0.1;  ///< size of the organ for which the motions are written [m]
 
 /// Directions from which tools come, the best first: that of the scene's first camera. An organ is fixed at its back.
-const Vector3d kWays[] = {{1, 0.35, 0.3}, {1, 0, 0.6},    {1, -0.35, 0.3}, {0.5, 0, 1},
-                          {0.3, 1, 0.2},  {0.3, -1, 0.2}, {0.5, 0, -1}};
+const Vector3d kDirections[] = {{1, 0.35, 0.3}, {1, 0, 0.6},    {1, -0.35, 0.3}, {0.5, 0, 1},
+                                {0.3, 1, 0.2},  {0.3, -1, 0.2}, {0.5, 0, -1}};
 constexpr double kFacing = 0.85;  ///< least cosine between a surface normal and the tool's direction
 constexpr size_t kTries = 12;     ///< number of positions that are tried for each direction
 
 /// Returns whether a ray from a position hits a mesh.
-bool hides(const TriangleMesh& mesh, const Vector3d& place, const Vector3d& way) {
+bool hides(const TriangleMesh& mesh, const Vector3d& position, const Vector3d& direction) {
   return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const std::array<uint32_t, 3>& t) {
     Matrix3d m;  // place + s way = a + u (b - a) + v (c - a)
     const Vector3d a = mesh.positions_m[t[0]].cast<double>();
-    m << mesh.positions_m[t[1]].cast<double>() - a, mesh.positions_m[t[2]].cast<double>() - a, -way;
+    m << mesh.positions_m[t[1]].cast<double>() - a, mesh.positions_m[t[2]].cast<double>() - a, -direction;
     const double det = m.determinant();
     if (det == 0) return false;
-    const Vector3d uvs = m.inverse() * (place - a);
+    const Vector3d uvs = m.inverse() * (position - a);
     return uvs.x() >= 0 && uvs.y() >= 0 && uvs.x() + uvs.y() <= 1 && uvs.z() > 0;
   });
 }
@@ -36,41 +36,41 @@ bool hides(const TriangleMesh& mesh, const Vector3d& place, const Vector3d& way)
 /// Returns positions of an organ that face a direction, sorted by distance from its centre as seen from there.
 /// @param without  [triangles] that are excluded
 std::vector<Vector3d> facing(const TriangleMesh& mesh, const std::vector<bool>& without, const Eigen::AlignedBox3d& box,
-                             const Vector3d& way) {
+                             const Vector3d& direction) {
   std::vector<std::pair<double, Vector3d>> found;
   for (size_t i = 0; i < mesh.triangles.size(); ++i) {
     if (without[i]) continue;
     const std::array<uint32_t, 3>& t = mesh.triangles[i];
     const Vector3d a = mesh.positions_m[t[0]].cast<double>(), b = mesh.positions_m[t[1]].cast<double>(),
                    c = mesh.positions_m[t[2]].cast<double>(), middle = (a + b + c) / 3;
-    if ((b - a).cross(c - a).normalized().dot(way) > kFacing)
-      found.emplace_back((middle - box.center()).cross(way).norm(), middle);
+    if ((b - a).cross(c - a).normalized().dot(direction) > kFacing)
+      found.emplace_back((middle - box.center()).cross(direction).norm(), middle);
   }
   std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<Vector3d> places;
-  for (size_t n = 0; n < found.size(); n += 1 + found.size() / kTries) places.push_back(found[n].second);
-  return places;
+  std::vector<Vector3d> positions;
+  for (size_t n = 0; n < found.size(); n += 1 + found.size() / kTries) positions.push_back(found[n].second);
+  return positions;
 }
 
 /// A position and the outward direction there.
-struct Place {
+struct Spot {
   Vector3d at_m, outward;
 };
 
 /// Returns a position that can move and is not hidden by organs, if there is one; otherwise one that is not hidden.
-Place placeOn(const std::vector<const TriangleMesh*>& organs, const TriangleMesh& organ,
-              const std::vector<bool>& is_held, const Eigen::AlignedBox3d& box) {
+Spot positionOn(const std::vector<const TriangleMesh*>& organs, const TriangleMesh& organ,
+                const std::vector<bool>& is_held, const Eigen::AlignedBox3d& box) {
   for (const std::vector<bool>& without : {is_held, std::vector<bool>(is_held.size(), false)}) {
-    for (const Vector3d& way : kWays) {
-      const Vector3d outward = way.normalized();
-      for (const Vector3d& place : facing(organ, without, box, outward)) {
-        const Vector3d clear = place + 1e-3 * box.sizes().norm() * outward;  // clear of the organ's own triangle
+    for (const Vector3d& direction : kDirections) {
+      const Vector3d outward = direction.normalized();
+      for (const Vector3d& position : facing(organ, without, box, outward)) {
+        const Vector3d clear = position + 1e-3 * box.sizes().norm() * outward;  // clear of the organ's own triangle
         const auto isHidden = [&](const TriangleMesh* other) { return hides(*other, clear, outward); };
-        if (std::none_of(organs.begin(), organs.end(), isHidden)) return {place, outward};
+        if (std::none_of(organs.begin(), organs.end(), isHidden)) return {position, outward};
       }
     }
   }
-  return {box.center(), kWays[0].normalized()};
+  return {box.center(), kDirections[0].normalized()};
 }
 
 std::string list(const Vector3d& v) {
@@ -138,9 +138,9 @@ std::string strokesFor(const std::vector<const TriangleMesh*>& organs, size_t la
   const TriangleMesh& organ = *organs[largest];
   Eigen::AlignedBox3d box;
   for (const Vector3f& p : organ.positions_m) box.extend(p.cast<double>());
-  const auto [place, way] = placeOn(organs, organ, is_held, box);
+  const auto [position, direction] = positionOn(organs, organ, is_held, box);
   const double size = std::min(most_size, std::cbrt(box.sizes().prod()) / kUsualOrgan_m);
-  const Vector3d towards = place + moved_m, from = towards + 2 * box.sizes().norm() * way;
+  const Vector3d towards = position + moved_m, from = towards + 2 * box.sizes().norm() * direction;
   const std::string anchor = "{from_m: " + list(from) + ", towards_m: " + list(towards) + "}";
   TextOut out;
   out << "# The left hand dents the largest organ and pulls it, the right hand cuts it. Keys are relative to where "

@@ -39,15 +39,15 @@ CellLaminates cellLaminates(const Body& body) {
       layers[at].share += part.fill.share;
       layers[at].first += part.fill.first;
     }
-    const Vector3d way = layers.size() == 2 ? layers[1].first / layers[1].share - layers[0].first / layers[0].share
-                                            : Vector3d(Vector3d::Zero());
-    if (!(way.norm() >= kLeastDistance)) {
+    const Vector3d offset = layers.size() == 2 ? layers[1].first / layers[1].share - layers[0].first / layers[0].share
+                                               : Vector3d(Vector3d::Zero());
+    if (!(offset.norm() >= kLeastDistance)) {
       ++out.others;
       return;
     }
     const double share_a = layers[0].share / (layers[0].share + layers[1].share);
     const double mu_a = layers[0].material->rigidity_j, mu_b = layers[1].material->rigidity_j;
-    out.cells.push_back({static_cast<uint32_t>(body.lattice.shared[first].cell), way.normalized(), share_a,
+    out.cells.push_back({static_cast<uint32_t>(body.lattice.shared[first].cell), offset.normalized(), share_a,
                          mu_a / (share_a * mu_a + (1 - share_a) * mu_b), layers[0].bulkOverMu(), layers[1].bulkOverMu(),
                          layers[0].label});
   });

@@ -30,7 +30,7 @@ TriangleMesh readDetail(const std::string& path, const DetailWanted& wanted, std
   move(mesh.positions_m, wanted.file_pose);
   moveDetail(mesh, wanted.file_pose);
   notes.push_back("detail_mesh " + path + ": " + report.text());
-  notes.insert(notes.end(), report.look_notes.begin(), report.look_notes.end());
+  notes.insert(notes.end(), report.appearance_notes.begin(), report.appearance_notes.end());
   return mesh;
 }
 

@@ -6,7 +6,7 @@
 
 #include "math/nearest_names.h"
 #include "model/body/mixed_cells.h"
-#include "model/scene/key_place.h"
+#include "model/scene/key_location.h"
 #include "viscera/math/error.h"
 
 namespace viscera {

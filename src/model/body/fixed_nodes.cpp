@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "math/number_text.h"
-#include "model/scene/key_place.h"
+#include "model/scene/key_location.h"
 #include "model/scene/structure_rules.h"
 #include "model/shape/organ/tissue.h"
 #include "viscera/math/error.h"

@@ -123,7 +123,7 @@ void setDepths(const Solid& solid, Lattice& lattice) {
   for (const NodeDepth& n : solid.depths) {
     const auto slot = static_cast<size_t>(storedAt(lattice, n.node));
     lattice.depth_m[slot] = std::min(n.depth_m, deepest);
-    lattice.offset_to_surface_m[slot] = n.way_m;
+    lattice.offset_to_surface_m[slot] = n.offset_m;
   }
 }
 

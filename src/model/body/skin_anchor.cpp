@@ -29,7 +29,7 @@ Vector3d closestOnFace(const Vector3d& point, const Vector3i& cell, int axis, in
 
 /// Returns the triangle of a face that contains a point of that face. Faces are split along the diagonal between nodes
 /// with an even sum of coordinates, so that the pattern has no preferred direction.
-Anchor anchorOnFace(const Vector3d& place, const Vector3i& cell, int axis, int side) {
+Anchor anchorOnFace(const Vector3d& position, const Vector3i& cell, int axis, int side) {
   const Vector3i low = cell + side * unit(axis);
   const Vector3i u = unit((axis + 1) % 3), v = unit((axis + 2) % 3);
   const std::array<Vector3i, 4> corners = {low, low + u, low + u + v, low + v};  // counter-clockwise along +axis
@@ -40,7 +40,7 @@ Anchor anchorOnFace(const Vector3d& place, const Vector3i& cell, int axis, int s
     const Vector3i at = corners[right_angle];
     Vector3i next = corners[(right_angle + 1) % 4], previous = corners[(right_angle + 3) % 4];
     if (side == 0) std::swap(next, previous);
-    const Vector3d from_angle = place - at.cast<double>();
+    const Vector3d from_angle = position - at.cast<double>();
     anchor.nodes = {at, next, previous};
     anchor.weight1 = std::clamp(from_angle.dot((next - at).cast<double>()), 0.0, 1.0);
     anchor.weight2 = std::clamp(from_angle.dot((previous - at).cast<double>()), 0.0, 1.0);
@@ -73,7 +73,7 @@ AnchorFinder::Face AnchorFinder::nearestBoundary(const Vector3d& point, const Ve
   const Vector3i home = point.array().floor().cast<int>();
   Face best;
   double best_cost = std::numeric_limits<double>::infinity();
-  const auto look = [&](const Vector3i& cell) {
+  const auto visit = [&](const Vector3i& cell) {
     if (!filled(cell)) return;
     for (int face = 0; face < 6; ++face) {
       const int axis = face / 2, side = face % 2;
@@ -89,7 +89,7 @@ AnchorFinder::Face AnchorFinder::nearestBoundary(const Vector3d& point, const Ve
   // Cells of shell r are at least r - 1 away, so the search ends once the best is nearer.
   for (int radius = cellsOutside(home, solid_.cells); best_cost > static_cast<double>(radius - 1) * (radius - 1);
        ++radius) {
-    forEachCellOfShell(home, radius, look);
+    forEachCellOfShell(home, radius, visit);
   }
   return best;
 }

@@ -71,7 +71,7 @@ class Search {
       if (!nodes) continue;
       law_.spacing_m = h;
       law_.nodes = *nodes;
-      note(h, *nodes);
+      record(h, *nodes);
       if (best_ && best_->spacing_m == h && (best_->load >= kNearEnough || atItsFinest(h, *nodes))) break;
       if (!best_ && *nodes < kNearFewest) break;
     }
@@ -133,7 +133,7 @@ class Search {
   }
 
   /// Records a trial as the best so far if it keeps to the limits and no finer one does.
-  void note(double h, double nodes) {
+  void record(double h, double nodes) {
     last_ = choice(h, nodes, SpacingBound::kTooSlow);
     if (load(h, nodes) > 1 || tooMany(nodes) || h < limits_.finest_m) return;
     if (best_ && best_->spacing_m <= h) return;

@@ -7,7 +7,7 @@
 #include "model/body/network_body.h"
 #include "model/body/network_builder.h"
 #include "model/body/spacing_search.h"
-#include "model/scene/key_place.h"
+#include "model/scene/key_location.h"
 #include "model/scene/structure_rules.h"
 #include "model/shape/organ/tissue.h"
 #include "viscera/math/error.h"
@@ -44,7 +44,7 @@ UndividedBodies::UndividedBodies(const Scene& scene) {
     const bool is_auto = std::find(chosen.begin(), chosen.end(), b) != chosen.end();
     BodyConfig config = scene.bodies[b];
     config.material.law = lawOf(config, scene.solver.integrator);
-    (is_auto ? auto_ : others_).push_back({config, withPlace(scene, b, [&] {
+    (is_auto ? auto_ : others_).push_back({config, withLocation(scene, b, [&] {
                                              return makeTissue(config, scene.folder);
                                            })});
   }

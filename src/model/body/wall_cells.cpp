@@ -49,8 +49,8 @@ class CellGrid {
     return slot == kNone ? 0 : std::min(fillOf(lattice_, slot).share, 1.0);
   }
   /// Returns the share of tissue around a position in cells, by linear interpolation between the centres of cells.
-  double shareAt(const Vector3d& place) const {
-    const Vector3d from_middle = place.array() - 0.5;
+  double shareAt(const Vector3d& position) const {
+    const Vector3d from_middle = position.array() - 0.5;
     const Vector3i low = from_middle.array().floor().cast<int>();
     const Vector3d part = from_middle - low.cast<double>();
     double sum = 0;
@@ -100,11 +100,11 @@ Matrix3d tissueAround(const Lattice& lattice, const CellGrid& grid, const Vector
 }
 
 /// Returns the length of tissue on a line through a position within the wall, in cells, at most kThick.
-double thicknessAt(const CellGrid& grid, const Vector3d& place, const Vector3d& normal) {
-  double sum = kStep * grid.shareAt(place);
-  for (const double way : {1.0, -1.0}) {
+double thicknessAt(const CellGrid& grid, const Vector3d& position, const Vector3d& normal) {
+  double sum = kStep * grid.shareAt(position);
+  for (const double sign : {1.0, -1.0}) {
     for (int n = 1; sum < kThick; ++n) {
-      const double share = grid.shareAt(place + way * n * kStep * normal);
+      const double share = grid.shareAt(position + sign * n * kStep * normal);
       if (share < kOutside) break;
       sum += kStep * share;
     }

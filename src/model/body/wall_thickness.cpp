@@ -76,12 +76,12 @@ std::optional<WallThickness> wallThickness(const Body& body) {
   const TriangleTree tree(mesh);
   std::vector<double> found_m;
   for (const Ray& ray : raysOf(mesh)) {
-    const MeshPlace place = tree.ahead(ray.from_m, ray.inward);
-    if (!place.found()) continue;
-    const std::array<uint32_t, 3>& t = mesh.triangles[place.triangle];
+    const MeshPoint position = tree.ahead(ray.from_m, ray.inward);
+    if (!position.found()) continue;
+    const std::array<uint32_t, 3>& t = mesh.triangles[position.triangle];
     const auto& p = mesh.positions_m;
     const Vector3f normal = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).normalized();
-    if (normal.dot(ray.inward) >= kFacesBack) found_m.push_back(static_cast<double>(place.distance_m));
+    if (normal.dot(ray.inward) >= kFacesBack) found_m.push_back(static_cast<double>(position.distance_m));
   }
   if (static_cast<double>(found_m.size()) < kLeastShare * kRays) return std::nullopt;
   std::sort(found_m.begin(), found_m.end());

@@ -18,12 +18,12 @@ class SpringBalance : public PrestressBalance {
   explicit SpringBalance(const Body& body) : PrestressBalance(body), network_(*body.network) {
     const Eigen::Matrix3d strain = strainsByLabel(body)[0];
     for (const NetworkSpring& spring : network_.springs) {
-      const Vector3d way = network_.positions_m[spring.b] - network_.positions_m[spring.a];
-      const double length_m = way.norm();
+      const Vector3d offset = network_.positions_m[spring.b] - network_.positions_m[spring.a];
+      const double length_m = offset.norm();
       lengths_m_.push_back(length_m);
-      ways_.push_back(length_m > 0 ? Vector3d(way / length_m) : Vector3d::Zero());
+      offsets_.push_back(length_m > 0 ? Vector3d(offset / length_m) : Vector3d::Zero());
       const double k = spring.against_bending ? 0 : spring.stiffness_n_per_m;
-      tensions_n_.push_back(k * length_m * ways_.back().dot(strain * ways_.back()));
+      tensions_n_.push_back(k * length_m * offsets_.back().dot(strain * offsets_.back()));
       largest_n_ = std::max(largest_n_, std::abs(tensions_n_.back()));
     }
   }
@@ -45,16 +45,16 @@ class SpringBalance : public PrestressBalance {
 
   void pulls(Field& out) const override {
     for (size_t i = 0; i < tensions_n_.size(); ++i) {
-      out[network_.springs[i].a] += tensions_n_[i] * ways_[i];
-      out[network_.springs[i].b] -= tensions_n_[i] * ways_[i];
+      out[network_.springs[i].a] += tensions_n_[i] * offsets_[i];
+      out[network_.springs[i].b] -= tensions_n_[i] * offsets_[i];
     }
   }
 
   void multiply(const Field& at_m, Field& out) const override {
-    for (size_t i = 0; i < ways_.size(); ++i) {
+    for (size_t i = 0; i < offsets_.size(); ++i) {
       const NetworkSpring& spring = network_.springs[i];
       if (spring.against_bending) continue;
-      const Vector3d pull = spring.stiffness_n_per_m * ways_[i].dot(at_m[spring.b] - at_m[spring.a]) * ways_[i];
+      const Vector3d pull = spring.stiffness_n_per_m * offsets_[i].dot(at_m[spring.b] - at_m[spring.a]) * offsets_[i];
       out[spring.a] -= pull;
       out[spring.b] += pull;
     }
@@ -72,13 +72,13 @@ class SpringBalance : public PrestressBalance {
     for (size_t i = 0; i < tensions_n_.size(); ++i) {
       const NetworkSpring& spring = network_.springs[i];
       if (!spring.against_bending)
-        tensions_n_[i] += spring.stiffness_n_per_m * ways_[i].dot(at_m[spring.b] - at_m[spring.a]);
+        tensions_n_[i] += spring.stiffness_n_per_m * offsets_[i].dot(at_m[spring.b] - at_m[spring.a]);
     }
   }
 
   const SpringNetwork& network_;
   std::vector<double> lengths_m_, tensions_n_;
-  Field ways_;
+  Field offsets_;
 };
 
 }  // namespace

@@ -93,21 +93,21 @@ std::string PrestressBalance::find() {
   addStiffness(inverse);
   for (double& sum : inverse) sum = sum > 0 ? 1 / sum : 0;
   Field at(slots, Vector3d::Zero()), left = pullsNow(), product(slots);
-  Field scaled = scaledBy(inverse, left), way = scaled;
+  Field scaled = scaledBy(inverse, left), direction = scaled;
   double gain = dot(left, scaled);
   int steps = 0;
   for (; steps < kMostSteps && worst(left) > kBalanced * largest_n_; ++steps) {
     std::fill(product.begin(), product.end(), Vector3d::Zero());
-    multiply(way, product);
+    multiply(direction, product);
     free(product);
-    const double step = gain / dot(way, product);
+    const double step = gain / dot(direction, product);
     for (size_t i = 0; i < slots; ++i) {
-      at[i] += step * way[i];
+      at[i] += step * direction[i];
       left[i] -= step * product[i];
     }
     scaled = scaledBy(inverse, left);
     const double next = dot(left, scaled);
-    for (size_t i = 0; i < slots; ++i) way[i] = scaled[i] + next / gain * way[i];
+    for (size_t i = 0; i < slots; ++i) direction[i] = scaled[i] + next / gain * direction[i];
     gain = next;
   }
   take(at);

@@ -48,8 +48,9 @@ bool beginsAsGzip(const std::string& path) {
   return first[0] == 0x1f && first[1] == 0x8b;
 }
 
-std::string dataFileBeside(const std::string& header, const std::string& told, const std::string& key) {
-  const std::string name = told.rfind("./", 0) == 0 ? told.substr(2) : told;  // as teem writes it
+std::string dataFileBeside(const std::string& header, const std::string& name_in_header, const std::string& key) {
+  const std::string name =
+      name_in_header.rfind("./", 0) == 0 ? name_in_header.substr(2) : name_in_header;  // as teem writes it
   const auto refuse = [&](const std::string& why) -> SceneError {
     return SceneError(header + ": " + key + " names '" + name + "', which " + why +
                       "; accepted: the plain name of a file in the folder of the header");

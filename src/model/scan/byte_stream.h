@@ -51,6 +51,6 @@ uint64_t fileBytes(const std::string& path);
 /// Returns the data file that a header names: a plain name, or one after ./, in the header's own folder, also through
 /// links.
 /// @param key  of the header, for errors   @throws SceneError  no such file there
-std::string dataFileBeside(const std::string& header, const std::string& told, const std::string& key);
+std::string dataFileBeside(const std::string& header, const std::string& name_in_header, const std::string& key);
 
 }  // namespace viscera

@@ -21,7 +21,7 @@ constexpr char kProgram[] = "viscera-dicom";
 constexpr int kMostSegments = 65535, kMostSeries = 65535;
 
 std::string program() {
-  if (const char* told = std::getenv("VISCERA_DICOM")) return told;
+  if (const char* given = std::getenv("VISCERA_DICOM")) return given;
   std::error_code error;
   const std::filesystem::path beside = std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / kProgram;
   return !error && std::filesystem::exists(beside, error) ? beside.string() : kProgram;

@@ -37,7 +37,7 @@ LabelName tableRow(const std::string& path, int number, const std::string& line)
 }
 
 std::vector<LabelName> readTable(const std::string& path) {
-  noteRead(path);
+  recordRead(path);
   std::ifstream file(path);
   std::vector<LabelName> names;
   int number = 0;

@@ -119,10 +119,10 @@ class CellWalk {
         vertices[p] = vertices[sheets[p]];
         continue;
       }
-      vertices[p] = static_cast<uint32_t>(net_.places_m.size());
-      const Vector3d place = crossing_ ? meanCrossing(cell, sheets, p) : Vector3d::Constant(0.5);
+      vertices[p] = static_cast<uint32_t>(net_.positions_m.size());
+      const Vector3d position = crossing_ ? meanCrossing(cell, sheets, p) : Vector3d::Constant(0.5);
       // Counted from the voxel, not from the layer around it: hence - 1.
-      net_.places_m.push_back((cell.cast<double>() + place - Vector3d::Ones()).cwiseProduct(spacing_m_));
+      net_.positions_m.push_back((cell.cast<double>() + position - Vector3d::Ones()).cwiseProduct(spacing_m_));
     }
     return vertices;
   }
@@ -134,9 +134,9 @@ class CellWalk {
       if (sheets[p] != sheet) continue;
       const int lower = kPair[p][0];
       const Vector3i corner(lower & 1, lower >> 1 & 1, lower >> 2);
-      Vector3d place = corner.cast<double>();
-      place[p / 4] += crossing_(cell + corner - Vector3i::Ones(), p / 4);
-      sum += place;
+      Vector3d position = corner.cast<double>();
+      position[p / 4] += crossing_(cell + corner - Vector3i::Ones(), p / 4);
+      sum += position;
       ++count;
     }
     return sum / count;

@@ -14,7 +14,7 @@ namespace viscera {
 /// Net before smoothing: quads between voxels of different labels, with corners in the dual cells (2 x 2 x 2 voxels)
 /// around them.
 struct NetCells {
-  std::vector<Vector3d> places_m;  ///< [vertices] positions along the axes of the voxels, voxel (0, 0, 0) at 0 [m]
+  std::vector<Vector3d> positions_m;  ///< [vertices] positions along the axes of the voxels, voxel (0, 0, 0) at 0 [m]
   std::vector<std::array<uint32_t, 4>> quads;  ///< counter-clockwise seen from sides[1], in a right-handed frame
   std::vector<std::array<uint8_t, 2>> sides;   ///< [quads] labels behind and in front of the quad
 };

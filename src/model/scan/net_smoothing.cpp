@@ -46,7 +46,7 @@ struct EdgeSpokes {
 class Neighbors {
  public:
   explicit Neighbors(const NetCells& net) {
-    const size_t vertices = net.places_m.size();
+    const size_t vertices = net.positions_m.size();
     std::vector<size_t> first(vertices + 1, 0);
     for (const auto& quad : net.quads) {
       for (const uint32_t v : quad) first[v + 1] += 2;
@@ -113,8 +113,8 @@ class Smoother {
  public:
   Smoother(NetCells& net, const Vector3d& spacing_m, const SmoothingRule& rule)
       : net_(net),
-        x_(net.places_m),
-        start_(net.places_m),
+        x_(net.positions_m),
+        start_(net.positions_m),
         step_(x_.size()),
         reach_m_(rule.box * spacing_m),
         neighbors_(net) {}

@@ -23,22 +23,24 @@ class Fields {
       : bytes_(std::move(bytes)), big_endian_(big_endian), second_(bytes_.size() == kHeader2) {}
   bool second() const { return second_; }
   bool bigEndian() const { return big_endian_; }
-  const uint8_t* at(size_t place) const { return bytes_.data() + place; }
+  const uint8_t* at(size_t position) const { return bytes_.data() + position; }
 
   template <typename T>
-  T get(size_t place) const {
+  T get(size_t position) const {
     uint8_t bytes[sizeof(T)];
-    for (size_t b = 0; b < sizeof(T); ++b) bytes[b] = bytes_.at(place + (big_endian_ ? sizeof(T) - 1 - b : b));
+    for (size_t b = 0; b < sizeof(T); ++b) bytes[b] = bytes_.at(position + (big_endian_ ? sizeof(T) - 1 - b : b));
     T value;
     std::memcpy(&value, bytes, sizeof(T));
     return value;
   }
   /// Returns real number n of a field: float in version 1, double in version 2.
-  double real(size_t place1, size_t place2, size_t n = 0) const {
-    return second_ ? get<double>(place2 + 8 * n) : static_cast<double>(get<float>(place1 + 4 * n));
+  double real(size_t position1, size_t position2, size_t n = 0) const {
+    return second_ ? get<double>(position2 + 8 * n) : static_cast<double>(get<float>(position1 + 4 * n));
   }
   int64_t dim(size_t n) const { return second_ ? get<int64_t>(16 + 8 * n) : get<int16_t>(40 + 2 * n); }
-  int64_t code(size_t place1, size_t place2) const { return second_ ? get<int32_t>(place2) : get<int16_t>(place1); }
+  int64_t code(size_t position1, size_t position2) const {
+    return second_ ? get<int32_t>(position2) : get<int16_t>(position1);
+  }
   double pixdim(size_t n) const { return n == 0 ? real(76, 104, n) : unit_mm * real(76, 104, n); }
 
   double unit_mm = 1;  ///< unit of lengths [mm]
@@ -179,15 +181,15 @@ bool agree(const Affine& a, const Affine& b, const std::array<int64_t, 3>& size)
 /// Returns the transform from voxels to RAS [mm].
 Affine affineOf(const std::string& path, const Fields& fields, const std::array<int64_t, 3>& size,
                 const ScanOptions& options) {
-  const std::string& told = options.transform;
+  const std::string& given = options.transform;
   const bool has_s = fields.code(254, 348) > 0, said_q = fields.code(252, 344) > 0;
-  const bool has_q = said_q && (hasSteps(fields) || !has_s || told == "qform");
-  if (!has_s || told == "qform")  // the transform from pixdim
+  const bool has_q = said_q && (hasSteps(fields) || !has_s || given == "qform");
+  if (!has_s || given == "qform")  // the transform from pixdim
     for (size_t axis = 1; axis <= 3; ++axis) requireSpacing(path, stepsOf(fields, false), fields.pixdim(axis));
-  if (!told.empty() && told != "sform" && told != "qform")
-    throw SceneError(path + ": transform '" + told + "'; accepted: sform or qform");
-  if ((told == "sform" && !has_s) || (told == "qform" && !has_q))
-    throw SceneError(path + ": has no " + told + " (its code is 0); accepted: " +
+  if (!given.empty() && given != "sform" && given != "qform")
+    throw SceneError(path + ": transform '" + given + "'; accepted: sform or qform");
+  if ((given == "sform" && !has_s) || (given == "qform" && !has_q))
+    throw SceneError(path + ": has no " + given + " (its code is 0); accepted: " +
                      (has_s   ? "sform"
                       : has_q ? "qform"
                               : "axes"));
@@ -207,11 +209,11 @@ Affine affineOf(const std::string& path, const Fields& fields, const std::array<
     return affine;
   }
   if (!options.axes.empty()) throw SceneError(path + ": the file states its orientation; remove the key axes");
-  if (has_s && has_q && told.empty() && !agree(sform(fields), qform(fields), size) &&
+  if (has_s && has_q && given.empty() && !agree(sform(fields), qform(fields), size) &&
       !isGuessed(path, options, "its sform and its qform are more than half a voxel apart; sform is used"))
     throw SceneError(path +
                      ": its sform and its qform are more than half a voxel apart; set transform to sform or qform");
-  if (told == "qform" || !has_s) return qform(fields);
+  if (given == "qform" || !has_s) return qform(fields);
   for (int axis = 0; axis < 3; ++axis) requireSpacing(path, stepsOf(fields, true), sform(fields).col(axis).norm());
   const std::string note = stepsNote(path, fields, sform(fields));
   if (options.notes && !note.empty()) options.notes->push_back(note);

@@ -166,21 +166,21 @@ void requireMillimetres(const TextHeader& header, const std::string& name, size_
 
 VolumeFrame frameOf(const NrrdHeader& header, const std::array<int64_t, 3>& size, int list, size_t dims,
                     const std::vector<std::string>& directions, const ScanOptions& options) {
-  const std::string& told = options.axes;
+  const std::string& given = options.axes;
   requireMillimetres(header, "space units", 3);
   if (directions.empty()) requireMillimetres(header, "units", dims);
   Vector3d signs(1, 1, 1);
   const bool said = !directions.empty() && header.has("space") && lpsOfSpace(header.text("space"), signs);
   const bool guessed =
-      !said && told.empty() && isGuessed(header.path, options, "does not state its orientation; axes LPS are a guess");
-  if (!said && told.empty() && !guessed)
+      !said && given.empty() && isGuessed(header.path, options, "does not state its orientation; axes LPS are a guess");
+  if (!said && given.empty() && !guessed)
     throw SceneError(
         header.path + ": does not state its orientation (space '" + header.textOr("space", "") + "'" +
         (directions.empty() ? ", no space directions" : "") +
         "); accepted: a space of RAS, LAS or LPS with space directions. Otherwise set axes, such as axes: RAS");
-  if (said && !told.empty()) throw SceneError(header.path + ": the file states its orientation; remove the key axes");
+  if (said && !given.empty()) throw SceneError(header.path + ": the file states its orientation; remove the key axes");
   const Eigen::Matrix3d to_lps =
-      said ? Eigen::Matrix3d(signs.asDiagonal()) : lpsFromAxes(header.path, guessed ? "LPS" : told);
+      said ? Eigen::Matrix3d(signs.asDiagonal()) : lpsFromAxes(header.path, guessed ? "LPS" : given);
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   Vector3d origin = Vector3d::Zero();
   std::vector<double> spacings;

@@ -63,7 +63,7 @@ void walk(const Mask& mask, uint8_t value, PieceOf&& piece_of, Visit&& visit) {
 /// across it (Felzenszwalb and Huttenlocher).
 class LineDistance {
  public:
-  explicit LineDistance(size_t most) : value_(most), place_(most), from_(most + 1) {}
+  explicit LineDistance(size_t most) : value_(most), position_(most), from_(most + 1) {}
   /// @param line  squared distances, `step` apart; replaced by the result
   void run(float* line, size_t count, size_t step, double spacing) {
     const double square = spacing * spacing;
@@ -74,8 +74,8 @@ class LineDistance {
       if (line[n * step] >= kFar) continue;
       double cross = -kFar;
       while (any) {
-        const auto p = static_cast<double>(place_[top]), q = static_cast<double>(n);
-        cross = (value_[n] + q * q - value_[place_[top]] - p * p) / (2 * (q - p));
+        const auto p = static_cast<double>(position_[top]), q = static_cast<double>(n);
+        cross = (value_[n] + q * q - value_[position_[top]] - p * p) / (2 * (q - p));
         if (cross > from_[top]) break;
         cross = -kFar;
         if (top == 0)
@@ -85,22 +85,22 @@ class LineDistance {
       }
       top = any ? top + 1 : 0;
       any = true;
-      place_[top] = n;
+      position_[top] = n;
       from_[top] = cross;
     }
     if (!any) return;
     size_t at = 0;
     for (size_t n = 0; n < count; ++n) {
       while (at < top && from_[at + 1] < static_cast<double>(n)) ++at;
-      const double d = static_cast<double>(n) - static_cast<double>(place_[at]);
-      line[n * step] = static_cast<float>(std::min<double>(square * (d * d + value_[place_[at]]), kFar));
+      const double d = static_cast<double>(n) - static_cast<double>(position_[at]);
+      line[n * step] = static_cast<float>(std::min<double>(square * (d * d + value_[position_[at]]), kFar));
     }
   }
   static constexpr float kFar = 1e12F;
 
  private:
   std::vector<double> value_;
-  std::vector<size_t> place_;
+  std::vector<size_t> position_;
   std::vector<double> from_;
 };
 

@@ -13,9 +13,9 @@ namespace viscera {
 namespace {
 
 /// Wrapper that reports how far another source has been read.
-class ToldSource : public ScanSource {
+class ObservedSource : public ScanSource {
  public:
-  ToldSource(std::unique_ptr<ScanSource> source, std::function<void(double)> progress)
+  ObservedSource(std::unique_ptr<ScanSource> source, std::function<void(double)> progress)
       : source_(std::move(source)), progress_(std::move(progress)) {}
   const VolumeFrame& frame() const override { return source_->frame(); }
   const std::vector<LabelName>& names() const override { return source_->names(); }
@@ -54,7 +54,7 @@ std::unique_ptr<ScanSource> openByName(const std::string& path, const ScanOption
 
 std::unique_ptr<ScanSource> openScan(const std::string& path, const ScanOptions& options) {
   std::unique_ptr<ScanSource> source = openByName(path, options);
-  return options.progress ? std::make_unique<ToldSource>(std::move(source), options.progress) : std::move(source);
+  return options.progress ? std::make_unique<ObservedSource>(std::move(source), options.progress) : std::move(source);
 }
 
 }  // namespace viscera

@@ -75,7 +75,7 @@ void cutQuads(const NetCells& net, bool mirrored, SurfaceNet& out) {
   out.sides.reserve(2 * net.quads.size());
   for (size_t i = 0; i < net.quads.size(); ++i) {
     const auto& q = net.quads[i];
-    const int first = cutFromOne(net.places_m, q, net.sides[i]) ? 1 : 0;
+    const int first = cutFromOne(net.positions_m, q, net.sides[i]) ? 1 : 0;
     for (const int middle : {1, 2}) {
       std::array<uint32_t, 3> t = {q[first], q[(first + middle) % 4], q[(first + middle + 1) % 4]};
       if (mirrored) std::swap(t[1], t[2]);
@@ -107,7 +107,7 @@ namespace {
 SurfaceNet finished(NetCells cells, const VolumeFrame& frame) {
   SurfaceNet net;
   cutQuads(cells, frame.axes.determinant() < 0, net);
-  net.positions_m = std::move(cells.places_m);
+  net.positions_m = std::move(cells.positions_m);
   const Matrix3d unit_axes = frame.axes * frame.spacing_m().cwiseInverse().asDiagonal();
   for (Vector3d& p : net.positions_m) p = unit_axes * p + frame.origin;
   return net;

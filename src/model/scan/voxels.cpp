@@ -183,8 +183,8 @@ Eigen::Matrix3d lpsFromAxes(const std::string& path, const std::string& axes) {
   Eigen::Matrix3d turned = Eigen::Matrix3d::Zero();
   if (axes.size() == 3)
     for (int axis = 0; axis < 3; ++axis) {
-      const size_t place = kTo.find(axes[static_cast<size_t>(axis)]);
-      if (place != std::string::npos) turned(static_cast<int>(place % 3), axis) = place < 3 ? 1 : -1;
+      const size_t position = kTo.find(axes[static_cast<size_t>(axis)]);
+      if (position != std::string::npos) turned(static_cast<int>(position % 3), axis) = position < 3 ? 1 : -1;
     }
   if (std::abs(turned.determinant()) == 1) return turned;
   throw SceneError(path + ": axes '" + axes +

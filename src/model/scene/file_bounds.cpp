@@ -42,11 +42,11 @@ void bindFilesTo(const std::vector<std::string>& folders, const std::string& by)
 
 void requireWithinBounds(const std::string& path) {
   const Bounds& now = bounds();
-  if (now.folders.empty()) return noteRead(path);
+  if (now.folders.empty()) return recordRead(path);
   std::error_code error;
   const fs::path file = fs::weakly_canonical(fs::absolute(path), error);
   const auto holds = [&](const fs::path& folder) { return isWithin(folder, file); };
-  if (!error && std::any_of(now.folders.begin(), now.folders.end(), holds)) return noteRead(path);
+  if (!error && std::any_of(now.folders.begin(), now.folders.end(), holds)) return recordRead(path);
   std::string text = path + ": is, with links resolved, outside the folders of " + now.by + ":";
   for (const fs::path& folder : now.folders) text += " " + folder.string();
   throw FileBoundError(text);

@@ -31,7 +31,7 @@ OrganFit OrganFit::between(const Eigen::AlignedBox3d& from_m, const Eigen::Align
   fit.view_scale = kRoom * fit.stretch.maxCoeff();
   Eigen::Index depth = 0;
   sight.cwiseAbs().maxCoeff(&depth);
-  fit.hand_scale = std::min(fit.stretch[(depth + 1) % 3], fit.stretch[(depth + 2) % 3]);
+  fit.tool_scale = std::min(fit.stretch[(depth + 1) % 3], fit.stretch[(depth + 2) % 3]);
   return fit;
 }
 
@@ -52,7 +52,7 @@ std::string OrganFit::text() const {
   TextOut out;
   out.precision(3);
   out << "scene fitted to the organ's box, " << sizeText(to_m) << ", from its own, " << sizeText(from_m)
-      << ": cameras scaled by " << view_scale << ", tools and strokes by " << hand_scale
+      << ": cameras scaled by " << view_scale << ", tools and strokes by " << tool_scale
       << ", fixed regions, obstacles and anchors moved from box to box; keys that an override sets keep their values";
   return out.str();
 }

@@ -139,9 +139,9 @@ void requireSuture(const std::string& file, const SutureConfig& suture) {
     throw SceneError(where + "'density_kg_per_m3' must be 0 or at least " + numberText(kLightest_kg_per_m3));
   double length_m = 0;
   Vector3d last = suture.position_m;
-  for (const SuturePathPoint& place : suture.path) {
-    length_m += (place.position_m - last).norm();
-    last = place.position_m;
+  for (const SuturePathPoint& position : suture.path) {
+    length_m += (position.position_m - last).norm();
+    last = position.position_m;
   }
   if (length_m == 0) throw SceneError(where + "'path' must contain a position that differs from 'position_m'");
   if (suture.length_m > 0) length_m = suture.length_m;

@@ -29,13 +29,13 @@ ForceSink::ForceSink(ros::NodeHandle& node, const DeviceProfile& device) : port_
 }
 
 Reaction ForceSink::send(const Reaction& reaction, const DeviceFrame& frame, const ros::Time& stamp) {
-  const Reaction told = toDevice(reaction, frame, port_);
-  const geometry_msgs::WrenchStamped wrench = toWrench(told, Quaterniond::Identity(), frame.name, stamp);
+  const Reaction sent = toDevice(reaction, frame, port_);
+  const geometry_msgs::WrenchStamped wrench = toWrench(sent, Quaterniond::Identity(), frame.name, stamp);
   withForceMessage(port_.type, [&](auto message) {
     setForce(message, wrench, frame.position);
     publisher_.publish(message);
   });
-  return told;
+  return sent;
 }
 
 }  // namespace viscera::nodes

@@ -31,32 +31,33 @@ crtk_msgs::CartesianImpedance toImpedance(const HapticServo& servo, const Stylus
                                           SteadyTime now, const ros::Time& stamp) {
   const DeviceFrame frame = mailbox.deviceFrame();
   const DeviceProfile& device = mailbox.device();
-  const StylusSample hand = mailbox.peek(now);
+  const StylusSample stylus = mailbox.peek(now);
   crtk_msgs::CartesianImpedance out = noImpedance(frame.name, stamp);
   const ContactModel& model = servo.model();
   const Vector3d& normal = model.normal();
-  const bool felt = hand.valid && !mailbox.clutched() && model.kind() != TickContact::Kind::kFree;
-  if (!felt || !(normal.squaredNorm() > 0)) return out;
+  const bool acts = stylus.valid && !mailbox.clutched() && model.kind() != TickContact::Kind::kFree;
+  if (!acts || !(normal.squaredNorm() > 0)) return out;
 
   const Quaterniond axes = rotationBetween(Vector3d::UnitZ(), normal);
   const Matrix3d turn = axes.toRotationMatrix();
   Vector3d stiffness = (turn.transpose() * model.stiffness_n_per_m() * turn).diagonal();
-  Vector3d bias_n = turn.transpose() * model.anchor_force_n(), place_m = model.anchor_m();
-  const bool one_way = model.kind() == TickContact::Kind::kPushes || model.kind() == TickContact::Kind::kPulls;
-  if (one_way) {
+  Vector3d bias_n = turn.transpose() * model.anchor_force_n(), position_m = model.anchor_m();
+  const bool one_sided = model.kind() == TickContact::Kind::kPushes || model.kind() == TickContact::Kind::kPulls;
+  if (one_sided) {
     if (!(stiffness.z() > 0)) return out;
-    place_m += bias_n.z() / stiffness.z() * normal;
+    position_m += bias_n.z() / stiffness.z() * normal;
     bias_n.setZero();
     stiffness.x() = stiffness.y() = 0;
   }
-  const double share = device.force.scale * shareAt(model, hand.pose.position_m, now, most_n, device.force);
+  const double share = device.force.scale * shareAt(model, stylus.pose.position_m, now, most_n, device.force);
   stiffness *= share * device.scale;  // unit: newtons of the motors per metre of the device
   out.force_orientation = toQuaternion(frame.from_tissue * axes);
-  out.force_position = toVector(device.pose.unit_m * mailbox.inDevice({place_m, hand.pose.orientation}).position_m);
+  out.force_position =
+      toVector(device.pose.unit_m * mailbox.inDevice({position_m, stylus.pose.orientation}).position_m);
   out.position_negative.p = toVector(-stiffness);
   out.position_negative.d = toVector(-servo.lead_s() * stiffness);
   out.position_negative.bias = toVector(share * bias_n);
-  if (!one_way) out.position_positive = out.position_negative;
+  if (!one_sided) out.position_positive = out.position_negative;
   return out;
 }
 

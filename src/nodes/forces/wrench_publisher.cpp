@@ -58,18 +58,18 @@ void WrenchPublisher::setLimits(size_t stylus, const ForceLimits& limits) {
   changed_.notify_one();
 }
 
-void WrenchPublisher::put(const Hands& hands) {
+void WrenchPublisher::put(const Inputs& inputs) {
   {
     const std::lock_guard<PriorityMutex> lock(mutex_);
     const Clock::time_point now = Clock::now();
     ForceLoop::Ticks ticks;
-    for (size_t s = 0; s < hands.size(); ++s) {
-      ticks[s] = {hands[s].reaction, hands[s].tracked, hands[s].contact};
-      if (!loop_.answering()) poses_received_[s] = hands[s].pose_received;
+    for (size_t s = 0; s < inputs.size(); ++s) {
+      ticks[s] = {inputs[s].reaction, inputs[s].tracked, inputs[s].contact};
+      if (!loop_.updating()) poses_received_[s] = inputs[s].pose_received;
     }
-    loop_.put(ticks, handsNow(now), now);
+    loop_.put(ticks, stylusesNow(now), now);
     ticked_ = true;
-    if (loop_.answering()) return;  // the next period is early enough
+    if (loop_.updating()) return;  // the next period is early enough
     put_ = true;
   }
   changed_.notify_one();
@@ -120,16 +120,16 @@ void WrenchPublisher::schedule() {
   scheduling_ = how;
 }
 
-HandsThere WrenchPublisher::listening() const {
-  HandsThere out{};
+ListeningStyluses WrenchPublisher::listening() const {
+  ListeningStyluses out{};
   for (size_t s = 0; s < sinks_.size(); ++s) out[s] = sinks_[s].hasSubscribers();
   return out;
 }
 
 /// Returns the styluses as the force loop sees them. A stylus with a pressed clutch feels nothing, like one that is not
 /// tracked. A device without a subscriber must not feel a jump when it subscribes.
-ForceLoop::Hands WrenchPublisher::handsNow(SteadyTime now) const {
-  ForceLoop::Hands out;
+ForceLoop::Inputs WrenchPublisher::stylusesNow(SteadyTime now) const {
+  ForceLoop::Inputs out;
   for (size_t s = 0; s < mailboxes_.size(); ++s) {
     const StylusSample sample = mailboxes_[s]->peek(now);
     out[s] = {sample.valid && !mailboxes_[s]->clutched(), listening_[s], sample.pose.position_m, sample.received};
@@ -146,23 +146,23 @@ void WrenchPublisher::main() {
     if (stop_) return;
     put_ = false;
     const Clock::time_point now = Clock::now();
-    const ForceLoop::Hands hands = handsNow(now);
-    const Wrenches wrenches = loop_.next(hands, now);
+    const ForceLoop::Inputs inputs = stylusesNow(now);
+    const Wrenches wrenches = loop_.next(inputs, now);
     const bool ticked = std::exchange(ticked_, false), live = loop_.schedule().live();
     stalls_ = loop_.schedule().stalls();
     stalled_ = loop_.schedule().stalled();
     lock.unlock();
-    const auto told_n = send(wrenches);
+    const auto sent_force_n = send(wrenches);
     if (ticked) sendEnergies();
     if (ticked || !live) sendImpedances(live);
-    const HandsThere listening = this->listening();
+    const ListeningStyluses listening = this->listening();
     lock.lock();
     listening_ = listening;
-    loop_.sent(told_n, now);
+    loop_.sent(sent_force_n, now);
     const Clock::time_point sent = Clock::now();
     for (size_t s = 0; s < latencies_.size(); ++s) {
       // measures the latency of the force whether the device subscribes or not
-      if (loop_.answering()) poses_received_[s] = hands[s].tracked ? hands[s].told : SteadyTime{};
+      if (loop_.updating()) poses_received_[s] = inputs[s].tracked ? inputs[s].pose_time : SteadyTime{};
       latencies_[s].add(poses_received_[s], sent);
     }
     if (loop_.schedule().silenced()) sent_.notify_all();
@@ -170,19 +170,19 @@ void WrenchPublisher::main() {
 }
 
 std::array<Vector3d, layout::kMaxStyluses> WrenchPublisher::send(const Wrenches& wrenches) {
-  std::array<Vector3d, layout::kMaxStyluses> told_n;
-  told_n.fill(Vector3d::Zero());
+  std::array<Vector3d, layout::kMaxStyluses> sent_force_n;
+  sent_force_n.fill(Vector3d::Zero());
   const ros::Time stamp = ros::Time::now();
   for (size_t s = 0; s < sinks_.size(); ++s) {
     if (!sinks_[s].hasSubscribers()) continue;
     const DeviceFrame frame = mailboxes_[s]->deviceFrame();
-    told_n[s] = frame.from_tissue.conjugate() * sinks_[s].send(wrenches[s], frame, stamp).force_n;
+    sent_force_n[s] = frame.from_tissue.conjugate() * sinks_[s].send(wrenches[s], frame, stamp).force_n;
   }
-  return told_n;
+  return sent_force_n;
 }
 
 void WrenchPublisher::sendEnergies() {
-  const std::vector<ForceLoop::HapticStats> all = felt();
+  const std::vector<ForceLoop::HapticStats> all = stats();
   for (size_t s = 0; s < energies_.size(); ++s) {
     if (energies_[s].getNumSubscribers() == 0) continue;
     std_msgs::Float64 energy;
@@ -205,10 +205,10 @@ void WrenchPublisher::sendImpedances(bool live) {
   }
 }
 
-std::vector<ForceLoop::HapticStats> WrenchPublisher::felt() {
+std::vector<ForceLoop::HapticStats> WrenchPublisher::stats() {
   const std::lock_guard<PriorityMutex> lock(mutex_);
   std::vector<ForceLoop::HapticStats> out;
-  for (size_t s = 0; s < mailboxes_.size(); ++s) out.push_back(loop_.felt(s));
+  for (size_t s = 0; s < mailboxes_.size(); ++s) out.push_back(loop_.stats(s));
   return out;
 }
 

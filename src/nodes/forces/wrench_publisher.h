@@ -26,13 +26,13 @@ namespace viscera::nodes {
 class WrenchPublisher {
  public:
   /// Results of a tick for one stylus.
-  struct Hand {
+  struct Input {
     Reaction reaction;
     SteadyTime pose_received{};  ///< arrival of the pose that the reaction answers; 0: none
     bool tracked = false;        ///< whether the stylus is tracked
     TickContact contact;
   };
-  using Hands = std::array<Hand, layout::kMaxStyluses>;
+  using Inputs = std::array<Input, layout::kMaxStyluses>;
 
   /// @param mailboxes  mailboxes of the scene's styluses, in order; they must outlive this object
   /// @param stall_s    longest time between two ticks that is not a stall [s]
@@ -44,7 +44,7 @@ class WrenchPublisher {
   WrenchPublisher& operator=(const WrenchPublisher&) = delete;
 
   void setLimits(size_t stylus, const ForceLimits& limits);
-  void put(const Hands& hands);
+  void put(const Inputs& inputs);
   /// Stops forces until the next put(), because there are no ticks.
   void rest();
   /// Sends zeros, and nothing after them. Waits until they are written to the devices, for at most kReleaseLimit.
@@ -56,7 +56,7 @@ class WrenchPublisher {
   /// Returns the latencies since the last call, from the arrival of a pose to the sending of its force: [styluses].
   std::vector<LatencyMeter::Reading> takeLatencies();
   /// Returns statistics of the loop between ticks: [styluses].
-  std::vector<ForceLoop::HapticStats> felt();
+  std::vector<ForceLoop::HapticStats> stats();
   /// Returns how the thread is scheduled: "SCHED_FIFO 20", or the reason why it is not.
   std::string scheduling();
   uint64_t stalls() const { return stalls_; }
@@ -68,8 +68,8 @@ class WrenchPublisher {
   /// Waits until zeros are written to the devices, for at most kReleaseLimit.
   void awaitZeros(std::unique_lock<PriorityMutex>& lock);
   /// Returns which devices subscribe to forces.
-  HandsThere listening() const;
-  ForceLoop::Hands handsNow(SteadyTime now) const;
+  ListeningStyluses listening() const;
+  ForceLoop::Inputs stylusesNow(SteadyTime now) const;
   /// Sends wrenches to the devices. @returns the forces of the devices' motors, in the axes of the tissue frame
   std::array<Vector3d, layout::kMaxStyluses> send(const Wrenches& wrenches);
   void sendEnergies();
@@ -87,7 +87,7 @@ class WrenchPublisher {
   std::array<SteadyTime, layout::kMaxStyluses> poses_received_{};
   bool put_ = false, stop_ = false;
   bool ticked_ = false;  ///< whether there was a tick since the last message
-  HandsThere listening_{};
+  ListeningStyluses listening_{};
   std::vector<LatencyMeter> latencies_;
   std::atomic<uint64_t> stalls_{0};
   std::atomic<bool> stalled_{false};

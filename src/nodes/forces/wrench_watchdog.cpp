@@ -18,7 +18,7 @@ namespace {
 constexpr std::chrono::milliseconds kRepeat{20};  ///< period of repeated zeros, for a driver that starts late
 /// roscpp writes to sockets on its own thread and does not report when; it has done so after this time.
 constexpr std::chrono::milliseconds kWrenchWatchdogFlush{10};
-constexpr std::chrono::milliseconds kLook{20};  ///< time until a lost master is detected
+constexpr std::chrono::milliseconds kPoll{20};  ///< time until a lost master is detected
 constexpr double kMinTimeout_s = 0.005, kMaxTimeout_s = 10;
 
 }  // namespace
@@ -113,10 +113,10 @@ WrenchWatchdog::~WrenchWatchdog() {
 
 void WrenchWatchdog::run() {
   MasterWatch master;
-  uint64_t told = 0;
-  while (!end_.waitFor(kLook)) {
+  uint64_t warned = 0;
+  while (!end_.waitFor(kPoll)) {
     const uint64_t silences = silences_;
-    if (std::exchange(told, silences) != silences)
+    if (std::exchange(warned, silences) != silences)
       ROS_WARN("no wrench for %.3f s; zeros are sent until wrenches arrive again",
                std::chrono::duration<double>(timeout_).count());
     master.require();

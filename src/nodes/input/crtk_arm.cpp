@@ -71,9 +71,11 @@ void CrtkArm::subscribe(ros::NodeHandle& node, FrameLookup lookup) {
       node.subscribe<std_msgs::Empty>(
           at + "hold", kEvents, [this](const std_msgs::EmptyConstPtr&) { onHold(); }, ros::VoidConstPtr(), hints),
       node.subscribe<sensor_msgs::JointState>(
-          at + "jaw/servo_jp", kNewest, [this](const auto& told) { onJaw(*told, false); }, ros::VoidConstPtr(), hints),
+          at + "jaw/servo_jp", kNewest, [this](const auto& received) { onJaw(*received, false); }, ros::VoidConstPtr(),
+          hints),
       node.subscribe<sensor_msgs::JointState>(
-          at + "jaw/move_jp", kNewest, [this](const auto& told) { onJaw(*told, true); }, ros::VoidConstPtr(), hints),
+          at + "jaw/move_jp", kNewest, [this](const auto& received) { onJaw(*received, true); }, ros::VoidConstPtr(),
+          hints),
       node.subscribe(at + "state_command", kEvents, &CrtkArm::onState, this, hints)};
   setpoints_ = node.createSteadyTimer(ros::WallDuration(kSetpoints_s),
                                       [this](const ros::SteadyTimerEvent&) { tellSetpoints(); });
@@ -91,12 +93,12 @@ bool CrtkArm::isOfBase(const std::string& frame) const {
 }
 
 /// Looks up another frame. @returns nothing if tf does not connect it to the tissue frame: the command is refused
-std::optional<Pose> CrtkArm::placeOf(const std::string& frame, const std::string& topic) {
-  const FramePlace place = lookup_(frame);
-  if (!place.in_tissue)
-    refuse(topic, place.too_old ? Drop::kOldTransform : Drop::kNoTransform,
+std::optional<Pose> CrtkArm::poseOfFrame(const std::string& frame, const std::string& topic) {
+  const FramePose frame_pose = lookup_(frame);
+  if (!frame_pose.in_tissue)
+    refuse(topic, frame_pose.too_old ? Drop::kOldTransform : Drop::kNoTransform,
            ": '" + frame + "' to the tissue frame; a command without a frame is in the frame of the arm's base");
-  return place.in_tissue;
+  return frame_pose.in_tissue;
 }
 
 /// Converts a pose to the arm's base. @returns nothing if it is refused
@@ -107,11 +109,11 @@ std::optional<Pose> CrtkArm::inBase(const geometry_msgs::PoseStamped& message, c
   pose.orientation.normalize();
   const std::string frame = tf2Name(message.header.frame_id);
   if (isOfBase(frame)) return pose;
-  const std::optional<Pose> place = placeOf(frame, topic);
-  if (!place) return std::nullopt;
-  const Pose told = mailbox_.inDevice(*place * pose * mailbox_.device().tip.pose());
-  if (!isFinite(told)) return refuse(topic, Drop::kNotFinite), std::nullopt;
-  return told;
+  const std::optional<Pose> frame_pose = poseOfFrame(frame, topic);
+  if (!frame_pose) return std::nullopt;
+  const Pose received = mailbox_.inDevice(*frame_pose * pose * mailbox_.device().tip.pose());
+  if (!isFinite(received)) return refuse(topic, Drop::kNotFinite), std::nullopt;
+  return received;
 }
 
 void CrtkArm::refuse(const std::string& topic, Drop reason, const std::string& detail) {
@@ -140,9 +142,9 @@ void CrtkArm::onVelocity(const geometry_msgs::TwistStamped& message) {
   if (!along.allFinite() || !about.allFinite()) return refuse("servo_cv", Drop::kNotFinite);
   const std::string frame = tf2Name(message.header.frame_id);
   if (!isOfBase(frame)) {
-    const std::optional<Pose> place = placeOf(frame, "servo_cv");
-    if (!place) return;
-    const Quaterniond turn = mailbox_.deviceFrame().from_tissue * place->orientation;
+    const std::optional<Pose> frame_pose = poseOfFrame(frame, "servo_cv");
+    if (!frame_pose) return;
+    const Quaterniond turn = mailbox_.deviceFrame().from_tissue * frame_pose->orientation;
     along = turn * along / (mailbox_.device().pose.unit_m * mailbox_.device().scale);
     about = turn * about;
     if (!along.allFinite() || !about.allFinite()) return refuse("servo_cv", Drop::kNotFinite);
@@ -209,10 +211,10 @@ void CrtkArm::endTick(const StylusMotion& tool, double jaw_moment_nm, const ros:
   const std::string frame = mailbox_.deviceFrame().name;
   if (isReceived(measured_cp_)) measured_cp_.publish(stamped(measured, frame, stamp));
   if (isReceived(measured_cv_))
-    measured_cv_.publish(twist(last_measured_, measured, (stamp - last_told_).toSec(), frame, stamp));
+    measured_cv_.publish(twist(last_measured_, measured, (stamp - last_sent_).toSec(), frame, stamp));
   last_measured_ = measured;
-  last_told_ = stamp;
-  if (motion_.busy() != told_busy_) tellState();
+  last_sent_ = stamp;
+  if (motion_.busy() != sent_busy_) tellState();
 }
 
 /// Publishes setpoints and goals of the arm and its jaws.
@@ -234,12 +236,12 @@ void CrtkArm::tellSetpoints() {
 }
 
 void CrtkArm::tellState() {
-  told_busy_ = motion_.busy();
+  sent_busy_ = motion_.busy();
   crtk_msgs::OperatingState message;
   message.header.stamp = ros::Time::now();
   message.state = viscera::text(motion_.state());
   message.is_homed = motion_.homed();
-  message.is_busy = told_busy_;
+  message.is_busy = sent_busy_;
   operating_state_.publish(message);
 }
 

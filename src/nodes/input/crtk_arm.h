@@ -48,7 +48,7 @@ class CrtkArm {
   void onState(const crtk_msgs::StringStamped& message);
   std::optional<Pose> inBase(const geometry_msgs::PoseStamped& message, const std::string& topic);
   bool isOfBase(const std::string& frame) const;
-  std::optional<Pose> placeOf(const std::string& frame, const std::string& topic);
+  std::optional<Pose> poseOfFrame(const std::string& frame, const std::string& topic);
   void refuse(const std::string& topic, Drop reason, const std::string& detail = "");
   void place();
   void tellSetpoints();
@@ -59,13 +59,13 @@ class CrtkArm {
   std::string base_;  ///< prefix of its topics
   mutable std::mutex mutex_;
   ArmMotion motion_;
-  bool told_busy_ = false, warned_ = false;
+  bool sent_busy_ = false, warned_ = false;
   const std::string frame_;  ///< frame of the arm's base in the profile; empty: the tissue frame
   SteadyTime ticked_{};
   Pose last_measured_;
   std::optional<sensor_msgs::JointState> measured_jaw_;  ///< joint state of a tool with jaws; a tool without jaws
                                                          ///< reports the commanded one
-  ros::Time last_told_;
+  ros::Time last_sent_;
   std::vector<ros::Subscriber> commands_;
   ros::SteadyTimer setpoints_;
   ros::Publisher measured_cp_, setpoint_cp_, goal_cp_, measured_cv_, operating_state_, measured_js_, setpoint_js_;

@@ -30,7 +30,7 @@ using Grade = Verdict::Grade;
 constexpr const char* kDevice = "device_";
 constexpr const char* kAssign = ":=";
 constexpr const char* kWrite = "--write";
-constexpr std::chrono::milliseconds kLook{100};
+constexpr std::chrono::milliseconds kPoll{100};
 constexpr std::chrono::milliseconds kConnect{500};  ///< time for subscribers and tf to find the publishers
 constexpr std::chrono::seconds kFirstPose{5};       ///< patience for the first pose; a busy machine connects late,
                                                     ///< which is no fault of the device
@@ -107,7 +107,7 @@ std::string DeviceCheck::line() {
       return out;
     }
     pollfd input{STDIN_FILENO, POLLIN, 0};
-    const int ready = poll(&input, 1, static_cast<int>(kLook.count()));
+    const int ready = poll(&input, 1, static_cast<int>(kPoll.count()));
     if (end_->waitFor(std::chrono::milliseconds(0))) throw Left();
     master_.require();
     if (ready <= 0) continue;
@@ -193,7 +193,7 @@ void DeviceCheck::open() {
   std::this_thread::sleep_for(kConnect);
   const auto late = std::chrono::steady_clock::now() + kFirstPose;
   while (!ear_->heardPose() && std::chrono::steady_clock::now() < late)
-    if (end_->waitFor(kLook)) throw Left();
+    if (end_->waitFor(kPoll)) throw Left();
   const PosePort& port = device_.pose;
   say("profile " + choice.profile + " (" + device_.about + ") for the stylus '" + choice.stylus + "', poses from " +
       (port.type == PoseType::kTf ? "tf, " + port.tf_base + " to " + port.tf_frame : port.topic));
@@ -243,7 +243,7 @@ void DeviceCheck::move(Asked asked, const std::string& text) {
   ++steps_;
   for (int i = 0; i < kTries; ++i) {
     if (!ask(std::to_string(steps_) + ". Enter, then " + text + " and stay there.")) return;
-    const std::optional<HandMotion> motion = motionOf(record(text, options_.window_s).poses);
+    const std::optional<DeviceMotion> motion = motionOf(record(text, options_.window_s).poses);
     const std::optional<std::string> fault =
         motion ? unclear(asked, *motion, trembleOf(still_)) : std::string("too few valid poses arrived");
     if (!fault) {
@@ -266,7 +266,7 @@ void DeviceCheck::judgeMap() {
   const Quaterniond q = tip.orientation.value_or(Quaterniond::Identity());
   if (tip.orientation) corrections_.push_back("tip.orientation_xyzw=" + numbers({q.x(), q.y(), q.z(), q.w()}));
   if (knows_base_) return;
-  const Vector3d at = kFront_m - DeviceMap(corrected()).placeOf(still_.back().pose).tip.position_m;
+  const Vector3d at = kFront_m - DeviceMap(corrected()).tipOf(still_.back().pose).tip.position_m;
   corrections_.push_back("base.position_m=" + numbers({at.x(), at.y(), at.z()}));
 }
 
@@ -289,7 +289,7 @@ void DeviceCheck::feel() {
   say("\nforces: a push of the tissue upwards is sent to the device as " + numbers({up.x(), up.y(), up.z()}) +
       " times the force, along its own axes, on " + port.topic);
   if (motions_.up)
-    tell(up.dot(motions_.up->way.normalized()) > kUpwards
+    tell(up.dot(motions_.up->displacement.normalized()) > kUpwards
              ? Verdict{Grade::kRight, "force: up matches the direction in which the device was moved up"}
              : Verdict{Grade::kWrong,
                        "force: this is not the direction in which the device was moved up; do not use forces"});
@@ -301,9 +301,9 @@ void DeviceCheck::feel() {
   const DeviceListener::Heard heard = record("touch the tissue", kFeel_s);
   tell(judgeForce(heard.forces, heard.poses));
   say("   Did you feel a push out of the tissue? y: yes; n: into it or sideways; Enter: nothing was felt");
-  const std::string felt = line();
-  if (felt == "y") return tell({Grade::kRight, "force: felt out of the tissue"});
-  if (felt != "n") return tell({Grade::kNote, "force: not felt: motors off, another topic, or too weak"});
+  const std::string answered = line();
+  if (answered == "y") return tell({Grade::kRight, "force: felt out of the tissue"});
+  if (answered != "n") return tell({Grade::kNote, "force: not felt: motors off, another topic, or too weak"});
   tell({Grade::kWrong, "force: felt in another direction than it was sent: the driver has other axes for forces"});
   corrections_.push_back("force={type: none}");
   say("   the written profile sends none until the driver is fixed");
@@ -352,7 +352,7 @@ bool DeviceCheck::run(EndWatch& end) {
     open();
     if (!holdStill()) return false;
     findBase();
-    const std::string far = rounded(100 * kAskedWay_m, 0) + " cm ";
+    const std::string far = rounded(100 * kAskedMotion_m, 0) + " cm ";
     move(Asked::kRight, "move the handle " + far + "to the right");
     move(Asked::kUp, "move it " + far + "up");
     move(Asked::kTowards, "move it " + far + "towards you");

@@ -79,7 +79,7 @@ class DeviceCheck {
   std::vector<ReceivedPose> still_;
   Quaterniond base_ = Quaterniond::Identity();  ///< rotation from the frame of the poses to the tissue frame
   bool knows_base_ = true;
-  HandMotions motions_;
+  DeviceMotions motions_;
   Overrides corrections_;
 };
 

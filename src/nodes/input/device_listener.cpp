@@ -90,7 +90,8 @@ DeviceListener::DeviceListener(ros::NodeHandle& node, const DeviceProfile& devic
   withForceMessage(device.force.type, [&](auto message) {
     using Message = decltype(message);
     forces_ = node.subscribe<Message>(
-        device.force.topic, kQueue, [this](const boost::shared_ptr<const Message>& told) { onForce(forceIn(*told)); });
+        device.force.topic, kQueue,
+        [this](const boost::shared_ptr<const Message>& received) { onForce(forceIn(*received)); });
   });
 }
 

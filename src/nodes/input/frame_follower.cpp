@@ -10,7 +10,7 @@ struct FrameFollower::Listener {
   Listener(tf2_ros::Buffer& frames, const std::string& base, const std::string& frame, Heard heard)
       : frames(frames), base(base), frame(frame), heard(std::move(heard)) {}
 
-  void look() {
+  void update() {
     const std::lock_guard<std::mutex> lock(mutex);
     if (ended) return;
     try {
@@ -33,7 +33,7 @@ struct FrameFollower::Listener {
 
 FrameFollower::FrameFollower(tf2_ros::Buffer& frames, const std::string& base, const std::string& frame, Heard heard)
     : frames_(frames), listener_(std::make_shared<Listener>(frames, base, frame, std::move(heard))) {
-  connection_ = frames_._addTransformsChangedListener([listener = listener_] { listener->look(); });
+  connection_ = frames_._addTransformsChangedListener([listener = listener_] { listener->update(); });
 }
 
 FrameFollower::~FrameFollower() {

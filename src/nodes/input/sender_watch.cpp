@@ -11,7 +11,7 @@ constexpr std::chrono::seconds kRecent{1};  ///< a restarted driver has another 
 
 }  // namespace
 
-bool SenderWatch::note(const std::string& node, SteadyTime now) {
+bool SenderWatch::record(const std::string& node, SteadyTime now) {
   const std::lock_guard<std::mutex> lock(mutex_);
   last_[node] = now;
   if (last_.size() < 2) return false;

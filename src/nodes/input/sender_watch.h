@@ -15,7 +15,7 @@ class SenderWatch {
   using SteadyTime = std::chrono::steady_clock::time_point;
 
   /// Records a message of a node. @return  true, once: another node sends too
-  bool note(const std::string& node, SteadyTime now);
+  bool record(const std::string& node, SteadyTime now);
   /// Returns the nodes that sent within the last second, separated by commas; empty if there are fewer than two.
   std::string several(SteadyTime now) const;
 

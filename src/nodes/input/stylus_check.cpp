@@ -22,7 +22,7 @@ bool isStylus(const diagnostic_msgs::DiagnosticStatus& status) {
 
 }  // namespace
 
-std::string stylusTold(const diagnostic_msgs::DiagnosticStatus& status) {
+std::string stylusReport(const diagnostic_msgs::DiagnosticStatus& status) {
   const size_t colon = status.name.find(": ");
   const bool ours =
       colon != std::string::npos && isStylus(status) && namespaceOf(status.name) == ros::this_node::getNamespace();
@@ -38,7 +38,7 @@ StylusCheck::StylusCheck(ros::NodeHandle& node, const std::string& stylus) : sty
 void StylusCheck::onDiagnostics(const diagnostic_msgs::DiagnosticArray& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const diagnostic_msgs::DiagnosticStatus& status : message.status) {
-    const std::string stylus = stylusTold(status);
+    const std::string stylus = stylusReport(status);
     if (stylus.empty()) continue;
     if (!heard_) heard_ = Clock::now();
     known_.insert(stylus);

@@ -21,7 +21,7 @@ struct StylusUnknown : Error {
 };
 
 /// Returns the stylus that a diagnostic status of a simulator in this node's namespace names; empty if it names none.
-std::string stylusTold(const diagnostic_msgs::DiagnosticStatus& status);
+std::string stylusReport(const diagnostic_msgs::DiagnosticStatus& status);
 
 /// Checks that simulators have the stylus that a node stands for, by the diagnostics of the simulators in its
 /// namespace. The check has no result if there are none or the stylus's topic is remapped.

@@ -34,7 +34,7 @@ void StylusInput::subscribe(ros::NodeHandle& node) {
   listenTo(node, device.clutch, ButtonRole::kClutch);
   if (arm_) {
     arm_->subscribe(node, [this](const std::string& frame) {
-      return frame == tissue_frame_ ? FramePlace{Pose{}} : inTissue(frame);
+      return frame == tissue_frame_ ? FramePose{Pose{}} : inTissue(frame);
     });
   } else if (port.type == PoseType::kTf) {
     follower_ =
@@ -96,15 +96,15 @@ void StylusInput::onPose(const DevicePose& pose, const std::string& topic) {
     detail = ": if this device sends millimetres, set pose.unit_m: 0.001 in its profile";
   warn(topic, reason, detail);
   const uint64_t moves = mailbox_.baseMoves();
-  if (moves != base_moves_told_)
+  if (moves != reported_base_moves_)
     ROS_WARN_THROTTLE(
         5, "%s: the frame '%s' was moved; the stylus is tracked from the start, and its buttons must be released first",
         topic.c_str(), frame.c_str());
-  base_moves_told_ = moves;
+  reported_base_moves_ = moves;
 }
 
 void StylusInput::onButtons(const ButtonPort& port, ButtonRole role, const std::vector<int32_t>& values) {
-  const uint64_t ignored = mailbox_.pressesIgnored();
+  const uint64_t ignored = mailbox_.buttonPressesIgnored();
   warn(port.topic, mailbox_.press(role, values, static_cast<size_t>(port.index), std::chrono::steady_clock::now()));
   if (role == ButtonRole::kClutch) return;
   warnOfIgnored(port.topic, role == ButtonRole::kButton1 ? PressedButton::kButton1 : PressedButton::kButton2, ignored);
@@ -113,7 +113,7 @@ void StylusInput::onButtons(const ButtonPort& port, ButtonRole role, const std::
 void StylusInput::onGripper(const sensor_msgs::JointState& message) {
   const GripperPort& port = mailbox_.device().gripper;
   const size_t joint = static_cast<size_t>(port.index);
-  const uint64_t ignored = mailbox_.pressesIgnored();
+  const uint64_t ignored = mailbox_.buttonPressesIgnored();
   warn(port.topic, mailbox_.grip(message.position, joint, std::chrono::steady_clock::now()));
   warnOfIgnored(port.topic, port.presses, ignored);
 }
@@ -121,14 +121,14 @@ void StylusInput::onGripper(const sensor_msgs::JointState& message) {
 /// Warns once for each time that a press is ignored.
 void StylusInput::warnOfIgnored(const std::string& topic, PressedButton button, uint64_t ignored_before) {
   if (button != PressedButton::kButton1 && button != PressedButton::kButton2) return;
-  const bool ignored = mailbox_.pressesIgnored() != ignored_before;
-  bool& told = ignored_told_[button == PressedButton::kButton2];
-  if (ignored && !told)
+  const bool ignored = mailbox_.buttonPressesIgnored() != ignored_before;
+  bool& warned = warned_ignored_[button == PressedButton::kButton2];
+  if (ignored && !warned)
     ROS_WARN(
         "%s: this press was ignored: the stylus was not tracked yet, or the button was down when tracking began. "
         "Release it and press again",
         topic.c_str());
-  told = ignored;
+  warned = ignored;
 }
 
 void StylusInput::beginTick() {
@@ -147,7 +147,7 @@ bool StylusInput::hasPublisher() const {
   return follower_ ? follower_->found() : pose_.getNumPublishers() > 0;
 }
 
-FramePlace StylusInput::inTissue(const std::string& frame) const {
+FramePose StylusInput::inTissue(const std::string& frame) const {
   try {
     // The newest transform: waiting for the one at the pose's stamp would add a delay of one tf period.
     const geometry_msgs::TransformStamped newest = frames_.lookupTransform(tissue_frame_, frame, ros::Time(0));

@@ -52,7 +52,7 @@ class StylusInput {
   void onButtons(const ButtonPort& port, ButtonRole role, const std::vector<int32_t>& values);
   void onGripper(const sensor_msgs::JointState& message);
   void warnOfIgnored(const std::string& topic, PressedButton button, uint64_t ignored_before);
-  FramePlace inTissue(const std::string& frame) const;
+  FramePose inTissue(const std::string& frame) const;
   void warn(const std::string& topic, std::optional<Drop> reason, const std::string& detail = "");
 
   tf2_ros::Buffer& frames_;
@@ -62,8 +62,8 @@ class StylusInput {
   SenderWatch senders_;
   std::array<std::atomic<bool>, kDropReasons> warned_{};  ///< [reasons] whether it was warned of; set by threads of
                                                           ///< topics and of tf
-  uint64_t base_moves_told_ = 0;
-  std::array<bool, 2> ignored_told_{};  ///< [buttons] whether it was warned since the button last acted
+  uint64_t reported_base_moves_ = 0;
+  std::array<bool, 2> warned_ignored_{};  ///< [buttons] whether it was warned since the button last acted
   ros::Subscriber pose_;
   ros::Publisher jaw_;
   std::vector<ros::Subscriber> others_;  ///< subscribers of buttons and gripper

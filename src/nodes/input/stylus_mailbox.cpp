@@ -57,29 +57,29 @@ std::optional<Drop> StylusMailbox::put(const DevicePose& said, const FrameLookup
 
   const std::string& named = device_.pose.frame.empty() ? said.frame : device_.pose.frame;
   const std::string frame = named.empty() ? tissue_frame_ : tf2Name(named);
-  const FramePlace place = map_.base()              ? FramePlace{*map_.base()}
-                           : frame == tissue_frame_ ? FramePlace{Pose{}}
-                                                    : lookup(frame);
-  if (!place.in_tissue) return drop(place.too_old ? Drop::kOldTransform : Drop::kNoTransform);
+  const FramePose frame_pose = map_.base()              ? FramePose{*map_.base()}
+                               : frame == tissue_frame_ ? FramePose{Pose{}}
+                                                        : lookup(frame);
+  if (!frame_pose.in_tissue) return drop(frame_pose.too_old ? Drop::kOldTransform : Drop::kNoTransform);
 
   const std::lock_guard<PriorityMutex> lock(mutex_);
   const auto refuse = [this](Drop reason) {
     ++status_.dropped[static_cast<size_t>(reason)];
     return reason;
   };
-  const DeviceMap::Place in_base = map_.placeOf(in_device);
-  const Pose in_tissue = *place.in_tissue * in_base.tip;
+  const DeviceMap::TipPose in_base = map_.tipOf(in_device);
+  const Pose in_tissue = *frame_pose.in_tissue * in_base.tip;
   if (!isFinite(in_tissue)) return refuse(Drop::kNotFinite);
   if (!(in_tissue.position_m.norm() <= config_.workspace_m)) return refuse(Drop::kOutsideWorkspace);
   if (const std::optional<Drop> late = checkStamp(said.stamp, now)) return refuse(*late);
-  notePlace(frame, *place.in_tissue, in_base.tip);
+  recordPosition(frame, *frame_pose.in_tissue, in_base.tip);
   map_.accept(in_base);
-  noteStamp(said.stamp, now);
+  recordStamp(said.stamp, now);
   pose_ = in_tissue;
   pose_.orientation.normalize();
   const Quaterniond axes = map_.axesFromBase();
   device_frame_.name = frame;
-  device_frame_.from_tissue = axes * place.in_tissue->orientation.conjugate();
+  device_frame_.from_tissue = axes * frame_pose.in_tissue->orientation.conjugate();
   device_frame_.lever_arm_m = axes * map_.leverArm(in_device);
   device_frame_.position = in_device.position_m;
   status_.seen = true;
@@ -89,7 +89,7 @@ std::optional<Drop> StylusMailbox::put(const DevicePose& said, const FrameLookup
 
 /// Records the pose. If the table was moved or turned, the tool did not sweep through the tissue.
 /// @param tip  tip in the frame of the base
-void StylusMailbox::notePlace(const std::string& frame, const Pose& base, const Pose& tip) {
+void StylusMailbox::recordPosition(const std::string& frame, const Pose& base, const Pose& tip) {
   const bool known = status_.seen && frame == device_frame_.name;
   const bool leapt = known && ((base * tip.position_m - base_ * tip.position_m).norm() > kBaseLeap_m ||
                                base.orientation.angularDistance(base_.orientation) > kBaseTurn_rad);
@@ -119,7 +119,7 @@ double StylusMailbox::swiftest_s(SteadyTime now) const {
   return swiftest_s_ + kClockDrift * std::chrono::duration<double>(now - swiftest_came_).count();
 }
 
-void StylusMailbox::noteStamp(const ros::Time& stamp, const Arrival& now) {
+void StylusMailbox::recordStamp(const ros::Time& stamp, const Arrival& now) {
   if (!isLive(now.steady)) {
     endButtons();
     came_ = now.steady;
@@ -211,7 +211,7 @@ StylusSample StylusMailbox::take(SteadyTime now) {
   if (!isLive(now)) endButtons();
   StylusSample sample;
   sample.valid = isLive(now) && anew_ != Anew::kToTell;
-  if (isLive(now)) anew_ = anew_ == Anew::kToTell ? Anew::kTold : Anew::kNo;
+  if (isLive(now)) anew_ = anew_ == Anew::kToTell ? Anew::kLatencies : Anew::kNo;
   sample.pose = pose_;
   sample.received = received_;
   sample.button1 = buttons_[0].take();
@@ -253,7 +253,7 @@ uint64_t StylusMailbox::baseMoves() const {
   return status_.base_moves;
 }
 
-uint64_t StylusMailbox::pressesIgnored() const {
+uint64_t StylusMailbox::buttonPressesIgnored() const {
   const std::lock_guard<PriorityMutex> lock(mutex_);
   return status_.button_presses_ignored;
 }

@@ -54,11 +54,11 @@ struct DevicePose {
 };
 
 /// The pose of a frame.
-struct FramePlace {
+struct FramePose {
   std::optional<Pose> in_tissue;  ///< pose in the tissue frame; empty if it is not known or too old
   bool too_old = false;
 };
-using FrameLookup = std::function<FramePlace(const std::string& frame)>;
+using FrameLookup = std::function<FramePose(const std::string& frame)>;
 
 /// Arrival time of a message, on both clocks.
 struct Arrival {
@@ -119,8 +119,8 @@ class StylusMailbox {
   StylusSample peek(SteadyTime now) const;
 
   StylusStatus status(SteadyTime now) const;
-  uint64_t baseMoves() const;       ///< value in status()
-  uint64_t pressesIgnored() const;  ///< value in status()
+  uint64_t baseMoves() const;             ///< value in status()
+  uint64_t buttonPressesIgnored() const;  ///< value in status()
   DeviceFrame deviceFrame() const;
   /// Converts a pose from the tissue frame to the device's frame and units.
   Pose inDevice(const Pose& in_tissue) const;
@@ -144,9 +144,9 @@ class StylusMailbox {
   bool isLive(SteadyTime now) const { return status_.seen && !isStale(now); }
   void endButtons();
   std::optional<Drop> checkStamp(const ros::Time& stamp, const Arrival& now) const;
-  void noteStamp(const ros::Time& stamp, const Arrival& now);
+  void recordStamp(const ros::Time& stamp, const Arrival& now);
   double swiftest_s(SteadyTime now) const;
-  void notePlace(const std::string& frame, const Pose& base, const Pose& tip);
+  void recordPosition(const std::string& frame, const Pose& base, const Pose& tip);
 
   const StylusConfig config_;
   const std::string tissue_frame_;
@@ -155,7 +155,7 @@ class StylusMailbox {
   DeviceMap map_;
   Pose base_;  ///< pose of the frame of the last pose
   /// State after the base jumped: one tick must report that the stylus is not tracked, since the jump is not motion.
-  enum class Anew { kNo, kToTell, kTold };
+  enum class Anew { kNo, kToTell, kLatencies };
   Anew anew_ = Anew::kNo;
   bool held_ = false;
   std::atomic<bool> gripped_{false};

@@ -95,7 +95,7 @@ void StylusRecord::onSamples(const Samples& message) {
       break;
     case Recording::Outcome::kWaiting:
       // The first tick came before the subscription was established: reset again.
-      want_reset_ = want_reset_ || (!reset_at_.isZero() && message.header.stamp > reset_at_);
+      needs_reset_ = needs_reset_ || (!reset_at_.isZero() && message.header.stamp > reset_at_);
       break;
     case Recording::Outcome::kEnded:
       if (!ended) ROS_ERROR("the recording has ended: %s", recording_.fault().c_str());
@@ -106,8 +106,8 @@ void StylusRecord::onSamples(const Samples& message) {
 /// Returns the state hash of a simulation that is paused at the last recorded tick; empty while it runs.
 std::string StylusRecord::stateHash(uint64_t tick) {
   Step call;
-  const bool told = ros::ok() && step_.call(call) && call.response.success && call.response.tick == tick;
-  return told ? call.response.state_hash : "";
+  const bool received = ros::ok() && step_.call(call) && call.response.success && call.response.tick == tick;
+  return received ? call.response.state_hash : "";
 }
 
 std::string StylusRecord::write() {
@@ -142,7 +142,7 @@ void StylusRecord::resetSimulation() {
   std_srvs::Trigger call;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    want_reset_ = false;
+    needs_reset_ = false;
     reset_at_ = ros::Time();
   }
   const bool good = reset_.call(call) && call.response.success;
@@ -170,7 +170,7 @@ void StylusRecord::run() {
     bool again = false;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      again = want_reset_;
+      again = needs_reset_;
     }
     if ((!asked || again) && samples_.getNumPublishers() > 0) {
       asked = true;

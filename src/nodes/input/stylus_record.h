@@ -71,8 +71,8 @@ class StylusRecord {
   MasterWatch master_;
   std::mutex mutex_;
   Recording recording_;
-  ros::Time reset_at_;       ///< time at which a reset was answered; 0: none was requested
-  bool want_reset_ = false;  ///< whether to reset again: a tick was lost before the first was recorded
+  ros::Time reset_at_;        ///< time at which a reset was answered; 0: none was requested
+  bool needs_reset_ = false;  ///< whether to reset again: a tick was lost before the first was recorded
   ros::ServiceClient reset_, step_;
   ros::ServiceServer save_;
   ros::Subscriber samples_;

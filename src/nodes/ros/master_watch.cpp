@@ -27,7 +27,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kPeriod{1};             ///< period of queries
-constexpr std::chrono::milliseconds kLook{20};         ///< time until the end of this object is noticed
+constexpr std::chrono::milliseconds kPoll{20};         ///< time until the end of this object is noticed
 constexpr std::chrono::seconds kPatience{5};           ///< a busy master may miss a query or two
 constexpr std::chrono::milliseconds kLastAnswer{100};  ///< patience for the answer of a working master
 constexpr std::chrono::seconds kUnnoticed{5};          ///< loss that was not checked: main() may wait without limit
@@ -108,7 +108,7 @@ void MasterWatch::ask(const std::shared_ptr<Shared>& shared) {
   std::unique_lock<std::mutex> lock(shared->mutex);
   while (!shared->stop && !shared->lost) {
     lock.unlock();
-    const bool broken = line.broken(kLook);
+    const bool broken = line.broken(kPoll);
     bool known = false, lost = false;
     if (broken || Clock::now() - asked >= kPeriod) {
       asked = Clock::now();

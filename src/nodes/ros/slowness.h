@@ -13,7 +13,7 @@ class Slowness {
   explicit Slowness(int readings = 2) : readings_(readings) {}
 
   /// Adds a reading, once a second. @return  whether to warn now
-  bool note(bool slow) {
+  bool record(bool slow) {
     in_a_row_ = slow == last_slow_ ? in_a_row_ + 1 : 1;
     last_slow_ = slow;
     if (in_a_row_ < readings_) return false;

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "devices/steered_hand.h"
+#include "devices/steered_tool.h"
 #include "nodes/input/device_publisher.h"
 #include "nodes/ros/parameters.h"
 

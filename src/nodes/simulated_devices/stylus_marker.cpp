@@ -52,13 +52,13 @@ StylusMarker::StylusMarker(const MarkerOptions& options)
     : options_(options),
       device_(node_, options.steering.stylus),
       server_(node_.resolveName(options.steering.stylus + "/marker")) {
-  look_.stylus = options_.steering.stylus;
-  look_.frame = options_.steering.frame;
+  style_.stylus = options_.steering.stylus;
+  style_.frame = options_.steering.frame;
   if (options_.has_start) {
     target_ = pose_ = options_.steering.start;
     placed_ = true;
   }
-  text_ = node_.advertise<visualization_msgs::Marker>(look_.stylus + "/marker/text", 1);
+  text_ = node_.advertise<visualization_msgs::Marker>(style_.stylus + "/marker/text", 1);
   diagnostics_ = node_.subscribe("/diagnostics", 100, &StylusMarker::onDiagnostics, this);
   stale_ = placed_;
   timer_ = node_.createSteadyTimer(ros::WallDuration(kTimer_s), [this](const ros::SteadyTimerEvent&) { onTimer(); });
@@ -70,7 +70,7 @@ void StylusMarker::run() {
   ROS_INFO(
       "rviz: add InteractiveMarkers with the topic %s/marker/update; the right mouse button on the ball has the "
       "buttons",
-      node_.resolveName(look_.stylus).c_str());
+      node_.resolveName(style_.stylus).c_str());
   playSteadily(options_.steering, device_, [this](double dt_s) { return next(dt_s); });
 }
 
@@ -109,7 +109,7 @@ void StylusMarker::place() {
     if (warned_ || Clock::now() - begun_ < kPatience || surface_.getNumPublishers() > 0) return;
     warned_ = true;
     ROS_WARN("no simulator sends %s, in front of which stylus %s starts; it waits. Set ~start to give its pose",
-             surface_.getTopic().c_str(), look_.stylus.c_str());
+             surface_.getTopic().c_str(), style_.stylus.c_str());
     return;
   }
   const Pose start = startNow();
@@ -122,9 +122,9 @@ void StylusMarker::place() {
 bool StylusMarker::takeSkin() {
   if (!newest_ || newest_->positions_m.empty()) return false;
   const std::string& frame = newest_->header.frame_id;
-  if (frame != look_.frame) {
+  if (frame != style_.frame) {
     ROS_WARN_THROTTLE(60, "%s is in the frame '%s', but ~frame is '%s'; set ~start to the pose where stylus %s starts",
-                      surface_.getTopic().c_str(), frame.c_str(), look_.frame.c_str(), look_.stylus.c_str());
+                      surface_.getTopic().c_str(), frame.c_str(), style_.frame.c_str(), style_.stylus.c_str());
     return false;
   }
   skin_.points_m = newest_->positions_m;
@@ -135,9 +135,9 @@ bool StylusMarker::takeSkin() {
 Pose StylusMarker::startNow() {
   if (skin_.empty()) return options_.steering.start;
   const Eigen::AlignedBox3d box = skin_.box();
-  look_.size_m = std::clamp(kSizeOfOrgan * box.sizes().maxCoeff(), kLeast_m, kMost_m);
+  style_.size_m = std::clamp(kSizeOfOrgan * box.sizes().maxCoeff(), kLeast_m, kMost_m);
   if (options_.has_start) return options_.steering.start;
-  const Pose start = startBefore(skin_, sideOfHand(look_.stylus == "left"));
+  const Pose start = startBefore(skin_, sideOfTool(style_.stylus == "left"));
   const double reach_m = kReachOfOrgan * ((start.position_m - box.center()).norm() + box.sizes().norm() / 2);
   const std::lock_guard<std::mutex> lock(mutex_);
   options_.steering.start = start;
@@ -147,22 +147,22 @@ Pose StylusMarker::startNow() {
 
 void StylusMarker::onDiagnostics(const diagnostic_msgs::DiagnosticArray& message) {
   for (const diagnostic_msgs::DiagnosticStatus& status : message.status) {
-    if (stylusTold(status) != look_.stylus) continue;
+    if (stylusReport(status) != style_.stylus) continue;
     for (const diagnostic_msgs::KeyValue& value : status.values)
-      for (size_t i = 0; i < look_.modes.size(); ++i)
-        if (value.key == kSwitches[i] && std::exchange(look_.modes[i], value.value) != value.value) stale_ = true;
+      for (size_t i = 0; i < style_.modes.size(); ++i)
+        if (value.key == kSwitches[i] && std::exchange(style_.modes[i], value.value) != value.value) stale_ = true;
   }
 }
 
 void StylusMarker::show() {
   stale_ = false;
-  look_.step_m = step_m();
+  style_.step_m = step_m();
   Pose target;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     target = target_;
   }
-  server_.insert(markerOf(look_, target), [this](const Feedback& feedback) { onFeedback(*feedback); });
+  server_.insert(markerOf(style_, target), [this](const Feedback& feedback) { onFeedback(*feedback); });
   makeMenu();
   menu_.apply(server_, kName);
   server_.applyChanges();
@@ -179,7 +179,7 @@ void StylusMarker::makeMenu() {
     menu_.setCheckState(entry, checked ? Menu::CHECKED : Menu::UNCHECKED);
   };
   for (size_t button : {1, 2})
-    if (look_.shows(button)) add(look_.menuNameOf(button), checked_[button]);
+    if (style_.shows(button)) add(style_.menuNameOf(button), checked_[button]);
   add("Fine: steps of " + lengthText(options_.fine_step_m) + " instead of " + lengthText(options_.coarse_step_m) +
           ", drags scaled alike",
       fine_);
@@ -217,9 +217,9 @@ void StylusMarker::onMoved(const Message& feedback) {
   // after a click rviz reports the marker's pose before the step
   if (feedback.control_name == kForward || feedback.control_name == kBack) return;
   Pose pose = fromMessage(feedback.pose);
-  if (!isFinite(pose) || !isUnit(pose.orientation) || feedback.header.frame_id != look_.frame) {
+  if (!isFinite(pose) || !isUnit(pose.orientation) || feedback.header.frame_id != style_.frame) {
     ROS_WARN_THROTTLE(5, "%s/marker/feedback: a pose was dropped: it is invalid, or its frame '%s' is not '%s'",
-                      look_.stylus.c_str(), feedback.header.frame_id.c_str(), look_.frame.c_str());
+                      style_.stylus.c_str(), feedback.header.frame_id.c_str(), style_.frame.c_str());
     return;
   }
   pose.orientation.normalize();
@@ -270,14 +270,14 @@ visualization_msgs::Marker StylusMarker::textNow() {
     for (size_t button : {1, 2}) pressed[button] = isPressed(button);
   }
   const size_t acts = pressed[1] ? 1 : pressed[2] ? 2 : 0;
-  std::string text = look_.modes[acts].empty() ? look_.stylus : look_.modes[acts];
+  std::string text = style_.modes[acts].empty() ? style_.stylus : style_.modes[acts];
   const std::optional<double> away_m = takeSkin() ? distanceToSkin(skin_, tip.position_m) : std::nullopt;
   if (away_m) text += ", " + lengthText(std::abs(*away_m)) + (*away_m < 0 ? " under the skin" : " from the skin");
   visualization_msgs::Marker marker;
-  marker.header.frame_id = look_.frame;
-  marker.ns = look_.stylus;
+  marker.header.frame_id = style_.frame;
+  marker.ns = style_.stylus;
   marker.type = visualization_msgs::Marker::TEXT_VIEW_FACING;
-  marker.pose = toMessage(Pose{tip * (look_.size_m * kTextAt), Quaterniond::Identity()});
+  marker.pose = toMessage(Pose{tip * (style_.size_m * kTextAt), Quaterniond::Identity()});
   marker.scale.z = kLetter_m;
   marker.color.r = marker.color.g = marker.color.b = marker.color.a = 1;
   marker.text = text;

@@ -83,7 +83,7 @@ class StylusMarker {
   const Clock::time_point begun_ = Clock::now();
   SurfaceVerticesConstPtr newest_;
   OrganSkin skin_;
-  MarkerStyle look_;
+  MarkerStyle style_;
   bool stale_ = false;  ///< whether the displayed marker is out of date
   bool fine_ = false, warned_ = false;
 

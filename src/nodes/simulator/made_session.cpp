@@ -17,7 +17,7 @@ namespace viscera::nodes {
 namespace {
 
 /// Lowers the priority of the calling thread and of the threads that it starts. This cannot be undone.
-void giveWay() {
+void lowerPriority() {
   constexpr int kNice = 5;  // a third of the CPU share of a thread with normal priority
   setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNice);
 }
@@ -48,7 +48,7 @@ void MadeSession::makeModel(const Progress& progress) {
   makeContext();
   scene = withChosenSpacing(scene, context.get(), progress);
   model = std::async(std::launch::async, [&] {
-            giveWay();
+            lowerPriority();
             return std::make_shared<const Model>(buildModel(scene, progress));
           }).get();
 }

@@ -83,7 +83,7 @@ void SceneSwitch::leave(const Session& session) {
   carried_ = std::move(tissue);
 }
 
-void SceneSwitch::noteReady() {
+void SceneSwitch::recordReady() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (state_ != State::kStarting && state_ != State::kReturning) return;
@@ -151,7 +151,7 @@ std::unique_ptr<MadeSession> SceneSwitch::takeMade() {
 
 void SceneSwitch::retire(std::unique_ptr<MadeSession> ended) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (made_ && made_->session) buried_ = std::move(ended);
+  if (made_ && made_->session) retired_ = std::move(ended);
 }
 
 void SceneSwitch::holdTopics() {
@@ -165,7 +165,7 @@ void SceneSwitch::endOld() {
   std::unique_ptr<MadeSession> session;  // both are destroyed after the lock is released
   std::unique_ptr<HeldTopics> topics;
   const std::lock_guard<std::mutex> lock(mutex_);
-  session.swap(buried_);
+  session.swap(retired_);
   topics.swap(topics_);
 }
 

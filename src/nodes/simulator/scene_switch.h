@@ -49,7 +49,7 @@ class SceneSwitch {
   /// Reports that a session ends, on its thread.
   void leave(const Session& session);
   /// Reports that the newest simulator runs.
-  void noteReady();
+  void recordReady();
   /// Returns the progress of the scene that a service waits for [%]; below 0 if there is none.
   int madePercent() const { return made_percent_; }
   /// Returns the adaptive resolution of the running session.
@@ -82,7 +82,7 @@ class SceneSwitch {
   State state_ = State::kStarting;
   SimulatorOptions running_;  ///< options of the simulator that ran last
   std::optional<SimulatorOptions> next_;
-  std::unique_ptr<MadeSession> made_, buried_;
+  std::unique_ptr<MadeSession> made_, retired_;
   std::unique_ptr<HeldTopics> topics_;
   bool carries_ = false;                  ///< whether the next session takes over the tissue of this one
   std::optional<CarriedTissue> carried_;  ///< tissue that is being transferred

@@ -159,7 +159,7 @@ void SettingsServer::keep(const std::vector<Setting>& changed) {
   }
 }
 
-void SettingsServer::noteWord(const std::string& name, const std::string& word) {
+void SettingsServer::recordWord(const std::string& name, const std::string& word) {
   const std::lock_guard<std::mutex> lock(mutex_);
   for (Setting& setting : settings_) {
     if (setting.name == name) setting.word = word;

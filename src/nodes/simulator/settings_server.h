@@ -36,7 +36,7 @@ class SettingsServer {
   SettingsServer(ros::NodeHandle node, std::vector<Setting> settings, Apply apply);
 
   /// Records that a word was changed elsewhere. Thread-safe.
-  void noteWord(const std::string& name, const std::string& word);
+  void recordWord(const std::string& name, const std::string& word);
 
  private:
   bool onSet(dynamic_reconfigure::Reconfigure::Request& request, dynamic_reconfigure::Reconfigure::Response& response);

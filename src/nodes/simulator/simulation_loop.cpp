@@ -104,7 +104,7 @@ void SimulationLoop::tick(Session& session, const StylusSamples& samples, bool l
   const Clock::time_point begun = Clock::now();
   if (ports_.place) ports_.place(session);
   if (ports_.aim) ports_.aim(session);
-  Frame frame = session.step(samples, drawable(ports_.wants()));
+  Frame frame = session.step(samples, drawable(ports_.outputs()));
   const Clock::time_point stepped = Clock::now();
   {
     const std::lock_guard<std::mutex> lock(status_mutex_);
@@ -115,19 +115,19 @@ void SimulationLoop::tick(Session& session, const StylusSamples& samples, bool l
   deliver(session, std::move(frame), samples, live);
 }
 
-FrameRequest SimulationLoop::drawable(const FrameRequest& wants) const {
-  if (made_->context) return wants;
+FrameRequest SimulationLoop::drawable(const FrameRequest& outputs) const {
+  if (made_->context) return outputs;
   FrameRequest out;
-  out.surface = wants.surface;
+  out.surface = outputs.surface;
   return out;
 }
 
 /// Delivers the initial surface without images: drawing takes time, and they come with the first ticks.
 void SimulationLoop::showSkin(Session& session) {
   Frame frame = session.drain();
-  FrameRequest wants;
-  wants.surface = ports_.stills(true, false).surface;
-  if (wants.surface) frame.surface = session.show(wants).surface;
+  FrameRequest outputs;
+  outputs.surface = ports_.stills(true, false).surface;
+  if (outputs.surface) frame.surface = session.show(outputs).surface;
   deliver(session, std::move(frame), ports_.samples(), false);
   tick_ended_ = Clock::now();
   pacer_.restart(tick_ended_);
@@ -136,9 +136,9 @@ void SimulationLoop::showSkin(Session& session) {
 void SimulationLoop::rest(Session& session) {
   Frame frame = session.drain();
   const bool aimed = ports_.aim && ports_.aim(session);
-  const FrameRequest wants = drawable(ports_.stills(std::exchange(unseen_, false), aimed));
-  if (wants.count() > 0) {
-    Pictures shown = session.show(wants);
+  const FrameRequest outputs = drawable(ports_.stills(std::exchange(unseen_, false), aimed));
+  if (outputs.count() > 0) {
+    Pictures shown = session.show(outputs);
     if (shown.surface) frame.surface = std::move(shown.surface);
     std::move(shown.images.begin(), shown.images.end(), std::back_inserter(frame.images));
   }
@@ -168,7 +168,7 @@ void SimulationLoop::deliver(const Session& session, Frame&& frame, const Stylus
     for (const StylusConfig& stylus : session.styluses())
       status_.modes.push_back({stylus.idle, stylus.button1, stylus.button2});
   }
-  if (ports_.look) ports_.look(session, frame);
+  if (ports_.addTo) ports_.addTo(session, frame);
   ports_.deliver(std::move(frame), samples, live);
 }
 
@@ -243,10 +243,10 @@ StylusSamples SimulationLoop::samplesOf(const Command& command, uint32_t tick) c
   if (!command.samples) return ports_.samples();
   StylusSamples samples = *command.samples;
   if (!stepped_to_) return samples;
-  const double way = static_cast<double>(tick + 1) / command.ticks;
+  const double covered = static_cast<double>(tick + 1) / command.ticks;
   for (size_t s = 0; s < samples.size(); ++s) {
     if (samples[s].valid && (*stepped_to_)[s].valid)
-      samples[s].pose = interpolate((*stepped_to_)[s].pose, samples[s].pose, way);
+      samples[s].pose = interpolate((*stepped_to_)[s].pose, samples[s].pose, covered);
   }
   return samples;
 }

@@ -48,11 +48,11 @@ struct LoopPorts {
   std::function<void(Session&)> place;  ///< sets poses of carried obstacles for the tick that begins; may be null
   /// Sets poses of carried cameras, also while paused. @returns whether one has moved; may be null
   std::function<bool(Session&)> aim;
-  std::function<StylusSamples()> samples;            ///< returns the samples for that tick
-  std::function<FrameRequest()> wants;               ///< returns the outputs of that tick
-  std::function<void(const Session&, Frame&)> look;  ///< adds to a frame before it is delivered; may be null
-  std::function<void(Session&)> ready;               ///< called once, before the first tick
-  std::function<void(const Session&)> leave;         ///< called once, after the last tick, if there is a session
+  std::function<StylusSamples()> samples;             ///< returns the samples for that tick
+  std::function<FrameRequest()> outputs;              ///< returns the outputs of that tick
+  std::function<void(const Session&, Frame&)> addTo;  ///< adds to a frame before it is delivered; may be null
+  std::function<void(Session&)> ready;                ///< called once, before the first tick
+  std::function<void(const Session&)> leave;          ///< called once, after the last tick, if there is a session
   /// Receives every tick. @param input_reset  whether input was discarded before the tick
   std::function<void(uint64_t tick, const StylusSamples&, const ToolMotions&, bool input_reset)> stepped;
   /// Receives the results of a tick with these samples.
@@ -106,7 +106,7 @@ class SimulationLoop {
   CommandAnswer setOverlays(const Command& command, Session& session);
   CommandAnswer step(const Command& command, Session& session);
   /// Returns the outputs that can be drawn: no images without OpenGL.
-  FrameRequest drawable(const FrameRequest& wants) const;
+  FrameRequest drawable(const FrameRequest& outputs) const;
   /// Returns the samples of one tick of a step.
   StylusSamples samplesOf(const Command& command, uint32_t tick) const;
 

@@ -99,7 +99,7 @@ SimulatorDiagnostics::Inputs Simulator::makeInputs(const SimulatorOptions& optio
 
 SimulatorServices::ModeSet Simulator::modeSet() {
 #ifdef VISCERA_RECONFIGURE
-  return [this](size_t stylus, ToolSwitch when, ToolMode mode) { settings_->noteMode(stylus, when, mode); };
+  return [this](size_t stylus, ToolSwitch when, ToolMode mode) { settings_->recordMode(stylus, when, mode); };
 #else
   return {};
 #endif
@@ -130,7 +130,7 @@ LoopPorts Simulator::ports() {
     return samples;
   };
   if (!camera_frames_.empty()) ports.aim = [this](Session& session) { return camera_frames_.apply(session); };
-  ports.wants = [this] { return placed(publisher_.beginTick()); };
+  ports.outputs = [this] { return placed(publisher_.beginTick()); };
   ports.stills = [this](bool changed, bool aimed) { return placed(publisher_.stills(changed, aimed)); };
   ports.ready = [this](Session& session) {
     scenes_.begin(session);
@@ -145,7 +145,7 @@ LoopPorts Simulator::ports() {
     publisher_.start(session.wholeSkin());
     ready_ = true;
   };
-  ports.look = [this](const Session& session, Frame& frame) { publisher_.look(session, frame); };
+  ports.addTo = [this](const Session& session, Frame& frame) { publisher_.addTo(session, frame); };
   ports.leave = [this](const Session& session) {
     scenes_.leave(session);
     tasks_.leave();
@@ -166,23 +166,23 @@ LoopPorts Simulator::ports() {
 }
 
 /// Returns the outputs without images of cameras with unknown poses.
-FrameRequest Simulator::placed(FrameRequest wants) const {
+FrameRequest Simulator::placed(FrameRequest outputs) const {
   for (size_t k = 0; k < kPictureKinds; ++k) {
-    std::vector<bool>& wanted = wants.of(static_cast<PictureKind>(k));
+    std::vector<bool>& wanted = outputs.of(static_cast<PictureKind>(k));
     for (size_t c = 0; c < wanted.size(); ++c) wanted[c] = wanted[c] && camera_frames_.isPlaced(c);
   }
-  return wants;
+  return outputs;
 }
 
 void Simulator::deliver(Frame&& frame, const StylusSamples& samples, bool live) {
   if (live) {
-    WrenchPublisher::Hands hands;
+    WrenchPublisher::Inputs inputs;
     for (size_t s = 0; s < inputs_.size(); ++s) {
       // a stylus that is not tracked, or has its clutch pressed, must not be pushed
       if (samples[s].valid && !inputs_[s]->mailbox().clutched())
-        hands[s] = {frame.reactions[s], frame.poses_received[s], true, frame.contacts[s]};
+        inputs[s] = {frame.reactions[s], frame.poses_received[s], true, frame.contacts[s]};
     }
-    wrenches_.put(hands);
+    wrenches_.put(inputs);
   } else {
     wrenches_.rest();
   }
@@ -204,7 +204,7 @@ void Simulator::fail(std::exception_ptr error) {
 void Simulator::listen() {
   if (listening_ || !ready_) return;
   listening_ = true;
-  scenes_.noteReady();
+  scenes_.recordReady();
   ros::NodeHandle devices(node_);
   devices.setCallbackQueue(&device_queue_);
   for (const auto& input : inputs_) input->subscribe(devices);

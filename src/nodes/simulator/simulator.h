@@ -57,7 +57,7 @@ class Simulator {
   static std::vector<std::string> toolFrames(const Scene& scene, const std::string& prefix);
   std::vector<const StylusMailbox*> mailboxes() const;
   LoopPorts ports();
-  FrameRequest placed(FrameRequest wants) const;
+  FrameRequest placed(FrameRequest outputs) const;
   void deliver(Frame&& frame, const StylusSamples& samples, bool live);
   /// Stops forces at once, and ends the node when run() sees the error.
   void fail(std::exception_ptr error);

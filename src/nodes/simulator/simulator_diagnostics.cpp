@@ -90,19 +90,19 @@ void SimulatorDiagnostics::addProcesses() {
 /// Warns of slow images. A simulation slower than real time makes fewer; while paused, images are sent on changes only.
 void SimulatorDiagnostics::watchPictures() {
   if (!now_ || !now_->pictures) return;
-  if (!std::exchange(told_ways_, true)) {
-    for (const std::string& way : pictures_.ways(now_->software_gpu)) ROS_INFO("%s", way.c_str());
+  if (!std::exchange(logged_paths_, true)) {
+    for (const std::string& path : pictures_.renderPaths(now_->software_gpu)) ROS_INFO("%s", path.c_str());
   }
   std::vector<double> wanted_hz = latencies_.images_wanted_hz;
   for (double& rate_hz : wanted_hz) rate_hz *= now_->paused ? 0 : std::min(1.0, now_->pace.real_time_factor);
-  for (const std::string& line : pictures_.note(wanted_hz, latencies_.image_rates_hz)) ROS_WARN("%s", line.c_str());
+  for (const std::string& line : pictures_.record(wanted_hz, latencies_.image_rates_hz)) ROS_WARN("%s", line.c_str());
 }
 
 void SimulatorDiagnostics::takeLatencies() {
   latencies_ = publishers_.frames.takeLatencies();
   force_latencies_ = publishers_.wrenches.takeLatencies();
-  felt_before_ = std::move(felt_);
-  felt_ = publishers_.wrenches.felt();
+  stats_before_ = std::move(stats_);
+  stats_ = publishers_.wrenches.stats();
 }
 
 void SimulatorDiagnostics::simulation(Status& status) {
@@ -153,8 +153,9 @@ void SimulatorDiagnostics::pace(Status& status) {
   const PaceMeter::Reading& pace = now_->pace;
   const bool slow = !now_->paused && pace.real_time_factor < AdaptiveResolution::kSlow;
   status.summary(slow ? Level::WARN : Level::OK, slow ? "slower than real time" : "real time");
-  if (!now_->paused && slowness_.note(slow)) warnOfSlowness(pace, tick_s_);
-  const std::string finer = now_->paused ? "" : publishers_.adaptive_resolution.note(pace.real_time_factor, now_->tick);
+  if (!now_->paused && slowness_.record(slow)) warnOfSlowness(pace, tick_s_);
+  const std::string finer =
+      now_->paused ? "" : publishers_.adaptive_resolution.record(pace.real_time_factor, now_->tick);
   if (!finer.empty()) ROS_WARN("%s", finer.c_str());
   if (!slow && pictures_.areBehind())
     status.summary(Level::WARN, "real time, but pictures have less than a third of their rate");
@@ -236,14 +237,14 @@ void SimulatorDiagnostics::stylus(size_t index, Status& status) {
   status.add("base_moves", in.base_moves);
   for (size_t i = 0; i < kDropReasons; ++i)
     status.add(std::string("dropped_") + text(static_cast<Drop>(i)), in.dropped[i]);
-  if (index < felt_.size()) {
-    const ForceLoop::HapticStats& felt = felt_[index];
-    const uint64_t before = index < felt_before_.size() ? felt_before_[index].answers : 0;
-    status.add("haptic_answers", felt.answers);
-    status.add("haptic_rate_hz", static_cast<double>(felt.answers - before) / kPeriod_s);
-    status.add("energy_j", felt.energy_j);
-    status.add("least_energy_j", felt.least_j);
-    status.add("stiffness_share", felt.share);
+  if (index < stats_.size()) {
+    const ForceLoop::HapticStats& stats = stats_[index];
+    const uint64_t before = index < stats_before_.size() ? stats_before_[index].updates : 0;
+    status.add("haptic_answers", stats.updates);
+    status.add("haptic_rate_hz", static_cast<double>(stats.updates - before) / kPeriod_s);
+    status.add("energy_j", stats.energy_j);
+    status.add("least_energy_j", stats.least_j);
+    status.add("stiffness_share", stats.stiffness_scale);
   }
   if (!now_) return;
   const char* const switches[] = {"idle", "button1", "button2"};

@@ -70,11 +70,11 @@ class SimulatorDiagnostics {
   const double tick_s_;
   Slowness slowness_;
   PictureWatch pictures_;
-  bool told_ways_ = false;  ///< whether it was logged how images are drawn
+  bool logged_paths_ = false;  ///< whether it was logged how images are drawn
   std::optional<LoopStatus> now_;
   FramePublisher::Latencies latencies_;
-  std::vector<LatencyMeter::Reading> force_latencies_;      ///< [styluses]
-  std::vector<ForceLoop::HapticStats> felt_, felt_before_;  ///< [styluses]
+  std::vector<LatencyMeter::Reading> force_latencies_;        ///< [styluses]
+  std::vector<ForceLoop::HapticStats> stats_, stats_before_;  ///< [styluses]
   std::vector<uint64_t> dropped_before_;
   diagnostic_updater::Updater updater_;
   ros::SteadyTimer timer_;

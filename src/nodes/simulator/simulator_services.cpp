@@ -109,9 +109,9 @@ StylusSamples samplesOf(const std::vector<StylusState>& states, const std::vecto
 }
 
 std::string saveSurface(Session& session, const std::string& path) {
-  FrameRequest wants;
-  wants.surface = true;
-  const std::unique_ptr<SurfaceFrame> skin = session.show(wants).surface;
+  FrameRequest outputs;
+  outputs.surface = true;
+  const std::unique_ptr<SurfaceFrame> skin = session.show(outputs).surface;
   if (!skin) throw Error("the skin of tick " + std::to_string(session.tick()) + " is missing");
   writeSkin(session, *skin, path);
   return path;

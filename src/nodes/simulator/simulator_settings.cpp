@@ -165,8 +165,8 @@ void SimulatorSettings::addStylus(size_t stylus, const StylusConfig& config) {
       }));
 }
 
-void SimulatorSettings::noteMode(size_t stylus, ToolSwitch when, ToolMode mode) {
-  stylus_servers_[stylus]->noteWord(kSwitches[static_cast<size_t>(when)], nameOf(mode));
+void SimulatorSettings::recordMode(size_t stylus, ToolSwitch when, ToolMode mode) {
+  stylus_servers_[stylus]->recordWord(kSwitches[static_cast<size_t>(when)], nameOf(mode));
 }
 
 }  // namespace viscera::nodes

@@ -31,7 +31,7 @@ class SimulatorSettings {
   ~SimulatorSettings();
 
   /// Records that service set_tool_mode has changed a mode.
-  void noteMode(size_t stylus, ToolSwitch when, ToolMode mode);
+  void recordMode(size_t stylus, ToolSwitch when, ToolMode mode);
 
  private:
   void change(const std::function<void(Session&)>& make);

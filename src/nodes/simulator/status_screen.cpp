@@ -46,16 +46,16 @@ bool isStylus(const ReceivedStatus& status) {
   return status.values.count("poses_accepted") > 0;
 }
 
-const ReceivedStatus* partOf(const std::vector<ReceivedStatus>& told, const std::string& node,
+const ReceivedStatus* partOf(const std::vector<ReceivedStatus>& statuses, const std::string& node,
                              const std::string& part) {
-  const auto found = std::find_if(told.begin(), told.end(),
+  const auto found = std::find_if(statuses.begin(), statuses.end(),
                                   [&](const ReceivedStatus& it) { return it.node == node && it.part == part; });
-  return found == told.end() ? nullptr : &*found;
+  return found == statuses.end() ? nullptr : &*found;
 }
 
-std::vector<std::string> simulatorsOf(const std::vector<ReceivedStatus>& told, const StatusView& view) {
+std::vector<std::string> simulatorsOf(const std::vector<ReceivedStatus>& statuses, const StatusView& view) {
   std::vector<std::string> out;
-  for (const ReceivedStatus& status : told)
+  for (const ReceivedStatus& status : statuses)
     if (status.part == "simulation" && (view.simulator.empty() || view.simulator == status.node))
       out.push_back(status.node);
   return out;
@@ -115,27 +115,27 @@ std::string ratesText(const ReceivedStatus& pace) {
   return none ? out + " (topics without a subscriber are not made)" : out;
 }
 
-std::string handText(const ReceivedStatus& hand) {
-  if (numberOf(hand, "poses_accepted") == 0) {
-    const std::string device = " (" + textOf(hand, "device") + ")";
-    return isTrue(hand, "has_publisher") ? "no pose yet, although a device is connected" + device
-                                         : "no device: no poses arrive" + device;
+std::string stylusText(const ReceivedStatus& stylus) {
+  if (numberOf(stylus, "poses_accepted") == 0) {
+    const std::string device = " (" + textOf(stylus, "device") + ")";
+    return isTrue(stylus, "has_publisher") ? "no pose yet, although a device is connected" + device
+                                           : "no device: no poses arrive" + device;
   }
-  std::string out = hand.message;
-  if (!isTrue(hand, "has_publisher")) out += ", poses no longer arrive";
-  if (hand.values.count("force_n")) out += format("; force %.3g N", numberOf(hand, "force_n"));
-  if (isTrue(hand, "force_saturated")) out += " (the limit)";
-  if (isTrue(hand, "clutched")) out += "; clutched";
-  if (hand.values.count("nodes_touched")) {
-    out += format("; touches %.0f nodes", numberOf(hand, "nodes_touched"));
-    out += format(", holds %.0f", numberOf(hand, "nodes_held"));
+  std::string out = stylus.message;
+  if (!isTrue(stylus, "has_publisher")) out += ", poses no longer arrive";
+  if (stylus.values.count("force_n")) out += format("; force %.3g N", numberOf(stylus, "force_n"));
+  if (isTrue(stylus, "force_saturated")) out += " (the limit)";
+  if (isTrue(stylus, "clutched")) out += "; clutched";
+  if (stylus.values.count("nodes_touched")) {
+    out += format("; touches %.0f nodes", numberOf(stylus, "nodes_touched"));
+    out += format(", holds %.0f", numberOf(stylus, "nodes_held"));
   }
-  if (hand.values.count("haptic_rate_hz")) out += format("; %.0f forces/s", numberOf(hand, "haptic_rate_hz"));
-  return out + format("; last pose %.0f ms ago", 1e3 * numberOf(hand, "input_age_s"));
+  if (stylus.values.count("haptic_rate_hz")) out += format("; %.0f forces/s", numberOf(stylus, "haptic_rate_hz"));
+  return out + format("; last pose %.0f ms ago", 1e3 * numberOf(stylus, "input_age_s"));
 }
 
-void sayDrops(Screen& screen, const ReceivedStatus& hand) {
-  for (const auto& [key, value] : hand.values) {
+void sayDrops(Screen& screen, const ReceivedStatus& stylus) {
+  for (const auto& [key, value] : stylus.values) {
     if (!begins(key, kDropped) || readNumber(value).value_or(0) == 0) continue;
     const std::string reason = key.substr(kDropped.size());
     const std::string meaning = meaningOfDrop(reason);
@@ -143,8 +143,8 @@ void sayDrops(Screen& screen, const ReceivedStatus& hand) {
   }
 }
 
-void saySimulator(Screen& screen, const std::vector<ReceivedStatus>& told, const std::string& node) {
-  const ReceivedStatus& simulation = *partOf(told, node, "simulation");
+void saySimulator(Screen& screen, const std::vector<ReceivedStatus>& statuses, const std::string& node) {
+  const ReceivedStatus& simulation = *partOf(statuses, node, "simulation");
   screen.title(node + format(", heard %.1f s ago", simulation.age_s));
   if (simulation.age_s > kSilent_s)
     screen.say(
@@ -152,17 +152,17 @@ void saySimulator(Screen& screen, const std::vector<ReceivedStatus>& told, const
         "it is silent, although it should send every second: it has ended, hangs, or the network is down. The values "
         "below are old");
   screen.say("simulation", simulationText(simulation));
-  if (const ReceivedStatus* pace = partOf(told, node, "pace")) {
+  if (const ReceivedStatus* pace = partOf(statuses, node, "pace")) {
     screen.say("pace", paceText(*pace));
     if (pace->values.count("surface_rate_hz")) screen.say("sends", ratesText(*pace));
   }
-  for (const ReceivedStatus& status : told) {
+  for (const ReceivedStatus& status : statuses) {
     if (status.node != node || !isStylus(status)) continue;
-    screen.say(status.part, handText(status));
+    screen.say(status.part, stylusText(status));
     sayDrops(screen, status);
   }
   bool well = simulation.age_s <= kSilent_s;
-  for (const ReceivedStatus& status : told) {
+  for (const ReceivedStatus& status : statuses) {
     if (status.node != node || status.level == 0) continue;
     screen.say(status.level > 1 ? "ERROR" : "WARNING", status.part + ": " + status.message);
     well = false;
@@ -170,11 +170,11 @@ void saySimulator(Screen& screen, const std::vector<ReceivedStatus>& told, const
   if (well) screen.say("wrong", "nothing");
 }
 
-void sayNobody(Screen& screen, const std::vector<ReceivedStatus>& told, const StatusView& view) {
+void sayNobody(Screen& screen, const std::vector<ReceivedStatus>& statuses, const StatusView& view) {
   const std::string wanted = view.simulator.empty() ? "simulator" : "simulator '" + view.simulator + "'";
   if (view.watched_s < kSilent_s) return screen.title("waiting for /diagnostics of a " + wanted);
   std::vector<std::string> others;
-  for (const ReceivedStatus& status : told)
+  for (const ReceivedStatus& status : statuses)
     if (std::find(others.begin(), others.end(), status.node) == others.end()) others.push_back(status.node);
   screen.title("no " + wanted);
   if (others.empty()) {
@@ -207,17 +207,17 @@ std::string meaningOfDrop(const std::string& reason) {
   return found == kMeanings.end() ? "" : found->second;
 }
 
-bool isSimulatorTold(const std::vector<ReceivedStatus>& told, const StatusView& view) {
-  const std::vector<std::string> nodes = simulatorsOf(told, view);
+bool isSimulatorKnown(const std::vector<ReceivedStatus>& statuses, const StatusView& view) {
+  const std::vector<std::string> nodes = simulatorsOf(statuses, view);
   return std::any_of(nodes.begin(), nodes.end(),
-                     [&](const std::string& node) { return partOf(told, node, "simulation")->age_s <= kSilent_s; });
+                     [&](const std::string& node) { return partOf(statuses, node, "simulation")->age_s <= kSilent_s; });
 }
 
-std::string statusScreen(const std::vector<ReceivedStatus>& told, const StatusView& view) {
+std::string statusScreen(const std::vector<ReceivedStatus>& statuses, const StatusView& view) {
   Screen screen(view.columns);
-  const std::vector<std::string> simulators = simulatorsOf(told, view);
-  for (const std::string& node : simulators) saySimulator(screen, told, node);
-  if (simulators.empty()) sayNobody(screen, told, view);
+  const std::vector<std::string> simulators = simulatorsOf(statuses, view);
+  for (const std::string& node : simulators) saySimulator(screen, statuses, node);
+  if (simulators.empty()) sayNobody(screen, statuses, view);
   return screen.text();
 }
 

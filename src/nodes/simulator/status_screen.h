@@ -29,10 +29,10 @@ struct StatusView {
 };
 
 /// Returns whether a simulator has reported within the last kSilent_s.
-bool isSimulatorTold(const std::vector<ReceivedStatus>& told, const StatusView& view);
+bool isSimulatorKnown(const std::vector<ReceivedStatus>& statuses, const StatusView& view);
 
 /// Returns one screen of text: for each simulator its pace, outputs, styluses and problems.
-std::string statusScreen(const std::vector<ReceivedStatus>& told, const StatusView& view);
+std::string statusScreen(const std::vector<ReceivedStatus>& statuses, const StatusView& view);
 
 /// Returns the meaning of a reason for dropped poses (`dropped_<reason>` of the diagnostics); empty if it is not known.
 std::string meaningOfDrop(const std::string& reason);

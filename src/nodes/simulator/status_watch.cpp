@@ -14,7 +14,7 @@
 namespace viscera::nodes {
 namespace {
 
-constexpr std::chrono::milliseconds kLook{100};  ///< time until the first screen is shown and a lost master detected
+constexpr std::chrono::milliseconds kPoll{100};  ///< time until the first screen is shown and a lost master detected
 constexpr std::chrono::seconds kPeriod{1};
 constexpr const char* kStarting = "Node starting up";  ///< message of diagnostic_updater before the first report
 constexpr const char* kHomeAndClear = "\033[H\033[J";
@@ -61,7 +61,7 @@ void StatusWatch::onDiagnostics(const diagnostic_msgs::DiagnosticArray& message)
   }
 }
 
-std::vector<ReceivedStatus> StatusWatch::told() const {
+std::vector<ReceivedStatus> StatusWatch::statuses() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   std::vector<ReceivedStatus> out;
   for (const auto& [key, heard] : heard_) {
@@ -86,11 +86,11 @@ bool StatusWatch::run(EndWatch& end) {
   MasterWatch master;
   Clock::time_point due = Clock::now();
   bool found = false;
-  while (!end.waitFor(kLook)) {
+  while (!end.waitFor(kPoll)) {
     master.require();
-    const std::vector<ReceivedStatus> said = told();
+    const std::vector<ReceivedStatus> said = statuses();
     const StatusView now = view();
-    found = isSimulatorTold(said, now);
+    found = isSimulatorKnown(said, now);
     const bool enough = found || now.watched_s >= kSilent_s;
     if (options_.once ? !enough : Clock::now() < due) continue;
     show(statusScreen(said, now));

@@ -36,7 +36,7 @@ class StatusWatch {
 
  private:
   void onDiagnostics(const diagnostic_msgs::DiagnosticArray& message);
-  std::vector<ReceivedStatus> told() const;
+  std::vector<ReceivedStatus> statuses() const;
   StatusView view() const;
 
   using Clock = std::chrono::steady_clock;

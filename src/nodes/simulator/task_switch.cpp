@@ -38,17 +38,17 @@ std::string reportFolder(const std::string& folder, const std::string& task) {
   return (std::filesystem::absolute(folder) / ("report_" + task + stamp)).string();
 }
 
-void addHand(Metrics& message, const std::string& stylus, const ToolMetrics& hand) {
+void addTool(Metrics& message, const std::string& stylus, const ToolMetrics& tool) {
   message.styluses.push_back(stylus);
-  message.time_s.push_back(hand.time_s);
-  message.path_m.push_back(hand.path_m);
-  message.economy.push_back(hand.economy);
-  message.sparc.push_back(hand.sparc);
-  message.log_dimensionless_jerk.push_back(hand.log_jerk);
-  message.peak_force_n.push_back(hand.peak_force_n);
-  message.mean_force_n.push_back(hand.mean_force_n);
-  message.force_time_ns.push_back(hand.force_time_ns);
-  message.force_volume_n3.push_back(hand.force_volume_n3);
+  message.time_s.push_back(tool.time_s);
+  message.path_m.push_back(tool.path_m);
+  message.economy.push_back(tool.economy);
+  message.sparc.push_back(tool.sparc);
+  message.log_dimensionless_jerk.push_back(tool.log_jerk);
+  message.peak_force_n.push_back(tool.peak_force_n);
+  message.mean_force_n.push_back(tool.mean_force_n);
+  message.force_time_ns.push_back(tool.force_time_ns);
+  message.force_volume_n3.push_back(tool.force_volume_n3);
 }
 
 uint8_t messageState(TaskPhase phase) {
@@ -153,7 +153,7 @@ void TaskSwitch::clear() {
 }
 
 void TaskSwitch::stepped(Session&, const StylusSamples& samples) {
-  for (size_t s = 0; s < tallies_.size(); ++s) tallies_[s].addPlace(samples[s].valid, samples[s].pose.position_m);
+  for (size_t s = 0; s < tallies_.size(); ++s) tallies_[s].addPosition(samples[s].valid, samples[s].pose.position_m);
 }
 
 void TaskSwitch::measured(const Session&, uint64_t tick, const layout::TickStats& stats) {
@@ -183,7 +183,7 @@ void TaskSwitch::notice() {
   message.tick = measured_tick_;
   message.springs_cut = springs_cut_;
   message.peak_strain = peak_strain_;
-  for (size_t s = 0; s < styluses_.size(); ++s) addHand(message, styluses_[s], tallies_[s].metrics());
+  for (size_t s = 0; s < styluses_.size(); ++s) addTool(message, styluses_[s], tallies_[s].metrics());
   metrics_ = std::move(message);
 }
 
@@ -193,8 +193,8 @@ Metrics TaskSwitch::metricsOf(const TaskResult& result) const {
   out.complete = true;
   out.springs_cut = result.springs_cut;
   out.peak_strain = result.status.tally.peak_strain;
-  if (!result.hands.rows.empty()) out.tick = result.hands.rows.back().tick;
-  for (size_t s = 0; s < styluses_.size(); ++s) addHand(out, styluses_[s], viscera::metricsOf(result.hands.track(s)));
+  if (!result.tools.rows.empty()) out.tick = result.tools.rows.back().tick;
+  for (size_t s = 0; s < styluses_.size(); ++s) addTool(out, styluses_[s], viscera::metricsOf(result.tools.track(s)));
   return out;
 }
 

@@ -55,7 +55,7 @@ class TaskSwitch : public SessionLog {
   void measured(const Session& session, uint64_t tick, const layout::TickStats& stats) override;
   void wasReset() override { clear(); }
   void restored(Session&) override { clear(); }
-  void taskNoted(Session&, const std::string&, const std::string&) override { clear(); }
+  void taskRecorded(Session&, const std::string&, const std::string&) override { clear(); }
 
  private:
   void clear();

@@ -66,8 +66,8 @@ bool CameraPublisher::isWanted() const {
 
 /// Publishes the tick on a separate topic, since roscpp overwrites header.seq. One message serves all images of a tick.
 void CameraPublisher::tellTick(uint64_t tick, const ros::Time& stamp) {
-  if (tick_.getNumSubscribers() == 0 || told_stamp_ == stamp) return;
-  told_stamp_ = stamp;
+  if (tick_.getNumSubscribers() == 0 || sent_stamp_ == stamp) return;
+  sent_stamp_ = stamp;
   Tick out;
   out.header.stamp = stamp;
   out.header.frame_id = optical_frame_;

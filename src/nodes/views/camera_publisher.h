@@ -56,7 +56,7 @@ class CameraPublisher {
   image_transport::CameraPublisher left_, right_;  ///< images of a stereo camera; the left image is the camera's own
   Plain depth_, label_;
   ros::Publisher tick_;
-  ros::Time told_stamp_;  ///< stamp of the last images for which a tick was sent
+  ros::Time sent_stamp_;  ///< stamp of the last images for which a tick was sent
   const double tick_hz_;
   std::atomic<double> rate_hz_;
   Throttle throttle_;

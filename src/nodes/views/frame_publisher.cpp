@@ -71,17 +71,17 @@ void FramePublisher::start(const std::shared_ptr<const VisibleTopology>& skin) {
 
 FrameRequest FramePublisher::beginTick() {
   tick_stamp_ = ros::Time::now();
-  FrameRequest wants;
-  wants.surface = surface_.isWanted() && surface_throttle_.pick();
-  wants.strain = wants.surface && surface_.isStrainWanted();
+  FrameRequest outputs;
+  outputs.surface = surface_.isWanted() && surface_throttle_.pick();
+  outputs.strain = outputs.surface && surface_.isStrainWanted();
   for (const auto& camera : cameras_) {
     const bool due = camera->pick();
     for (size_t k = 0; k < kPictureKinds; ++k) {
       const auto kind = static_cast<PictureKind>(k);
-      wants.of(kind).push_back(due && camera->viewers(kind) > 0);
+      outputs.of(kind).push_back(due && camera->viewers(kind) > 0);
     }
   }
-  return wants;
+  return outputs;
 }
 
 void FramePublisher::setSurfaceRate(double rate_hz) {
@@ -96,22 +96,22 @@ ros::Time FramePublisher::stampOf(uint64_t tick) const {
 
 FrameRequest FramePublisher::stills(bool changed, bool aimed) {
   tick_stamp_ = ros::Time::now();
-  FrameRequest wants;
+  FrameRequest outputs;
   const uint32_t before = std::exchange(surface_viewers_, surface_.viewers());
-  wants.surface = surface_viewers_ > (changed ? 0 : before);
-  wants.strain = wants.surface && surface_.isStrainWanted();
+  outputs.surface = surface_viewers_ > (changed ? 0 : before);
+  outputs.strain = outputs.surface && surface_.isStrainWanted();
   for (size_t c = 0; c < cameras_.size(); ++c) {
     for (size_t k = 0; k < kPictureKinds; ++k) {
       const auto kind = static_cast<PictureKind>(k);
       uint32_t& viewers = image_viewers_[kPictureKinds * c + k];
       const uint32_t known = std::exchange(viewers, cameras_[c]->viewers(kind));
-      wants.of(kind).push_back(viewers > (changed || aimed ? 0 : known));
+      outputs.of(kind).push_back(viewers > (changed || aimed ? 0 : known));
     }
   }
-  return wants;
+  return outputs;
 }
 
-void FramePublisher::look(const Session& session, Frame& frame) {
+void FramePublisher::addTo(const Session& session, Frame& frame) {
   if (scene_markers_.isWanted()) held_.addTo(frame, session);
 }
 
@@ -122,7 +122,7 @@ void FramePublisher::deliver(Frame&& frame, const StylusSamples& samples) {
   if (!scene_due && !sutures_due && !needles_due && !frame.surface && frame.images.empty()) return;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (scene_due) slots_.scene = {stampOf(frame.tick), lookOf(frame, samples)};
+    if (scene_due) slots_.scene = {stampOf(frame.tick), styleOf(frame, samples)};
     if (sutures_due) slots_.sutures = sutures_.messageOf(frame, stampOf(frame.tick));
     if (needles_due) slots_.needles = needles_.messageOf(frame, stampOf(frame.tick));
     if (frame.surface) {
@@ -188,7 +188,7 @@ void FramePublisher::send(Slots&& slots) {
   if (slots.skin) surface_.start(slots.skin->value, slots.skin->stamp);
   if (slots.surface) {
     surface_.publish(*slots.surface->value, slots.surface->stamp);
-    noteSent(surface_rate_, surface_latency_, slots.surface->value->pose_received);
+    recordSent(surface_rate_, surface_latency_, slots.surface->value->pose_received);
   }
   surface_.publishDue();
   if (slots.scene) scene_markers_.publish(slots.scene->value, slots.scene->stamp);
@@ -200,7 +200,7 @@ void FramePublisher::send(Slots&& slots) {
     const bool timed = slots.images[i]->value.kind == PictureKind::kColor;
     const size_t camera = i / kPictureKinds;
     cameras_[camera]->publish(std::move(slots.images[i]->value), slots.images[i]->stamp);
-    if (timed) noteSent(image_rates_[camera], image_latency_[camera], pose_received);
+    if (timed) recordSent(image_rates_[camera], image_latency_[camera], pose_received);
   }
 }
 
@@ -210,7 +210,7 @@ bool FramePublisher::isViewed() const {
          std::any_of(cameras_.begin(), cameras_.end(), watched);
 }
 
-void FramePublisher::noteSent(RateMeter& rate, LatencyMeter& latency, SteadyTime pose_received) {
+void FramePublisher::recordSent(RateMeter& rate, LatencyMeter& latency, SteadyTime pose_received) {
   const std::lock_guard<std::mutex> lock(latency_mutex_);
   rate.add();
   latency.add(pose_received, std::chrono::steady_clock::now());

@@ -71,7 +71,7 @@ class FramePublisher {
   void setImageRate(size_t camera, double rate_hz) { cameras_[camera]->setRate(rate_hz); }
   ros::Time tickStamp() const { return tick_stamp_; }
   /// Adds data of the session's state to the frame. Call it before deliver().
-  void look(const Session& session, Frame& frame);
+  void addTo(const Session& session, Frame& frame);
   /// Publishes a frame. @param samples  samples that determine the tool frames in tf
   void deliver(Frame&& frame, const StylusSamples& samples);
 
@@ -98,7 +98,7 @@ class FramePublisher {
   void main();
   void sendUntilStopped();
   void send(Slots&& slots);
-  void noteSent(RateMeter& rate, LatencyMeter& latency, SteadyTime pose_received);
+  void recordSent(RateMeter& rate, LatencyMeter& latency, SteadyTime pose_received);
 
   tf2_ros::StaticTransformBroadcaster static_frames_;
   tf2_ros::TransformBroadcaster moving_frames_;

@@ -38,8 +38,8 @@ void HeldNodes::read(const ToolMotions& tools, const Session& session) {
       const uint32_t held_by = (state.nodes[slot].lo & layout::kGrabMask) >> layout::kGrabShift;
       if (held_by == 0) continue;
       const layout::vec4& u_m = state.displacement_m[slot];
-      const Vector3d place_m = restPosition(model.bodies[b], slot - first) + Vector3d(u_m.x, u_m.y, u_m.z);
-      held_m_[held_by - 1].push_back(tools[held_by - 1].to.inverse() * place_m);
+      const Vector3d position_m = restPosition(model.bodies[b], slot - first) + Vector3d(u_m.x, u_m.y, u_m.z);
+      held_m_[held_by - 1].push_back(tools[held_by - 1].to.inverse() * position_m);
     }
   }
 }

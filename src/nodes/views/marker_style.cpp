@@ -74,7 +74,7 @@ InteractiveMarkerControl control(uint8_t mode, const std::string& name, const Ve
   return out;
 }
 
-InteractiveMarkerControl gripOf(const MarkerStyle& look, size_t button) {
+InteractiveMarkerControl gripOf(const MarkerStyle& style, size_t button) {
   // Moves across the line of sight. Controls that also move along it use the mouse wheel, and rviz repeats its clicks
   // in every frame: 2 to 20 cm each.
   InteractiveMarkerControl out = control(InteractiveMarkerControl::MOVE_PLANE,
@@ -83,22 +83,22 @@ InteractiveMarkerControl gripOf(const MarkerStyle& look, size_t button) {
   out.independent_marker_orientation = true;
   out.always_visible = true;
   out.markers.push_back(
-      ball(kPressColors[button], kHandleAt[button] * look.size_m, (button == 0 ? kGrip : kHandle) * look.size_m));
+      ball(kPressColors[button], kHandleAt[button] * style.size_m, (button == 0 ? kGrip : kHandle) * style.size_m));
   if (button > 0) {
-    out.markers.push_back(label(look.nameOf(button), kHandleAt[button] * look.size_m, look.size_m));
-    out.description = "drag: moves the stylus and holds " + look.nameOf(button) + " until the mouse is released";
+    out.markers.push_back(label(style.nameOf(button), kHandleAt[button] * style.size_m, style.size_m));
+    out.description = "drag: moves the stylus and holds " + style.nameOf(button) + " until the mouse is released";
   }
   return out;
 }
 
-InteractiveMarkerControl stepOf(const MarkerStyle& look, bool forward) {
+InteractiveMarkerControl stepOf(const MarkerStyle& style, bool forward) {
   InteractiveMarkerControl out =
       control(InteractiveMarkerControl::BUTTON, forward ? kForward : kBack, Vector3d::UnitX());
   out.always_visible = true;
-  const double at = (forward ? kForwardAt : kBackAt) * look.size_m, half = kHead / 2 * look.size_m;
-  out.markers.push_back(head(forward ? at + half : at - half, forward ? at - half : at + half, kHead * look.size_m));
-  if (!forward) out.markers.push_back(label(lengthText(look.step_m), at + 2 * half, look.size_m));
-  out.description = (forward ? "click: forward by " : "click: back by ") + lengthText(look.step_m);
+  const double at = (forward ? kForwardAt : kBackAt) * style.size_m, half = kHead / 2 * style.size_m;
+  out.markers.push_back(head(forward ? at + half : at - half, forward ? at - half : at + half, kHead * style.size_m));
+  if (!forward) out.markers.push_back(label(lengthText(style.step_m), at + 2 * half, style.size_m));
+  out.description = (forward ? "click: forward by " : "click: back by ") + lengthText(style.step_m);
   return out;
 }
 
@@ -124,23 +124,23 @@ std::string lengthText(double length_m) {
   return numberText(1e3 * length_m, 3) + " mm";
 }
 
-InteractiveMarker markerOf(const MarkerStyle& look, const Pose& pose) {
+InteractiveMarker markerOf(const MarkerStyle& style, const Pose& pose) {
   InteractiveMarker marker;
-  marker.header.frame_id = look.frame;
+  marker.header.frame_id = style.frame;
   marker.name = "stylus";
-  marker.description = look.stylus;
-  marker.scale = static_cast<float>(look.size_m);
+  marker.description = style.stylus;
+  marker.scale = static_cast<float>(style.size_m);
   marker.pose = toMessage(pose);
   for (size_t button = 0; button < 3; ++button)
-    if (button == 0 || look.shows(button)) marker.controls.push_back(gripOf(look, button));
+    if (button == 0 || style.shows(button)) marker.controls.push_back(gripOf(style, button));
   const Vector3d axes[] = {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
   for (size_t i = 0; i < 3; ++i) {
     const std::string name(1, static_cast<char>('x' + i));
     marker.controls.push_back(control(InteractiveMarkerControl::MOVE_AXIS, "move " + name, axes[i]));
     marker.controls.push_back(control(InteractiveMarkerControl::ROTATE_AXIS, "turn " + name, axes[i]));
   }
-  marker.controls.push_back(stepOf(look, true));
-  marker.controls.push_back(stepOf(look, false));
+  marker.controls.push_back(stepOf(style, true));
+  marker.controls.push_back(stepOf(style, false));
   return marker;
 }
 

@@ -32,7 +32,7 @@ int pressOf(const std::string& control);
 
 /// Returns the marker: a ball at the tip for the mouse, arrows and rings. On the shaft it has a ball per button, which
 /// presses the button while dragged, and two arrow heads that step along the shaft.
-visualization_msgs::InteractiveMarker markerOf(const MarkerStyle& look, const Pose& pose);
+visualization_msgs::InteractiveMarker markerOf(const MarkerStyle& style, const Pose& pose);
 
 /// Returns a text such as 0.5 mm or 12 mm.
 std::string lengthText(double length_m);

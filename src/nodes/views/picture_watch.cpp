@@ -11,13 +11,14 @@ namespace viscera::nodes {
 PictureWatch::PictureWatch(const std::vector<CameraConfig>& cameras)
     : cameras_(cameras), slowness_(cameras.size(), Slowness(kReadings)) {}
 
-std::vector<std::string> PictureWatch::note(const std::vector<double>& wanted_hz, const std::vector<double>& sent_hz) {
+std::vector<std::string> PictureWatch::record(const std::vector<double>& wanted_hz,
+                                              const std::vector<double>& sent_hz) {
   std::vector<std::string> out;
   behind_ = false;
   for (size_t c = 0; c < cameras_.size(); ++c) {
     const bool behind = sent_hz[c] < kShare * wanted_hz[c];
     behind_ = behind_ || behind;
-    if (!slowness_[c].note(behind)) continue;
+    if (!slowness_[c].record(behind)) continue;
     const CameraConfig& camera = cameras_[c];
     TextOut text;
     text.precision(2);
@@ -32,7 +33,7 @@ std::vector<std::string> PictureWatch::note(const std::vector<double>& wanted_hz
   return out;
 }
 
-std::vector<std::string> PictureWatch::ways(bool software) const {
+std::vector<std::string> PictureWatch::renderPaths(bool software) const {
   std::vector<std::string> out;
   for (const CameraConfig& camera : cameras_) {
     const CameraConfig drawn = pinholeOf(camera);

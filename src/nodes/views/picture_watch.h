@@ -17,12 +17,12 @@ class PictureWatch {
 
   /// Adds a reading of one second. @param wanted_hz  [cameras] 0: no subscriber   @param sent_hz  [cameras]
   /// @return  lines to log now
-  std::vector<std::string> note(const std::vector<double>& wanted_hz, const std::vector<double>& sent_hz);
+  std::vector<std::string> record(const std::vector<double>& wanted_hz, const std::vector<double>& sent_hz);
   /// Returns whether any camera's images were behind in the last reading.
   bool areBehind() const { return behind_; }
   /// Returns a line per camera that says how its pixels are drawn.
   /// @param software  whether the renderer runs in software
-  std::vector<std::string> ways(bool software) const;
+  std::vector<std::string> renderPaths(bool software) const;
 
   static constexpr double kShare = 1.0 / 3;  ///< share of the desired rate below which images are behind
   static constexpr int kReadings = 4;        ///< number of readings in a row before a warning

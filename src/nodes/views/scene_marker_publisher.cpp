@@ -65,15 +65,15 @@ void SceneMarkerPublisher::keep(const MarkerArray& whole) {
   whole_ = whole;
 }
 
-void SceneMarkerPublisher::publish(const SceneStyle& look, const ros::Time& stamp) {
-  const MarkerArray whole = markers_.at(look, stamp);
+void SceneMarkerPublisher::publish(const SceneStyle& style, const ros::Time& stamp) {
+  const MarkerArray whole = markers_.at(style, stamp);
   keep(whole);
   publisher_.publish(sent_.newsOf(whole, Clock::now()));
 }
 
 void SceneMarkerPublisher::tell(const std::string& text) {
-  if (text == told_) return;
-  told_ = text;
+  if (text == last_) return;
+  last_ = text;
   const MarkerArray whole = markers_.telling(text, ros::Time::now());
   keep(whole);
   sent_.clear();

@@ -47,7 +47,7 @@ class SceneMarkerPublisher {
   /// Sets the largest rate. Called on the thread that calls isDue().
   void setRate(double rate_hz) { period_ = period(rate_hz); }
   /// Publishes the markers. Any one thread may call it.
-  void publish(const SceneStyle& look, const ros::Time& stamp);
+  void publish(const SceneStyle& style, const ros::Time& stamp);
   /// Publishes a text in place of everything else, unless it is the same as before.
   void tell(const std::string& text);
 
@@ -60,7 +60,7 @@ class SceneMarkerPublisher {
   const SceneMarkers markers_;
   Clock::duration period_;
   Clock::time_point next_{};
-  std::string told_;
+  std::string last_;
   SentMeshes sent_;
   std::mutex mutex_;
   visualization_msgs::MarkerArray whole_;  ///< markers that viewers have

@@ -49,7 +49,7 @@ double letterHeight(const Scene& scene) {
   return kLetterShare * (scene.cameras[0].position_m - scene.cameras[0].target_m).norm();
 }
 
-bool inTheWay(const Label& a, const Label& b, double height_m) {
+bool isObscuring(const Label& a, const Label& b, double height_m) {
   const Vector3d apart_m = a.position_m - b.position_m;
   const double widths_m = kLetterWidth * height_m * static_cast<double>(a.text.size() + b.text.size()) / 2;
   return std::abs(apart_m.z()) < kLineHeight * height_m && apart_m.head<2>().norm() < widths_m;
@@ -70,11 +70,11 @@ std::vector<Vector3d> pointsOf(const ToolShape& shape) {
 
 }  // namespace
 
-SceneStyle lookOf(const Frame& frame, const StylusSamples& samples) {
-  SceneStyle look{frame.tools, frame.obstacles, frame.reactions, frame.sutures, frame.held_m, frame.needles};
+SceneStyle styleOf(const Frame& frame, const StylusSamples& samples) {
+  SceneStyle style{frame.tools, frame.obstacles, frame.reactions, frame.sutures, frame.held_m, frame.needles};
   for (size_t s = 0; s < samples.size(); ++s)
-    look.in_tf[s] = samples[s].valid && frame.tools[s].present && isSame(samples[s].pose, frame.tools[s].to);
-  return look;
+    style.in_tf[s] = samples[s].valid && frame.tools[s].present && isSame(samples[s].pose, frame.tools[s].to);
+  return style;
 }
 
 void partLabels(std::vector<Label>& labels, double height_m) {
@@ -82,7 +82,7 @@ void partLabels(std::vector<Label>& labels, double height_m) {
   for (size_t i = 1; i < labels.size(); ++i) {
     // Each move passes one of the earlier labels, and none is met twice.
     for (size_t j = 0; j < i;) {
-      if (!inTheWay(labels[i], labels[j], height_m)) {
+      if (!isObscuring(labels[i], labels[j], height_m)) {
         ++j;
         continue;
       }
@@ -124,18 +124,18 @@ SceneMarkers::Parts SceneMarkers::partsOf(const ToolShape& shape) {
   return parts;
 }
 
-MarkerArray SceneMarkers::at(const SceneStyle& look, const ros::Time& stamp) const {
+MarkerArray SceneMarkers::at(const SceneStyle& style, const ros::Time& stamp) const {
   MarkerArray out;
   for (size_t s = 0; s < styluses_.size(); ++s) {
-    addTool(s, look, stamp, out);
-    addForce(s, look, stamp, out);
-    addHeld(s, look, stamp, out);
+    addTool(s, style, stamp, out);
+    addForce(s, style, stamp, out);
+    addHeld(s, style, stamp, out);
   }
-  for (size_t i = 0; i < std::min(obstacles_.size(), look.obstacles.size()); ++i)
-    addParts("obstacles", kMostParts * i, obstacles_[i].parts, look.obstacles[i], "", stamp, out);
-  addTubes(look, stamp, out);
-  addNeedles(look, stamp, out);
-  addNames(look, stamp, out);
+  for (size_t i = 0; i < std::min(obstacles_.size(), style.obstacles.size()); ++i)
+    addParts("obstacles", kMostParts * i, obstacles_[i].parts, style.obstacles[i], "", stamp, out);
+  addTubes(style, stamp, out);
+  addNeedles(style, stamp, out);
+  addNames(style, stamp, out);
   addText("", stamp, out);
   return out;
 }
@@ -179,9 +179,9 @@ void SceneMarkers::addParts(const char* names, size_t first_id, const Parts& par
   }
 }
 
-void SceneMarkers::addTool(size_t stylus, const SceneStyle& look, const ros::Time& stamp, MarkerArray& out) const {
+void SceneMarkers::addTool(size_t stylus, const SceneStyle& style, const ros::Time& stamp, MarkerArray& out) const {
   static const Parts kNothing;
-  const StylusMotion& motion = look.tools[stylus];
+  const StylusMotion& motion = style.tools[stylus];
   const auto shape = tools_[stylus].find(motion.mode);
   const bool shown = motion.present && shape != tools_[stylus].end();
   const bool jaws = shown && kindOf(motion.mode).jaws;
@@ -190,19 +190,19 @@ void SceneMarkers::addTool(size_t stylus, const SceneStyle& look, const ros::Tim
            jaws    ? turned
            : shown ? shape->second
                    : kNothing,
-           motion.to, look.in_tf[stylus] ? tool_frames_[stylus] : "", stamp, out);
+           motion.to, style.in_tf[stylus] ? tool_frames_[stylus] : "", stamp, out);
 }
 
 /// Adds the force as an arrow from the tip, in the direction of the force on the stylus.
-void SceneMarkers::addForce(size_t stylus, const SceneStyle& look, const ros::Time& stamp, MarkerArray& out) const {
+void SceneMarkers::addForce(size_t stylus, const SceneStyle& style, const ros::Time& stamp, MarkerArray& out) const {
   constexpr std::array<uint8_t, 4> kYellow = {250, 210, 40, 200};  // transparent, since it hides the tool
-  const Vector3d arrow_m = arrow_m_per_n_ * look.reactions[stylus].force_n;
+  const Vector3d arrow_m = arrow_m_per_n_ * style.reactions[stylus].force_n;
   Marker& marker = out.markers.emplace_back(this->marker("forces", stylus, stamp));
   marker.type = Marker::ARROW;
   marker.action = Marker::DELETE;
-  if (!look.tools[stylus].present || !arrow_m.allFinite() || arrow_m.norm() < kLeastArrow_m) return;
+  if (!style.tools[stylus].present || !arrow_m.allFinite() || arrow_m.norm() < kLeastArrow_m) return;
   marker.action = Marker::ADD;
-  const Vector3d& tip_m = look.tools[stylus].to.position_m;
+  const Vector3d& tip_m = style.tools[stylus].to.position_m;
   marker.points = {toPoint(tip_m), toPoint(tip_m + arrow_m)};
   const double width_m = kArrowWidth * shaftRadius(styluses_[stylus]);
   marker.scale.x = width_m;
@@ -211,55 +211,56 @@ void SceneMarkers::addForce(size_t stylus, const SceneStyle& look, const ros::Ti
   paint(kYellow, marker);
 }
 
-void SceneMarkers::addHeld(size_t stylus, const SceneStyle& look, const ros::Time& stamp, MarkerArray& out) const {
+void SceneMarkers::addHeld(size_t stylus, const SceneStyle& style, const ros::Time& stamp, MarkerArray& out) const {
   constexpr std::array<uint8_t, 4> kBlue = {120, 220, 255, 255};  // differs from tissue, tools and arrows
   Marker& marker = out.markers.emplace_back(this->marker("held", stylus, stamp));
   marker.type = Marker::POINTS;
-  marker.action = look.tools[stylus].present && !look.held_m[stylus].empty() ? Marker::ADD : Marker::DELETE;
+  marker.action = style.tools[stylus].present && !style.held_m[stylus].empty() ? Marker::ADD : Marker::DELETE;
   if (marker.action == Marker::DELETE) return;
-  marker.pose = toMessage(look.tools[stylus].to);
+  marker.pose = toMessage(style.tools[stylus].to);
   marker.scale.x = marker.scale.y = kHeldPoint_m;
   paint(kBlue, marker);
-  for (const Vector3d& place_m : look.held_m[stylus]) marker.points.push_back(toPoint(place_m));
+  for (const Vector3d& position_m : style.held_m[stylus]) marker.points.push_back(toPoint(position_m));
 }
 
-/// Adds a polyline: a tube would need tens of points for each of its points. @param places_m  fewer than two: no line
-void SceneMarkers::addLine(const char* names, size_t id, const TubeStyle& how, const std::vector<Vector3d>& places_m,
+/// Adds a polyline: a tube would need tens of points for each of its points. @param positions_m  fewer than two: no
+/// line
+void SceneMarkers::addLine(const char* names, size_t id, const TubeStyle& how, const std::vector<Vector3d>& positions_m,
                            const ros::Time& stamp, MarkerArray& out) const {
   Marker& marker = out.markers.emplace_back(this->marker(names, id, stamp));
   marker.type = Marker::LINE_STRIP;
-  marker.action = places_m.size() > 1 ? Marker::ADD : Marker::DELETE;
+  marker.action = positions_m.size() > 1 ? Marker::ADD : Marker::DELETE;
   if (marker.action == Marker::DELETE) return;
   marker.scale.x = std::max(2 * how.radius_m, kLeastSuture_m);
   paint(how.color, marker);
-  for (const Vector3d& place_m : places_m) marker.points.push_back(toPoint(place_m));
+  for (const Vector3d& position_m : positions_m) marker.points.push_back(toPoint(position_m));
 }
 
-void SceneMarkers::addNeedles(const SceneStyle& look, const ros::Time& stamp, MarkerArray& out) const {
+void SceneMarkers::addNeedles(const SceneStyle& style, const ros::Time& stamp, MarkerArray& out) const {
   for (size_t i = 0, id = 0; i < sutures_.size(); ++i) {
     const TubeStyle& how = sutures_[i];
     if (how.part != TubeKind::kNeedle) continue;
-    std::vector<Vector3d> places_m;
-    for (const NeedleState& needle : look.needles)
+    std::vector<Vector3d> positions_m;
+    for (const NeedleState& needle : style.needles)
       if (needle.suture == how.suture)
-        places_m = NeedleShape(needle.radius_m, needle.arc_rad, needle.wire_radius_m).places(needle.pose);
-    addLine("needles", id++, how, places_m, stamp, out);
+        positions_m = NeedleShape(needle.radius_m, needle.arc_rad, needle.wire_radius_m).positions(needle.pose);
+    addLine("needles", id++, how, positions_m, stamp, out);
   }
 }
 
-void SceneMarkers::addTubes(const SceneStyle& look, const ros::Time& stamp, MarkerArray& out) const {
+void SceneMarkers::addTubes(const SceneStyle& style, const ros::Time& stamp, MarkerArray& out) const {
   size_t sutures = 0, clips = 0;
-  for (const TubeStyle& look : sutures_) {
-    sutures += look.part == TubeKind::kSuture;
-    if (look.part == TubeKind::kClip) clips = look.most;
+  for (const TubeStyle& style : sutures_) {
+    sutures += style.part == TubeKind::kSuture;
+    if (style.part == TubeKind::kClip) clips = style.most;
   }
   const TubeStyle* const clip = clips > 0 ? &sutures_.back() : nullptr;
   for (size_t i = 0; i < (sutures > 0 ? sutures + kMostParted : 0) + clips; ++i) {
     static const std::vector<Vector3d> kNone;
-    const bool there = i < look.sutures.size();
-    const bool is_clip = there && clip && look.sutures[i].part == TubeKind::kClip;
-    const TubeStyle& how = is_clip ? *clip : sutures_[there ? look.sutures[i].suture : 0];
-    addLine("sutures", i, how, there ? look.sutures[i].places_m : kNone, stamp, out);
+    const bool there = i < style.sutures.size();
+    const bool is_clip = there && clip && style.sutures[i].part == TubeKind::kClip;
+    const TubeStyle& how = is_clip ? *clip : sutures_[there ? style.sutures[i].suture : 0];
+    addLine("sutures", i, how, there ? style.sutures[i].positions_m : kNone, stamp, out);
   }
 }
 
@@ -275,18 +276,18 @@ void SceneMarkers::addText(const std::string& text, const ros::Time& stamp, Mark
   paint(kWhite, marker);
 }
 
-void SceneMarkers::addNames(const SceneStyle& look, const ros::Time& stamp, MarkerArray& out) const {
+void SceneMarkers::addNames(const SceneStyle& style, const ros::Time& stamp, MarkerArray& out) const {
   constexpr std::array<uint8_t, 4> kWhite = {255, 255, 255, 255};
   std::vector<Label> labels = cameras_;
   for (size_t s = 0; s < styluses_.size(); ++s) {
     const Vector3d beyond_m(0, 0, styluses_[s].shaft_length_m + letter_m_);
-    if (look.tools[s].present) labels.push_back({styluses_[s].name, look.tools[s].to * beyond_m});
+    if (style.tools[s].present) labels.push_back({styluses_[s].name, style.tools[s].to * beyond_m});
   }
-  for (size_t i = 0; i < std::min(obstacles_.size(), look.obstacles.size()); ++i) {
-    Vector3d place_m = look.obstacles[i].position_m;
+  for (size_t i = 0; i < std::min(obstacles_.size(), style.obstacles.size()); ++i) {
+    Vector3d position_m = style.obstacles[i].position_m;
     for (const Vector3d& point_m : obstacles_[i].points_m)
-      place_m.z() = std::max(place_m.z(), (look.obstacles[i] * point_m).z());
-    labels.push_back({obstacles_[i].name, place_m + Vector3d(0, 0, letter_m_)});
+      position_m.z() = std::max(position_m.z(), (style.obstacles[i] * point_m).z());
+    labels.push_back({obstacles_[i].name, position_m + Vector3d(0, 0, letter_m_)});
   }
   partLabels(labels, letter_m_);
   for (size_t i = 0; i < cameras_.size() + styluses_.size() + obstacles_.size(); ++i) {

@@ -34,7 +34,7 @@ struct SceneStyle {
   std::array<bool, layout::kMaxStyluses> in_tf = {};  ///< whether the tool's pose is that of its frame in tf
 };
 /// Returns the contents of a frame. @param samples  samples that determine the tool frames in tf
-SceneStyle lookOf(const Frame& frame, const StylusSamples& samples);
+SceneStyle styleOf(const Frame& frame, const StylusSamples& samples);
 
 /// A name that is drawn upright in space.
 struct Label {
@@ -55,7 +55,7 @@ void partLabels(std::vector<Label>& labels, double height_m);
 class SceneMarkers {
  public:
   SceneMarkers(const Scene& scene, const PublishOptions& options);
-  visualization_msgs::MarkerArray at(const SceneStyle& look, const ros::Time& stamp) const;
+  visualization_msgs::MarkerArray at(const SceneStyle& style, const ros::Time& stamp) const;
   /// Returns markers with a text where the first camera looks, and nothing else.
   visualization_msgs::MarkerArray telling(const std::string& text, const ros::Time& stamp) const;
 
@@ -76,18 +76,18 @@ class SceneMarkers {
   /// @param frame  tf frame to which the parts are locked; empty: the tissue frame
   void addParts(const char* names, size_t first_id, const Parts& parts, const Pose& pose, const std::string& frame,
                 const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
-  void addTool(size_t stylus, const SceneStyle& look, const ros::Time& stamp,
+  void addTool(size_t stylus, const SceneStyle& style, const ros::Time& stamp,
                visualization_msgs::MarkerArray& out) const;
-  void addForce(size_t stylus, const SceneStyle& look, const ros::Time& stamp,
+  void addForce(size_t stylus, const SceneStyle& style, const ros::Time& stamp,
                 visualization_msgs::MarkerArray& out) const;
-  void addHeld(size_t stylus, const SceneStyle& look, const ros::Time& stamp,
+  void addHeld(size_t stylus, const SceneStyle& style, const ros::Time& stamp,
                visualization_msgs::MarkerArray& out) const;
-  void addLine(const char* names, size_t id, const TubeStyle& how, const std::vector<Vector3d>& places_m,
+  void addLine(const char* names, size_t id, const TubeStyle& how, const std::vector<Vector3d>& positions_m,
                const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
-  void addNeedles(const SceneStyle& look, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
-  void addTubes(const SceneStyle& look, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
+  void addNeedles(const SceneStyle& style, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
+  void addTubes(const SceneStyle& style, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
   void addText(const std::string& text, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
-  void addNames(const SceneStyle& look, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
+  void addNames(const SceneStyle& style, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
 
   const std::string frame_;
   const double arrow_m_per_n_, letter_m_;

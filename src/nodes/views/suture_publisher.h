@@ -29,7 +29,7 @@ class SuturePublisher {
  private:
   Sutures empty_;  ///< message without sutures
   std::vector<std::string> names_;
-  std::vector<TubeStyle> looks_;
+  std::vector<TubeStyle> styles_;
   ros::Publisher publisher_;
 };
 

@@ -42,8 +42,8 @@ void addTube(const std::vector<Vector3f>& points_m, const std::vector<float>& ra
     }
   };
   for (size_t i = 0; i <= last; ++i) {
-    const Vector3f way = points_m[std::min(i + 1, last)] - points_m[i == 0 ? 0 : i - 1];
-    if (way.squaredNorm() > 0) along = way.normalized();
+    const Vector3f offset = points_m[std::min(i + 1, last)] - points_m[i == 0 ? 0 : i - 1];
+    if (offset.squaredNorm() > 0) along = offset.normalized();
     // Transports the direction of the side along the bend, without twist.
     side -= along.dot(side) * along;
     side = side.squaredNorm() > 1e-6f ? Vector3f(side.normalized()) : along.unitOrthogonal();

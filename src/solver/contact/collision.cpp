@@ -40,15 +40,15 @@ bool isWithin(const Lattice& lattice, uint32_t slot) {
 /// [m]; negative where they do not. @param distance_m  distance that nodes keep [m]
 double stopsAbove(const Lattice& lattice, uint32_t slot, double distance_m) {
   constexpr int kAside = 2, kWide = 2 * kAside + 1;
-  const Vector3d way_m = lattice.offset_to_surface_m[slot].cast<double>();
-  const Vector3d outwards = -way_m.normalized();
+  const Vector3d offset_m = lattice.offset_to_surface_m[slot].cast<double>();
+  const Vector3d outwards = -offset_m.normalized();
   const Vector3i at = lattice.nodeAt(slot);
   double out_m = -distance_m;
   for (int i = 0; i < kWide * kWide * kWide; ++i) {
     const Vector3i aside(i % kWide - kAside, i / kWide % kWide - kAside, i / (kWide * kWide) - kAside);
     const int64_t other = lattice.slotAt(at + aside);
     if (other < 0 || !isWithin(lattice, static_cast<uint32_t>(other))) continue;
-    const Vector3d apart_m = lattice.spacing_m * aside.cast<double>() - way_m;  // from the surface point
+    const Vector3d apart_m = lattice.spacing_m * aside.cast<double>() - offset_m;  // from the surface point
     const double above_m = apart_m.dot(outwards), aside2 = apart_m.squaredNorm() - above_m * above_m;
     const double reach_m = distance_m + lattice.depth_m[static_cast<size_t>(other)];
     if (aside2 < reach_m * reach_m) out_m = std::max(out_m, above_m + std::sqrt(reach_m * reach_m - aside2));
@@ -58,8 +58,8 @@ double stopsAbove(const Lattice& lattice, uint32_t slot, double distance_m) {
 
 /// Returns whether there is no tissue a cell below the surface point nearest to an outside node.
 bool isThinBeside(const Lattice& lattice, uint32_t slot) {
-  const Vector3d way = lattice.offset_to_surface_m[slot].cast<double>() / lattice.spacing_m;
-  const Vector3d below = way + way.normalized();
+  const Vector3d offset = lattice.offset_to_surface_m[slot].cast<double>() / lattice.spacing_m;
+  const Vector3d below = offset + offset.normalized();
   const int64_t node = lattice.slotAt(lattice.nodeAt(slot) + below.array().round().matrix().cast<int>());
   return node < 0 || !isWithin(lattice, static_cast<uint32_t>(node));
 }

@@ -90,7 +90,7 @@ Environment::Environment(const Model& model, const Scene& scene)
       obstacles_(scene.obstacles),
       at_start_(Obstacles(scene.obstacles).motions()),
       tick_motions_(at_start_),
-      places_(obstacles_.size(), Vector3f::Zero()) {}
+      positions_(obstacles_.size(), Vector3f::Zero()) {}
 
 void Environment::beginTick(double tick_s, int substeps, const ObstacleMotions& obstacles) {
   assert(obstacles.empty() || obstacles.size() == obstacles_.size());
@@ -100,7 +100,7 @@ void Environment::beginTick(double tick_s, int substeps, const ObstacleMotions& 
     const RigidMotion next = obstacles.empty() ? resting(tick_motions_[i]) : obstacles[i];
     moved_ |= !isSame(next, tick_motions_[i]);
     tick_motions_[i] = next;
-    places_[i] = next.to.position_m.cast<float>();
+    positions_[i] = next.to.position_m.cast<float>();
   }
   moved_ |= substeps != substeps_;
   substeps_ = substeps;

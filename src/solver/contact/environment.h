@@ -58,7 +58,7 @@ class Environment {
   }                                               ///< [substeps * kMaxObstacles]
   bool obstaclesMoved() const { return moved_; }  ///< obstacleMotions() differ from those of the previous tick
   /// Returns [obstacles] positions at the end of the tick, tissue frame [m].
-  const std::vector<Vector3f>& obstaclePlaces() const { return places_; }
+  const std::vector<Vector3f>& obstaclePositions() const { return positions_; }
   const ObstacleMotions& motions() const { return tick_motions_; }  ///< motions of the obstacles over the tick
   void reset();                                                     ///< back to time 0
   void persist(Archive& archive);
@@ -69,7 +69,7 @@ class Environment {
   std::vector<ObstacleConfig> obstacles_;
   ObstacleMotions at_start_, tick_motions_;  ///< motions at time 0; over the tick
   std::vector<layout::ObstacleMotion> motions_;
-  std::vector<Vector3f> places_;
+  std::vector<Vector3f> positions_;
   double time_s_ = 0, tick_s_ = 0;
   int substeps_ = 0;
   bool moved_ = true;

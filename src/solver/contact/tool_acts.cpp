@@ -14,7 +14,7 @@ namespace viscera {
 namespace {
 
 /// One stylus in one tick.
-struct Hand {
+struct Tool {
   ToolPort& target;
   uint32_t stylus;
   const StylusMotion& motion;
@@ -26,31 +26,31 @@ struct Hand {
 /// Actions of an effect at the moments of a tick; null where there is none.
 struct ToolAct {
   uint32_t effects;
-  void (*begin_tick)(const Hand&);
-  void (*before_substep)(const Hand&);
-  void (*end_tick)(const Hand&);
+  void (*begin_tick)(const Tool&);
+  void (*before_substep)(const Tool&);
+  void (*end_tick)(const Tool&);
 };
 
 /// Ends the previous hold before a new one begins, possibly of another kind.
-void changeGrip(const Hand& hand) {
-  const ToolKind& before = kindOf(hand.motion.hold_ended);
-  if (before.grip) hand.target.letGo(hand.stylus, {before.grip(hand.config).release_speed_m_per_s});
-  if (!hand.motion.hold_begins) return;
-  hand.target.takeHold(hand.stylus, hand.motion.from, kindOf(hand.motion.mode).reach_m(hand.config));
+void changeGrip(const Tool& tool) {
+  const ToolKind& before = kindOf(tool.motion.hold_ended);
+  if (before.grip) tool.target.letGo(tool.stylus, {before.grip(tool.config).release_speed_m_per_s});
+  if (!tool.motion.hold_begins) return;
+  tool.target.takeHold(tool.stylus, tool.motion.from, kindOf(tool.motion.mode).reach_m(tool.config));
 }
 
 /// Releases nodes above the force limit. Nothing is held again until a new hold begins.
-void letGoAboveLimit(const Hand& hand) {
-  const ToolKind& kind = kindOf(hand.motion.mode);
+void letGoAboveLimit(const Tool& tool) {
+  const ToolKind& kind = kindOf(tool.motion.mode);
   if (!kind.grip || kind.grips) return;
-  const Grip grip = kind.grip(hand.config);
+  const Grip grip = kind.grip(tool.config);
   if (!std::isfinite(grip.max_force_n)) return;
-  hand.target.letGo(hand.stylus, {grip.release_speed_m_per_s, grip.max_force_n * hand.tick_s});
+  tool.target.letGo(tool.stylus, {grip.release_speed_m_per_s, grip.max_force_n * tool.tick_s});
 }
 
-void cut(const Hand& hand) {
-  const bool erases = kindOf(hand.motion.mode).does(kErases);
-  if (erases || !hand.resisted) hand.target.cut(hand.stylus, erases);
+void cut(const Tool& tool) {
+  const bool erases = kindOf(tool.motion.mode).does(kErases);
+  if (erases || !tool.resisted) tool.target.cut(tool.stylus, erases);
 }
 
 constexpr ToolAct kToolActs[] = {
@@ -59,7 +59,7 @@ constexpr ToolAct kToolActs[] = {
 };
 
 /// Runs one moment of all acts, for each stylus of a kind that has the effect in this tick.
-void run(void (*ToolAct::*moment)(const Hand&), ToolPort& target, const ToolMotions& motions,
+void run(void (*ToolAct::*moment)(const Tool&), ToolPort& target, const ToolMotions& motions,
          const std::vector<StylusConfig>& styluses, double tick_s, bool resisted) {
   for (const ToolAct& act : kToolActs) {
     if (!(act.*moment)) continue;

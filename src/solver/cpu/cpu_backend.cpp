@@ -106,24 +106,24 @@ void CpuBackend::takeHold(uint32_t stylus, const Pose& pose, double radius_m) {
   const Vector3f tip = pose.position_m.cast<float>(), reach = Vector3f::Constant(static_cast<float>(radius_m));
   sleep_.wakeNear(lattice_, tip - reach, tip + reach);
   viscera::takeHold(lattice_, stylus, pose, radius_m);
-  noteHeld();
+  recordHeld();
 }
 
 void CpuBackend::letGo(uint32_t stylus, const Release& release) {
   viscera::letGo(lattice_, stylus, release, stats_);
-  noteHeld();
+  recordHeld();
 }
 
 /// Marks and wakes the bricks with held nodes; their nodes are processed one by one.
-void CpuBackend::noteHeld() {
-  std::fill(lattice_.hands.held.begin(), lattice_.hands.held.end(), uint8_t{0});
+void CpuBackend::recordHeld() {
+  std::fill(lattice_.tools.held.begin(), lattice_.tools.held.end(), uint8_t{0});
   stats_.grabbed[0] = stats_.grabbed[1] = 0;
   for (uint32_t slot : lattice_.store.active) {
     const uint32_t by = (lattice_.store.nodes[slot].lo & layout::kGrabMask) >> layout::kGrabShift;
     if (by == 0) continue;
     ++stats_.grabbed[by - 1];
-    if (lattice_.hands.held.empty()) continue;
-    lattice_.hands.held[slot / layout::kBrickSlots] = 1;
+    if (lattice_.tools.held.empty()) continue;
+    lattice_.tools.held[slot / layout::kBrickSlots] = 1;
     sleep_.wake(slot / layout::kBrickSlots);
   }
 }
@@ -189,7 +189,7 @@ void CpuBackend::slow(const Substep& step) {
   pool_(sleep_.awake().size(), [&](size_t i) {
     const uint32_t brick = sleep_.awake()[i], first = lattice_.store.first_active[brick];
     const layout::BodyParams& body = lattice_.store.bodies[lattice_.store.bricks[brick].body];
-    const float most = step.most_way * body.origin_spacing.w / step.dt_s;
+    const float most = step.most_step * body.origin_spacing.w / step.dt_s;
     for (uint32_t n = first; n < lattice_.store.first_active[brick + 1]; ++n) {
       const uint32_t slot = lattice_.store.active[n];
       const Vector3f speed = planesAt(v, slot);
@@ -294,8 +294,8 @@ void CpuBackend::sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& 
   viscera::sumReactions(lattice_, tips, stats_);
 }
 
-void CpuBackend::sumObstacles(const std::vector<Vector3f>& places) {
-  viscera::sumObstacles(lattice_, places, stats_);
+void CpuBackend::sumObstacles(const std::vector<Vector3f>& positions) {
+  viscera::sumObstacles(lattice_, positions, stats_);
 }
 
 bool CpuBackend::requestStats() {
@@ -340,14 +340,14 @@ void CpuBackend::resetState() {
   springs_cut_ = 0;
   sleep_.restart();
   changeAll();
-  if (!lattice_.hands.held.empty()) noteHeld();
+  if (!lattice_.tools.held.empty()) recordHeld();
 }
 
 void CpuBackend::loadState(const HostState& state) {
   lattice_.write(state);
   stats_.max_rate_bits = 0;
   changeAll();
-  noteHeld();
+  recordHeld();
 }
 
 void CpuBackend::saveGood() {

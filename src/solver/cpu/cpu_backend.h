@@ -69,7 +69,7 @@ class CpuBackend : public SolverBackend {
   void beginEnvironment(const Environment& /*environment*/) override {}
   void blow(const Substep& step, const Environment& environment) override;
   void surround(const Substep& step, const Environment& environment) override;
-  void sumObstacles(const std::vector<Vector3f>& places) override;
+  void sumObstacles(const std::vector<Vector3f>& positions) override;
   void measure() override;
   void sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& tips) override;
   void guard(const StabilityMonitor::Bounds& /*bounds*/, const ToolMotions& /*motions*/, double /*tick_s*/) override {}
@@ -94,7 +94,7 @@ class CpuBackend : public SolverBackend {
   void sumPushes();
   void wakeForTools(const std::vector<layout::ToolMotion>& motions);
   void changeAll();
-  void noteHeld();
+  void recordHeld();
   void slow(const Substep& step);
   void measureWalls(const std::vector<uint32_t>& bricks);
   void tear();

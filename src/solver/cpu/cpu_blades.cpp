@@ -31,9 +31,9 @@ void CpuBackend::pushNodes(uint32_t stylus, float dt_s, const std::vector<uint32
     sleep_.wake(slot / layout::kBrickSlots);
     if (stylus >= layout::kMaxStyluses) continue;
     const Vector3f given = lattice_.strengths.mass[slot] * dv;
-    layout::vec4& sum = lattice_.hands.impulses[stylus * lattice_.slotCount() + slot];
+    layout::vec4& sum = lattice_.tools.impulses[stylus * lattice_.slotCount() + slot];
     sum = {sum.x + given.x(), sum.y + given.y(), sum.z + given.z(), sum.w + 1};
-    lattice_.hands.touched[slot / layout::kBrickSlots] = 1;
+    lattice_.tools.touched[slot / layout::kBrickSlots] = 1;
   }
 }
 
@@ -64,7 +64,7 @@ void CpuBackend::pushRuns(uint32_t stylus, float dt_s, const std::vector<uint32_
                      pushed_bricks_.data()});
   for (uint32_t brick = 0; brick < pushed_bricks_.size(); ++brick) {
     if (!pushed_bricks_[brick]) continue;
-    lattice_.hands.touched[brick] = 1;
+    lattice_.tools.touched[brick] = 1;
     sleep_.wake(brick);
   }
 }
@@ -73,10 +73,10 @@ void CpuBackend::pushRuns(uint32_t stylus, float dt_s, const std::vector<uint32_
 void CpuBackend::sumPushes() {
   for (size_t s = 0; s < pushed_.size(); ++s) {
     for (const uint32_t slot : lattice_.store.active) {
-      if (pushed_[s].empty() || !lattice_.hands.touched[slot / layout::kBrickSlots]) continue;
+      if (pushed_[s].empty() || !lattice_.tools.touched[slot / layout::kBrickSlots]) continue;
       const Vector3f given = planesAt(pushed_[s].data(), slot);
       if (given.isZero(0)) continue;
-      layout::vec4& sum = lattice_.hands.impulses[s * lattice_.slotCount() + slot];
+      layout::vec4& sum = lattice_.tools.impulses[s * lattice_.slotCount() + slot];
       sum = {sum.x + given.x(), sum.y + given.y(), sum.z + given.z(), sum.w + 1};
       setPlanes(pushed_[s].data(), slot, Vector3f::Zero());
     }

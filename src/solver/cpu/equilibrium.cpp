@@ -113,11 +113,11 @@ double meanSpacing_m(const Model& model) {
 
 /// Sums over nodes of mass times these terms.
 struct Sums {
-  double speed2 = 0;  ///< squared velocity [kg m2/s2]
-  double size2 = 0;   ///< squared displacement [kg m2]
-  double way2 = 0;    ///< squared displacement since the reference [kg m2]
-  double pull = 0;    ///< that displacement . -(change of acceleration) since the reference [kg m2/s2]
-  double force2 = 0;  ///< squared force [N2], without the mass
+  double speed2 = 0;   ///< squared velocity [kg m2/s2]
+  double size2 = 0;    ///< squared displacement [kg m2]
+  double offset2 = 0;  ///< squared displacement since the reference [kg m2]
+  double pull = 0;     ///< that displacement . -(change of acceleration) since the reference [kg m2/s2]
+  double force2 = 0;   ///< squared force [N2], without the mass
 };
 
 /// Leapfrog with a drag that is critical for the slowest motion.
@@ -160,7 +160,7 @@ class Relaxation {
       if (s == 0) load_n_ = std::max(load_n_, std::sqrt(sums.force2));
       report.residual = load_n_ > 0 ? std::sqrt(sums.force2) / load_n_ : 0;
       if (!(report.residual < kDiverged)) return false;
-      if (renews && sums.way2 > 0) noteRate(std::max(0.0, sums.pull / sums.way2));
+      if (renews && sums.offset2 > 0) recordRate(std::max(0.0, sums.pull / sums.offset2));
       calm = isSettled(sums, report) ? calm + 1 : 0;
     }
     report.settled = calm == kCalm;
@@ -186,16 +186,16 @@ class Relaxation {
     if (sums.speed2 == 0) report.left = 0;
     const double slowest2 = *std::min_element(rates2_.begin(), rates2_.end());
     if (sums.speed2 == 0 || slowest2 == 0) return sums.speed2 == 0;
-    const double way2 =
+    const double offset2 =
         sums.speed2 / slowest2;  // remaining distance of a critically damped motion: mass times squared length
-    report.left = sums.size2 > 0 ? std::sqrt(way2 / sums.size2) : 1;
-    if (way2 <= unresolved2_) return true;
+    report.left = sums.size2 > 0 ? std::sqrt(offset2 / sums.size2) : 1;
+    if (offset2 <= unresolved2_) return true;
     return report.left <= kLeft && (report.residual <= kSettled || report.left <= kLeftAtMost) &&
            report.residual <= kLargestResidual;
   }
 
   /// Records a rate. Fast motion in one place hides slow motion elsewhere, so the least of the last windows counts.
-  void noteRate(double rate2) {
+  void recordRate(double rate2) {
     rate2_ = rate2;
     rates2_[windows_++ % rates2_.size()] = rate2;
   }
@@ -245,7 +245,7 @@ class Relaxation {
     for (const Sums& part : parts_) {
       out.speed2 += part.speed2;
       out.size2 += part.size2;
-      out.way2 += part.way2;
+      out.offset2 += part.offset2;
       out.pull += part.pull;
       out.force2 += part.force2;
     }
@@ -260,21 +260,21 @@ class Relaxation {
     const float *u = &state.displacement[1 - state.current][at], *before = &state.velocity[1 - state.current][at];
     const float* after = &state.velocity[state.current][at];
     float *reference_u = &reference_u_[at], *reference_a = &reference_a_[at];
-    float speed2 = 0, size2 = 0, way2 = 0, pull = 0, force2 = 0;
+    float speed2 = 0, size2 = 0, offset2 = 0, pull = 0, force2 = 0;
     for (size_t k = 0; k < 3 * layout::kBrickSlots; ++k) {
       const float m = mass[k % layout::kBrickSlots];
-      const float a = ((1 + g) * after[k] - (1 - g) * before[k]) / kick_s, way = u[k] - reference_u[k];
+      const float a = ((1 + g) * after[k] - (1 - g) * before[k]) / kick_s, offset = u[k] - reference_u[k];
       speed2 += m * after[k] * after[k];
       size2 += m * u[k] * u[k];
-      way2 += m * way * way;
-      pull -= m * way * (a - reference_a[k]);
+      offset2 += m * offset * offset;
+      pull -= m * offset * (a - reference_a[k]);
       force2 += m * a * m * a;
       if (renews) {
         reference_u[k] = u[k];
         reference_a[k] = a;
       }
     }
-    return {speed2, size2, way2, pull, force2};
+    return {speed2, size2, offset2, pull, force2};
   }
 
   double dt_s_;

@@ -31,7 +31,7 @@ class ImplicitSubstep {
     if (!device.pairs) return;
     pull_ = device.pass("implicit_pull.comp", kInSubstep | kWithPairs);
     meet_ = device.pass("implicit_meet.comp", kWithPairs);
-    place_ = device.pass("implicit_place.comp", kInSubstep | kWithPairs);
+    position_ = device.pass("implicit_place.comp", kInSubstep | kWithPairs);
   }
 
   /// Sets the first iterate. Held nodes are at their prescribed positions, and no node is in a probe or an obstacle.
@@ -68,7 +68,7 @@ class ImplicitSubstep {
     device.run(pull_, step, Over::kPairs, {{"first_sweep", iteration == 0 ? 1u : 0u}});
     for (int round = 1; round <= kPairRounds; ++round) {
       device.run(meet_, step, Over::kPairs);
-      device.run(place_, step, Over::kPairs, {{"ends_sweep", round == kPairRounds ? 1u : 0u}});
+      device.run(position_, step, Over::kPairs, {{"ends_sweep", round == kPairRounds ? 1u : 0u}});
     }
   }
 
@@ -91,7 +91,7 @@ class ImplicitSubstep {
 
   using Vectors = typename Device::template Field<typename Device::vec4>;
   typename Device::Pass begin_, guess_, scale_, end_;
-  typename Device::Pass pull_, meet_, place_;  ///< passes of pairs, where there are any
+  typename Device::Pass pull_, meet_, position_;  ///< passes of pairs, where there are any
   Vectors increments_[2];  ///< [slots] xyz m; w 1 where prescribed, below 0 where in contact; this iterate and the last
   Vectors contacts_;       ///< [3 * rows * slots], see shaders/solver/implicit/implicit_contact.glsl
   Vectors energies_;       ///< [2 * device.sumSize()] J

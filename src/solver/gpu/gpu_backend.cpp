@@ -214,9 +214,9 @@ void GpuBackend::blow(const Substep& step, const Environment& environment) {
   environment_->blow(buffers_, step, environment);
 }
 
-void GpuBackend::sumObstacles(const std::vector<Vector3f>& places) {
+void GpuBackend::sumObstacles(const std::vector<Vector3f>& positions) {
   const gpu::TimedStage timed(gpu::Stage::kReaction);
-  obstacle_reaction_->runObstacles(buffers_, places);
+  obstacle_reaction_->runObstacles(buffers_, positions);
 }
 
 void GpuBackend::surround(const Substep& step, const Environment& environment) {
@@ -228,7 +228,7 @@ void GpuBackend::measure() {
   if (rest_.resting()) return;
   const gpu::TimedStage timed(gpu::Stage::kMeasure);
   measure_.run(buffers_);
-  if (environment_) environment_->noteCrowded(buffers_.stats);
+  if (environment_) environment_->recordCrowded(buffers_.stats);
 }
 
 void GpuBackend::sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& tips) {

@@ -68,7 +68,7 @@ class GpuBackend final : public SolverBackend {
   void beginEnvironment(const Environment& environment) override;
   void blow(const Substep& step, const Environment& environment) override;
   void surround(const Substep& step, const Environment& environment) override;
-  void sumObstacles(const std::vector<Vector3f>& places) override;
+  void sumObstacles(const std::vector<Vector3f>& positions) override;
   void measure() override;
   void sumReactions(const std::array<Vector3f, layout::kMaxStyluses>& tips) override;
   void guard(const StabilityMonitor::Bounds& bounds, const ToolMotions& motions, double tick_s) override;

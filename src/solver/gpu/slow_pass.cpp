@@ -13,7 +13,7 @@ void SlowPass::run(const LatticeBuffers& buffers, const Substep& step) const {
   slow_.use();
   slow_.set("active_count", static_cast<uint32_t>(buffers.store.active_count));
   slow_.set("dt_s", step.dt_s);
-  slow_.set("most_way", step.most_way);
+  slow_.set("most_step", step.most_step);
   slow_.set("keeps", kSlowingKeeps);
   gpu::Program::dispatch(buffers.store.active_count, group_size_);
   gpu::Program::storageBarrier();

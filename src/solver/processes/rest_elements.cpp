@@ -103,7 +103,7 @@ void RestElements::sortIntoCubes() {
       }
     }
   };
-  starts_.assign(cubes_.places() + 1, 0);
+  starts_.assign(cubes_.positions() + 1, 0);
   for (const Eigen::AlignedBox3d& box : boxes) forEachCube(box, [this](size_t cube) { ++starts_[cube + 1]; });
   std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
   std::vector<uint32_t> next(starts_.begin(), starts_.end() - 1);
@@ -256,8 +256,8 @@ double RestElements::cutAt(uint32_t a, uint32_t b, const CutSprings& cuts) const
     return share == 0 ? kWholeSpring : known(static_cast<double>(share));
   }
   if (cuts.nodes.empty()) return kWholeSpring;
-  const Vector3i from = body_.lattice.nodeAt(a), way = body_.lattice.nodeAt(b) - from;
-  const int spring = springIndex(way);
+  const Vector3i from = body_.lattice.nodeAt(a), offset = body_.lattice.nodeAt(b) - from;
+  const int spring = springIndex(offset);
   if (spring < 0 || springCount(body_.lattice.nodes[a], static_cast<uint32_t>(spring)) == 0 ||
       springCount(cuts.nodes[slot_offset_ + a], static_cast<uint32_t>(spring)) > 0)
     return kWholeSpring;
@@ -309,9 +309,9 @@ uint32_t RestElements::sideOf(uint32_t element, const Sides& sides, const Vector
         continue;  // the positions of cuts of diagonals are not recorded
       const double share = cutAt(corners_[element][a], corners_[element][b], cuts);
       if (share == kWholeSpring || sides[a] == sides[b]) continue;
-      const Vector3d way = corner_m(element, b) - corner_m(element, a);
-      crossings.emplace_back(corner_m(element, a) + share * way);
-      across += sides[a] == sides[0] ? way : Vector3d(-way);
+      const Vector3d offset = corner_m(element, b) - corner_m(element, a);
+      crossings.emplace_back(corner_m(element, a) + share * offset);
+      across += sides[a] == sides[0] ? offset : Vector3d(-offset);
     }
   }
   if (other == 0 || other == TissuePoint::kMost || crossings.empty()) return sides[nearest];

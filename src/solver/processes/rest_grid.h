@@ -15,7 +15,7 @@ struct RestGrid {
   Vector3d origin_m = Vector3d::Zero();  ///< position of node (0, 0, 0)
   Vector3i count = Vector3i::Zero();     ///< nodes per axis
 
-  size_t places() const {
+  size_t positions() const {
     return static_cast<size_t>(count.x()) * static_cast<size_t>(count.y()) * static_cast<size_t>(count.z());
   }
   size_t at(const Vector3i& node) const {

@@ -18,7 +18,7 @@ constexpr size_t kStarts = 4;    // nearest of them from which a walk starts
 constexpr int kWalkSteps = 24;
 constexpr double kMostWalked = 4;      // spacings per step
 constexpr double kArrived = 1e-4;      // of a spacing: convergence of a walk
-constexpr double kSamePlace = 0.1;     // of a spacing: largest distance of the found point from the requested position
+constexpr double kSamePosition = 0.1;  // of a spacing: largest distance of the found point from the requested position
 constexpr double kBesideIt = 0.5;      // the same for a sheet
 constexpr double kFoldedPoint = 0.01;  // volume ratio below which tissue counts as folded
 
@@ -58,7 +58,7 @@ std::optional<TissuePoint> TissuePoints::embed(uint32_t body, const Vector3d& re
   return elements_[body].embed(rest_m, cuts_);
 }
 
-std::vector<Vector3d> TissuePoints::places_m(const TissuePort& target, const std::vector<uint32_t>& slots) const {
+std::vector<Vector3d> TissuePoints::positions_m(const TissuePort& target, const std::vector<uint32_t>& slots) const {
   std::vector<Vector3f> u(slots.size()), v(slots.size());
   target.readNodes(slots, u, v);
   std::vector<Vector3d> out(slots.size());
@@ -66,7 +66,7 @@ std::vector<Vector3d> TissuePoints::places_m(const TissuePort& target, const std
   return out;
 }
 
-std::optional<TissuePoint> TissuePoints::find(TissuePort& target, const Vector3d& place_m) const {
+std::optional<TissuePoint> TissuePoints::find(TissuePort& target, const Vector3d& position_m) const {
   struct Start {
     double distance_m;
     uint32_t body, slot;
@@ -76,27 +76,28 @@ std::optional<TissuePoint> TissuePoints::find(TissuePort& target, const Vector3d
   };
   std::vector<Start> starts;
   for (uint32_t b = 0; b < sparse_.size(); ++b) {
-    const std::vector<Vector3d> places = places_m(target, sparse_[b]);
+    const std::vector<Vector3d> positions = positions_m(target, sparse_[b]);
     std::vector<Start> of_body;
-    for (size_t i = 0; i < places.size(); ++i) of_body.push_back({(places[i] - place_m).norm(), b, sparse_[b][i]});
+    for (size_t i = 0; i < positions.size(); ++i)
+      of_body.push_back({(positions[i] - position_m).norm(), b, sparse_[b][i]});
     std::sort(of_body.begin(), of_body.end());
     starts.insert(starts.end(), of_body.begin(),
                   of_body.begin() + std::min<std::ptrdiff_t>(kStarts, static_cast<std::ptrdiff_t>(of_body.size())));
   }
   std::sort(starts.begin(), starts.end());
   for (const Start& start : starts) {
-    if (const auto point = walk(target, start.body, rest_m_[start.slot].cast<double>(), place_m)) return point;
+    if (const auto point = walk(target, start.body, rest_m_[start.slot].cast<double>(), position_m)) return point;
   }
   return std::nullopt;
 }
 
 /// Newton's method in the elements along the path.
 std::optional<TissuePoint> TissuePoints::walk(TissuePort& target, uint32_t body, Vector3d rest_m,
-                                              const Vector3d& place_m) const {
+                                              const Vector3d& position_m) const {
   const RestElements& elements = elements_[body];
   const double h = elements.spacing_m();
   const auto lies = [&](const TissuePoint& point, std::vector<Vector3d>& nodes) {
-    nodes = places_m(target, {point.slots.begin(), point.slots.begin() + point.count});
+    nodes = positions_m(target, {point.slots.begin(), point.slots.begin() + point.count});
     Vector3d at = Vector3d::Zero();
     for (uint32_t c = 0; c < point.count; ++c) at += static_cast<double>(point.weights[c]) * nodes[c];
     return at;
@@ -106,18 +107,19 @@ std::optional<TissuePoint> TissuePoints::walk(TissuePort& target, uint32_t body,
   for (int i = 0; i < kWalkSteps; ++i) {
     const std::optional<TissuePoint> here = elements.nearest(rest_m, cuts_);
     if (!here) return std::nullopt;
-    const Vector3d off = place_m - lies(*here, nodes);
+    const Vector3d off = position_m - lies(*here, nodes);
     const Vector3d normal = elements.normal(*here);
     sheet = !normal.isZero(0);
     const Eigen::Matrix3d by = gradient(*here, nodes);
-    Vector3d way = by.determinant() > kFoldedPoint ? Vector3d(by.inverse() * off) : off;
-    if (sheet) way -= way.dot(normal) * normal;
-    if (way.norm() < kArrived * h) break;
-    if (way.norm() > kMostWalked * h) way *= kMostWalked * h / way.norm();
-    rest_m += way;
+    Vector3d offset = by.determinant() > kFoldedPoint ? Vector3d(by.inverse() * off) : off;
+    if (sheet) offset -= offset.dot(normal) * normal;
+    if (offset.norm() < kArrived * h) break;
+    if (offset.norm() > kMostWalked * h) offset *= kMostWalked * h / offset.norm();
+    rest_m += offset;
   }
   const std::optional<TissuePoint> point = embed(body, rest_m);
-  if (!point || (place_m - lies(*point, nodes)).norm() > (sheet ? kBesideIt : kSamePlace) * h) return std::nullopt;
+  if (!point || (position_m - lies(*point, nodes)).norm() > (sheet ? kBesideIt : kSamePosition) * h)
+    return std::nullopt;
   return point;
 }
 
@@ -132,15 +134,15 @@ Eigen::Matrix3d TissuePoints::gradient(const TissuePoint& point, const std::vect
   return out;
 }
 
-Vector3d TissuePoints::toRest(const TissuePoint& point, const Vector3d& way_m) const {
+Vector3d TissuePoints::toRest(const TissuePoint& point, const Vector3d& offset_m) const {
   std::vector<Vector3d> nodes;
   for (uint32_t c = 0; c < point.count; ++c) nodes.push_back(nodes_[node_of_[point.slots[c]]].x_m);
   const Eigen::Matrix3d by = gradient(point, nodes);
-  return by.determinant() > kFoldedPoint ? Vector3d(by.inverse() * way_m) : way_m;
+  return by.determinant() > kFoldedPoint ? Vector3d(by.inverse() * offset_m) : offset_m;
 }
 
-Vector3d TissuePoints::placeIn(const TissuePort& target, const TissuePoint& point) const {
-  const std::vector<Vector3d> nodes = places_m(target, {point.slots.begin(), point.slots.begin() + point.count});
+Vector3d TissuePoints::positionIn(const TissuePort& target, const TissuePoint& point) const {
+  const std::vector<Vector3d> nodes = positions_m(target, {point.slots.begin(), point.slots.begin() + point.count});
   Vector3d out = Vector3d::Zero();
   for (uint32_t c = 0; c < point.count; ++c) out += static_cast<double>(point.weights[c]) * nodes[c];
   return out;
@@ -170,7 +172,7 @@ void TissuePoints::read(TissuePort& target, const std::vector<const TissuePoint*
     nodes_[i] = {(rest_m_[slots_[i]].cast<double>() + u_[i].cast<double>()), v_[i].cast<double>(), Vector3d::Zero()};
 }
 
-Vector3d TissuePoints::place_m(const TissuePoint& point) const {
+Vector3d TissuePoints::position_m(const TissuePoint& point) const {
   Vector3d out = Vector3d::Zero();
   for (uint32_t c = 0; c < point.count; ++c)
     out += static_cast<double>(point.weights[c]) * nodes_[node_of_[point.slots[c]]].x_m;

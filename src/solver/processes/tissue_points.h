@@ -28,24 +28,24 @@ class TissuePoints {
   /// Returns the point at a current position, in any body and cell. It is slow compared to embed() and meant for new
   /// contacts. It reads up to 256 nodes of each body, then walks through the tissue from the nearest of them, with up
   /// to 24 reads of a cell's nodes each. Returns nothing in the gap of a wound.
-  std::optional<TissuePoint> find(TissuePort& target, const Vector3d& place_m) const;
+  std::optional<TissuePoint> find(TissuePort& target, const Vector3d& position_m) const;
 
   Vector3d rest_m(uint32_t slot) const { return rest_m_[slot].cast<double>(); }  ///< rest position, tissue frame
   double spacing_m(uint32_t body) const { return elements_[body].spacing_m(); }
 
   /// Begins a substep. @param points  all points that will be used in it
   void read(TissuePort& target, const std::vector<const TissuePoint*>& points);
-  Vector3d place_m(
+  Vector3d position_m(
       const TissuePoint& point) const;  ///< position at the end of the substep, including impulses given since read()
   Vector3d velocity_m_per_s(const TissuePoint& point) const;
   /// Returns the change of another's velocity per impulse at one [1/kg].
   double mobility(const TissuePoint& one, const TissuePoint& other) const;
   void give(const TissuePoint& point, const Vector3d& impulse_ns, double dt_s);
   /// Returns the position of any point; reads its nodes.
-  Vector3d placeIn(const TissuePort& target, const TissuePoint& point) const;
+  Vector3d positionIn(const TissuePort& target, const TissuePoint& point) const;
   /// Returns a vector in the current tissue mapped to rest, by the inverse of the deformation gradient; where tissue is
   /// folded, unchanged.
-  Vector3d toRest(const TissuePoint& point, const Vector3d& way_m) const;
+  Vector3d toRest(const TissuePoint& point, const Vector3d& offset_m) const;
   /// Moves all points on, or back, at their current velocities.
   void drift(double by_s);
   double work_j() const { return work_j_; }  ///< work of impulses since read()
@@ -56,9 +56,9 @@ class TissuePoints {
   struct Node {
     Vector3d x_m, v_m_per_s, dv_m_per_s;
   };
-  std::optional<TissuePoint> walk(TissuePort& target, uint32_t body, Vector3d rest_m, const Vector3d& place_m) const;
+  std::optional<TissuePoint> walk(TissuePort& target, uint32_t body, Vector3d rest_m, const Vector3d& position_m) const;
   Eigen::Matrix3d gradient(const TissuePoint& point, const std::vector<Vector3d>& nodes) const;
-  std::vector<Vector3d> places_m(const TissuePort& target, const std::vector<uint32_t>& slots) const;
+  std::vector<Vector3d> positions_m(const TissuePort& target, const std::vector<uint32_t>& slots) const;
 
   const Model& model_;
   CutSprings cuts_;

@@ -75,7 +75,7 @@ void ImplicitContacts::add(uint32_t slot, size_t owner, const std::optional<Half
   }
   HalfSpace limited = *space;
   const double most_m =
-      solver_.options_.push_speed_m_per_s * solver_.dt_s() + std::max(0.0, space->way_m.dot(space->normal));
+      solver_.options_.push_speed_m_per_s * solver_.dt_s() + std::max(0.0, space->offset_m.dot(space->normal));
   limited.least_m = std::min(limited.least_m, most_m);
   contacts_.push_back({slot, owner, limited});
 }
@@ -153,7 +153,7 @@ std::vector<Increment::Drag> ImplicitContacts::drags() const {
   for (const Contact& c : contacts_) {
     const double limit_n = c.space.friction * c.pressure_n;
     if (!c.presses || limit_n <= 0) continue;
-    out.push_back({c.slot, c.space.normal, solver_.u_m[c.slot] + c.space.way_m, limit_n, -1, Vector3d::Zero()});
+    out.push_back({c.slot, c.space.normal, solver_.u_m[c.slot] + c.space.offset_m, limit_n, -1, Vector3d::Zero()});
   }
   if (nodes_) nodes_->addDrags(out);
   return out;
@@ -208,7 +208,7 @@ void ImplicitContacts::give(ReferenceSolver& solver, Field& v_next) const {
       solver.impulse_n_s[c.owner] += solver.dt_s() * c.force_n;
       continue;
     }
-    const Vector3d surface = c.space.way_m / solver.dt_s();
+    const Vector3d surface = c.space.offset_m / solver.dt_s();
     const double approach = -c.space.normal.dot(solver.v_m_per_s[c.slot] - surface);
     const double now = c.space.normal.dot(v_next[c.slot] - surface);
     Vector3d bounce = Vector3d::Zero();

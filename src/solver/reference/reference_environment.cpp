@@ -134,9 +134,9 @@ std::vector<ReferenceEnvironment::Pair> ReferenceEnvironment::touching(const Ref
 
 // ---- effects on the state ----
 
-/// @param way_m  grows by the change of displacement in the substep due to the velocities; null: the integrator
+/// @param offset_m  grows by the change of displacement in the substep due to the velocities; null: the integrator
 /// continues from them
-void ReferenceSolver::blow(const SubstepOutside& outside, const Field& u, Field& v, Field* way_m) {
+void ReferenceSolver::blow(const SubstepOutside& outside, const Field& u, Field& v, Field* offset_m) {
   if (!options_.environment) return;
   const Field u_now = u;
   for (uint32_t slot : active) {
@@ -147,7 +147,7 @@ void ReferenceSolver::blow(const SubstepOutside& outside, const Field& u, Field&
       continue;
     }
     v[slot] += kick;
-    if (way_m) (*way_m)[slot] += dt_s_ * kick;
+    if (offset_m) (*offset_m)[slot] += dt_s_ * kick;
   }
 }
 
@@ -160,7 +160,7 @@ void ReferenceSolver::meetObstacles(Field& u_next, Field& v_next) {
       const std::optional<ObstacleMeeting> met = obstacle.meet(x, rest + u_next[slot]);
       if (!met) continue;
       const Vector3d out = met->surface_m - (rest + u_next[slot]);
-      const double most = std::max(options_.push_speed_m_per_s * dt_s_, 1.001 * met->way_m);
+      const double most = std::max(options_.push_speed_m_per_s * dt_s_, 1.001 * met->offset_m);
       u_next[slot] += std::min(1.0, out.norm() > 0 ? most / out.norm() : 1.0) * out;
       const Vector3d relative = v_next[slot] - obstacle.velocityAt(rest + u_next[slot]);
       const double approach = -relative.dot(met->normal);

@@ -36,7 +36,7 @@ Vector3d ReferenceLattice::dashpotForce(const Field& u_m, const Field& v_m_per_s
 }
 
 Vector3d ReferenceLattice::dampingForce(const Field& u_m, const Field& v_m_per_s, uint32_t slot) const {
-  if (obeysLaw(slot)) return elasticForce(lawPlaces(u_m, v_m_per_s), slot) - elasticForce(u_m, slot);
+  if (obeysLaw(slot)) return elasticForce(lawPositions(u_m, v_m_per_s), slot) - elasticForce(u_m, slot);
   if (!predicts_ || body(slot).connections != layout::kImplicit) return dashpotForce(u_m, v_m_per_s, slot);
   const double dashpot_s = body(slot).dashpot_s;
   Vector3d sum = Vector3d::Zero();
@@ -55,7 +55,7 @@ Vector3d ReferenceLattice::dampingForce(const Field& u_m, const Field& v_m_per_s
   return sum;
 }
 
-Field ReferenceLattice::lawPlaces(const Field& u_m, const Field& v_m_per_s) const {
+Field ReferenceLattice::lawPositions(const Field& u_m, const Field& v_m_per_s) const {
   Field out = u_m;
   for (uint32_t slot : active) {
     if (obeysLaw(slot)) out[slot] += body(slot).dashpot_s * v_m_per_s[slot];
@@ -68,7 +68,7 @@ double ReferenceLattice::dissipation(const Field& u_m, const Field& v_m_per_s) c
   Field now, soon;
   for (uint32_t slot : active) {
     if (obeysLaw(slot)) {
-      if (now.empty()) now = elasticForces(u_m), soon = elasticForces(lawPlaces(u_m, v_m_per_s));
+      if (now.empty()) now = elasticForces(u_m), soon = elasticForces(lawPositions(u_m, v_m_per_s));
       sum -= 0.5 * v_m_per_s[slot].dot(soon[slot] - now[slot]);
       continue;
     }

@@ -28,11 +28,11 @@ ReferenceLattice::ReferenceLattice(const Model& model)
       predicts_(predictsSprings(model)),
       rest_m_(model.slots(), Vector3d::Zero()),
       surface_depth_m_(surfaceDepths(model)),
-      place_(model.slots(), -1),
+      position_(model.slots(), -1),
       around_(model.slots(), kNoCells) {
   const double dt_safe_s = safeTimeStep(model);
   for (size_t b = 0; b < model.bodies.size(); ++b) addBody(model, b, dt_safe_s);
-  for (size_t i = 0; i < active.size(); ++i) place_[active[i]] = static_cast<int>(i);
+  for (size_t i = 0; i < active.size(); ++i) position_[active[i]] = static_cast<int>(i);
   linkWalls();
 }
 
@@ -60,7 +60,7 @@ void ReferenceLattice::addBody(const Model& model, size_t b, double dt_safe_s) {
     active.push_back(first + slot);
     rest_m_[first + slot] = viscera::restPosition(body, slot);
     if (!has_valences_[b] && lattice.nodes[slot].lo & layout::kCellBit) addCell(body, b, slot);
-    if (!lattice.offset_to_surface_m.empty()) addWay(lattice, first, slot);
+    if (!lattice.offset_to_surface_m.empty()) addOffset(lattice, first, slot);
   }
   if (body.network) {
     addLinks(*body.network, first);
@@ -107,28 +107,28 @@ void ReferenceLattice::addLinks(const SpringNetwork& network, uint32_t first) {
   }
 }
 
-void ReferenceLattice::addWay(const Lattice& lattice, uint32_t first, uint32_t local) {
-  Way way{lattice.offset_to_surface_m[local].cast<double>(), lattice.spacing_m, {-1, -1, -1}};
-  if (way.way_m.isZero()) return;
+void ReferenceLattice::addOffset(const Lattice& lattice, uint32_t first, uint32_t local) {
+  SurfaceOffset offset{lattice.offset_to_surface_m[local].cast<double>(), lattice.spacing_m, {-1, -1, -1}};
+  if (offset.offset_m.isZero()) return;
   for (int axis = 0; axis < 3; ++axis) {
-    if (way.way_m[axis] == 0) continue;
-    const Vector3i side = (way.way_m[axis] > 0 ? 1 : -1) * Vector3i::Unit(axis);
+    if (offset.offset_m[axis] == 0) continue;
+    const Vector3i side = (offset.offset_m[axis] > 0 ? 1 : -1) * Vector3i::Unit(axis);
     const int64_t other = lattice.slotAt(lattice.nodeAt(local) + side);
-    if (other >= 0) way.to[static_cast<size_t>(axis)] = first + other;
+    if (other >= 0) offset.to[static_cast<size_t>(axis)] = first + other;
   }
-  ways_[first + local] = way;
+  offsets_[first + local] = offset;
 }
 
 Vector3d ReferenceLattice::offsetToSurface(const Field& u_m, uint32_t slot) const {
-  const auto known = ways_.find(slot);
-  if (known == ways_.end()) return Vector3d::Zero();
-  const Way& way = known->second;
-  Vector3d out = way.way_m;
+  const auto known = offsets_.find(slot);
+  if (known == offsets_.end()) return Vector3d::Zero();
+  const SurfaceOffset& offset = known->second;
+  Vector3d out = offset.offset_m;
   for (int axis = 0; axis < 3; ++axis) {
-    const int64_t other = way.to[static_cast<size_t>(axis)];
+    const int64_t other = offset.to[static_cast<size_t>(axis)];
     if (other < 0) continue;
     const Vector3d change = u_m[static_cast<size_t>(other)] - u_m[slot];
-    if (change.norm() < way.spacing_m) out += std::abs(way.way_m[axis]) / way.spacing_m * change;
+    if (change.norm() < offset.spacing_m) out += std::abs(offset.offset_m[axis]) / offset.spacing_m * change;
   }
   return out;
 }

@@ -90,7 +90,7 @@ class ReferenceLattice {
   double forceScale(const Field& u_m) const;
 
   /// Returns the row and column of a node's axis in stiffnessMatrix(): 3 * (place in `active`) + axis.
-  int dof(uint32_t slot, int axis) const { return 3 * place_[slot] + axis; }
+  int dof(uint32_t slot, int axis) const { return 3 * position_[slot] + axis; }
   int dofs() const { return 3 * static_cast<int>(active.size()); }
   /// Returns d2 elasticEnergy / du2, [dofs x dofs] [N/m]; symmetric, both halves stored.
   /// @param dashpot_per_s  adds c n n^T times this: the derivative of an implicit dashpot
@@ -111,7 +111,7 @@ class ReferenceLattice {
   bool obeysLaw(uint32_t slot) const { return body(slot).law != layout::kLawSprings; }
   /// Returns the positions at which leapfrog evaluates the forces of such cells: displacements ahead by dashpot_s [m],
   /// which damps (physics.md 2); of other bodies the current ones.
-  Field lawPlaces(const Field& u_m, const Field& v_m_per_s) const;
+  Field lawPositions(const Field& u_m, const Field& v_m_per_s) const;
 
  private:
   struct Neighbor {
@@ -143,7 +143,7 @@ class ReferenceLattice {
   void addLatticeSprings(const Lattice& lattice, uint32_t first);
   void addLinks(const SpringNetwork& network, uint32_t first);
   void addCell(const Body& body, size_t b, uint32_t local);
-  void addWay(const Lattice& lattice, uint32_t first, uint32_t local);
+  void addOffset(const Lattice& lattice, uint32_t first, uint32_t local);
   const Neighbor& neighbor(uint32_t slot, uint32_t spring) const { return neighbors_[starts_[slot] + spring]; }
   Spring springAt(const Field& u_m, uint32_t slot, uint32_t spring) const;
   Spring springOf(const Vector3d& w_m, const Cell& cell, uint32_t slot, uint32_t spring) const;
@@ -197,15 +197,15 @@ class ReferenceLattice {
   std::vector<Neighbor> neighbors_;          ///< ordered by node
   Field rest_m_;                             ///< [slots]
   std::vector<float> surface_depth_m_;       ///< [slots], or empty
-  struct Way {
-    Vector3d way_m;  ///< vector to the surface at rest
+  struct SurfaceOffset {
+    Vector3d offset_m;  ///< vector to the surface at rest
     double spacing_m;
-    std::array<int64_t, 3> to;  ///< slots of the neighbours along the axes in the direction of way_m; -1 none
+    std::array<int64_t, 3> to;  ///< slots of the neighbours along the axes in the direction of offset_m; -1 none
   };
-  std::map<uint32_t, Way> ways_;            ///< vectors of nodes outside their tissue, by slot
-  std::vector<int> place_;                  ///< [slots] place in `active`, or -1
-  std::vector<Cell> cells_;                 ///< [cells]
-  std::vector<std::array<int, 8>> around_;  ///< [slots] cell that has the node as corner c, or -1
+  std::map<uint32_t, SurfaceOffset> offsets_;  ///< vectors of nodes outside their tissue, by slot
+  std::vector<int> position_;                  ///< [slots] place in `active`, or -1
+  std::vector<Cell> cells_;                    ///< [cells]
+  std::vector<std::array<int, 8>> around_;     ///< [slots] cell that has the node as corner c, or -1
 };
 
 }  // namespace viscera

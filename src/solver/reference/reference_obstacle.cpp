@@ -11,11 +11,11 @@ namespace viscera {
 
 namespace {
 
-constexpr double kShortWay = 0.25;  // of a radius: shorter chords are not searched for (1/128 of it deep at most)
-constexpr double kMiddle = 1e-6;    // of a radius: nearer to the axis there is no direction
+constexpr double kShortStep = 0.25;  // of a radius: shorter chords are not searched for (1/128 of it deep at most)
+constexpr double kMiddle = 1e-6;     // of a radius: nearer to the axis there is no direction
 
-Pose poseOf(const layout::vec4& place, const layout::vec4& q) {
-  return {xyz(place), Quaterniond(q.w, q.x, q.y, q.z).normalized()};
+Pose poseOf(const layout::vec4& position, const layout::vec4& q) {
+  return {xyz(position), Quaterniond(q.w, q.x, q.y, q.z).normalized()};
 }
 Vector3d seenFrom(const Pose& pose, const Vector3d& x) {
   return pose.orientation.conjugate() * (x - pose.position_m);
@@ -92,16 +92,16 @@ std::optional<ReferenceObstacle::Local> ReferenceObstacle::meetBox(const Vector3
   } else {
     double enters = 0, leaves = 1;  // shares of the path
     for (int k = 0; k < 3; ++k) {
-      const double way = to[k] - from[k];
-      if (way == 0 && std::abs(from[k]) >= half_size_m_[k]) return std::nullopt;
-      if (way == 0) continue;
-      const double far_side = way > 0 ? half_size_m_[k] : -half_size_m_[k];
-      const double in = (-far_side - from[k]) / way;
+      const double offset = to[k] - from[k];
+      if (offset == 0 && std::abs(from[k]) >= half_size_m_[k]) return std::nullopt;
+      if (offset == 0) continue;
+      const double far_side = offset > 0 ? half_size_m_[k] : -half_size_m_[k];
+      const double in = (-far_side - from[k]) / offset;
       if (in >= enters) {
         enters = in;
         face = k;
       }
-      leaves = std::min(leaves, (far_side - from[k]) / way);
+      leaves = std::min(leaves, (far_side - from[k]) / offset);
     }
     if (face < 0 || enters >= leaves) return std::nullopt;
   }
@@ -119,14 +119,14 @@ Vector3d ReferenceObstacle::onAxis(const Vector3d& p) const {
 /// Returns the share of the path at which it enters the sphere or capsule: into its cylinder between the ends, or into
 /// one of the two spheres.
 std::optional<double> ReferenceObstacle::entry(const Vector3d& from, const Vector3d& to) const {
-  const Vector3d way = to - from;
+  const Vector3d offset = to - from;
   double first = std::numeric_limits<double>::infinity();
   for (const double end : {-half_length_m_, half_length_m_}) {
-    if (const auto at = firstAt(from - end * Vector3d::UnitZ(), way, radius_m_)) first = std::min(first, *at);
+    if (const auto at = firstAt(from - end * Vector3d::UnitZ(), offset, radius_m_)) first = std::min(first, *at);
   }
   const Vector3d across(1, 1, 0);
-  const auto at = firstAt(from.cwiseProduct(across), way.cwiseProduct(across), radius_m_);
-  if (at && std::abs((from + *at * way).z()) <= half_length_m_) first = std::min(first, *at);
+  const auto at = firstAt(from.cwiseProduct(across), offset.cwiseProduct(across), radius_m_);
+  if (at && std::abs((from + *at * offset).z()) <= half_length_m_) first = std::min(first, *at);
   return first <= 1 ? std::optional(first) : std::nullopt;
 }
 
@@ -134,7 +134,7 @@ std::optional<double> ReferenceObstacle::entry(const Vector3d& from, const Vecto
 std::optional<ReferenceObstacle::Local> ReferenceObstacle::meetRound(const Vector3d& from, const Vector3d& to) const {
   const Vector3d away = to - onAxis(to), away_before = from - onAxis(from);
   const bool inside = away.norm() < radius_m_;
-  if ((to - from).norm() > kShortWay * radius_m_ && away_before.norm() >= radius_m_) {
+  if ((to - from).norm() > kShortStep * radius_m_ && away_before.norm() >= radius_m_) {
     if (const auto at = entry(from, to)) {
       const Vector3d surface = from + *at * (to - from), normal = (surface - onAxis(surface)).normalized();
       if (!inside || normal.dot(away) < 0) return Local{normal, surface};

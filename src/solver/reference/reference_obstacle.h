@@ -18,14 +18,14 @@ constexpr double kOnSphere = 1.001;
 struct ObstacleMeeting {
   Vector3d normal;     ///< outward normal
   Vector3d surface_m;  ///< position to which the node is moved
-  double way_m;        ///< displacement of the node in the substep relative to the surface
+  double offset_m;     ///< displacement of the node in the substep relative to the surface
 };
 
 /// Constraint on the end position of a node in a substep of implicit Euler: normal . du >= least.
 struct HalfSpace {
   Vector3d normal;
-  double least_m;  ///< depth of the node inside before the substep; negative outside
-  Vector3d way_m;  ///< displacement of the surface in the substep
+  double least_m;     ///< depth of the node inside before the substep; negative outside
+  Vector3d offset_m;  ///< displacement of the surface in the substep
   double friction = 0, restitution = 0;
 };
 
@@ -46,7 +46,7 @@ class ReferenceObstacle {
   Vector3d velocityAt(const Vector3d& x_m) const { return velocity_ + spin_.cross(x_m - to_.position_m); }
   double friction() const { return friction_; }
   double restitution() const { return restitution_; }
-  Vector3d place() const { return to_.position_m; }  ///< position at the end of the substep [m]
+  Vector3d position() const { return to_.position_m; }  ///< position at the end of the substep [m]
 
  private:
   struct Local {

@@ -130,7 +130,7 @@ void ReferenceSolver::integrate(Field& u_next, Field& v_next) {
 /// of this one; the first, from the same time, is half a kick.
 void ReferenceSolver::leapfrog(Field& u_next, Field& v_next) const {
   const double kick_s = first_ ? 0.5 * dt_s_ : 0.5 * (last_dt_s_ + dt_s_);
-  const Field elastic = elasticForces(lawPlaces(u_m, v_m_per_s));
+  const Field elastic = elasticForces(lawPositions(u_m, v_m_per_s));
   for (uint32_t slot : active) {
     if (rests(slot)) continue;
     Vector3d force = elastic[slot];

@@ -107,21 +107,21 @@ class ReferenceSolver : public ReferenceLattice, public ToolPort, public TissueP
   void applyTools(const SubstepMotions& motions, uint32_t slot, Vector3d& u_next, Vector3d& v_next);
   using Array2d = Eigen::Array2d;
   /// Correction that a probe demands of the point of a spring nearest to it (shaders/solver/tools/edges.glsl).
-  struct EdgeWay {
+  struct EdgeShift {
     std::array<uint32_t, 2> slots;
     std::array<double, 2> shares;
-    Array2d ways;  ///< displacement out of the probe [m] and change of velocity [m/s]
+    Array2d shifts;  ///< displacement out of the probe [m] and change of velocity [m/s]
     Vector3d normal;
   };
-  std::optional<EdgeWay> wayOfEdge(const layout::ToolMotion& motion, uint32_t a, uint32_t b, const Field& u_next,
-                                   const Field& v_next) const;
+  std::optional<EdgeShift> shiftOfEdge(const layout::ToolMotion& motion, uint32_t a, uint32_t b, const Field& u_next,
+                                       const Field& v_next) const;
   bool onSkin(uint32_t slot) const;
   void applyEdges(const layout::ToolMotion& motion, uint32_t stylus, Field& u_next, Field& v_next);
   void sleep(uint32_t slot, Vector3d& u_next, Vector3d& v_next) const;
   /// Returns the speed below which impacts do not bounce [m/s].
   double restingSpeed() const { return 4 * dt_s_ * gravity_.norm(); }
   void integrate(Field& u_next, Field& v_next);
-  void blow(const SubstepOutside& outside, const Field& u_m, Field& v_m_per_s, Field* way_m);
+  void blow(const SubstepOutside& outside, const Field& u_m, Field& v_m_per_s, Field* offset_m);
   void collide(Field& u_next, Field& v_next);
   void meetObstacles(Field& u_next, Field& v_next);
   friend class ImplicitContacts;

@@ -86,8 +86,8 @@ struct Sweep {
     return normal.norm() > 0 ? Vector3d(normal.normalized()) : Vector3d::Zero();
   }
   /// Returns the component of a displacement along the blade's own.
-  Vector3d along(const Vector3d& way) const {
-    return move().norm() > 0 ? Vector3d(way.dot(move()) / move().squaredNorm() * move()) : Vector3d::Zero();
+  Vector3d along(const Vector3d& shift) const {
+    return move().norm() > 0 ? Vector3d(shift.dot(move()) / move().squaredNorm() * move()) : Vector3d::Zero();
   }
 };
 
@@ -138,8 +138,9 @@ bool ReferenceSolver::onSkin(uint32_t slot) const {
   return isNetwork(slot);
 }
 
-std::optional<ReferenceSolver::EdgeWay> ReferenceSolver::wayOfEdge(const layout::ToolMotion& m, uint32_t a, uint32_t b,
-                                                                   const Field& u_next, const Field& v_next) const {
+std::optional<ReferenceSolver::EdgeShift> ReferenceSolver::shiftOfEdge(const layout::ToolMotion& m, uint32_t a,
+                                                                       uint32_t b, const Field& u_next,
+                                                                       const Field& v_next) const {
   const Vector3d x = restPosition(a) + u_next[a], along = restPosition(b) + u_next[b] - x;
   const double share_b = (xyz(m.to) - x).dot(along) / along.squaredNorm(), share_a = 1 - share_b, length = along.norm();
   if (!(share_b > 0 && share_b < 1)) return std::nullopt;
@@ -155,7 +156,7 @@ std::optional<ReferenceSolver::EdgeWay> ReferenceSolver::wayOfEdge(const layout:
   const double push = std::clamp(inside, 0.0, options_.push_speed_m_per_s * dt_s_);
   const double faster = std::max(slowest - v.dot(normal), 0.0);
   if (push == 0 && faster == 0) return std::nullopt;
-  return EdgeWay{{a, b}, {share_a, share_b}, {push, faster}, normal};
+  return EdgeShift{{a, b}, {share_a, share_b}, {push, faster}, normal};
 }
 
 /// Works in rounds; in each, all springs use the result of the previous one.
@@ -163,30 +164,30 @@ void ReferenceSolver::applyEdges(const layout::ToolMotion& m, uint32_t stylus, F
   if ((m.info.y & (layout::kToolPushes | layout::kToolFeels)) != layout::kToolPushes) return;
   const auto moves = [&](uint32_t slot) { return !isFixed(nodes[slot]) && heldBy(slot) == 0; };
   for (uint32_t round = 0; round < layout::kEdgeRounds; ++round) {
-    std::vector<EdgeWay> ways;
+    std::vector<EdgeShift> shifts;
     std::vector<Array2d> sums(nodes.size(), Array2d::Zero());  // sums of shares times displacements
     for (const uint32_t slot : active) {
       for (uint32_t s = 0; onSkin(slot) && s < springsOf(slot); ++s) {
         const uint32_t far = farEnd(slot, s);
         if (far < slot || !isWhole(slot, s) || isAgainstBending(slot, s) || !onSkin(far)) continue;
-        const std::optional<EdgeWay> way = wayOfEdge(m, slot, far, u_next, v_next);
-        if (!way) continue;
-        ways.push_back(*way);
+        const std::optional<EdgeShift> shift = shiftOfEdge(m, slot, far, u_next, v_next);
+        if (!shift) continue;
+        shifts.push_back(*shift);
         for (int end = 0; end < 2; ++end) {
-          if (moves(way->slots[end])) sums[way->slots[end]] += way->shares[end] * way->ways;
+          if (moves(shift->slots[end])) sums[shift->slots[end]] += shift->shares[end] * shift->shifts;
         }
       }
     }
-    for (const EdgeWay& way : ways) {
+    for (const EdgeShift& shift : shifts) {
       Array2d gives = Array2d::Zero();
-      for (int end = 0; end < 2; ++end) gives += way.shares[end] * sums[way.slots[end]] / mass(way.slots[end]);
+      for (int end = 0; end < 2; ++end) gives += shift.shares[end] * sums[shift.slots[end]] / mass(shift.slots[end]);
       for (int end = 0; end < 2; ++end) {
-        const uint32_t slot = way.slots[end];
+        const uint32_t slot = shift.slots[end];
         if (!moves(slot)) continue;
-        const double part = way.shares[end] / mass(slot);
-        if (way.ways[0] > 0) u_next[slot] += part * way.ways[0] * way.ways[0] / gives[0] * way.normal;
-        if (way.ways[1] == 0) continue;
-        const Vector3d dv = part * way.ways[1] * way.ways[1] / gives[1] * way.normal;
+        const double part = shift.shares[end] / mass(slot);
+        if (shift.shifts[0] > 0) u_next[slot] += part * shift.shifts[0] * shift.shifts[0] / gives[0] * shift.normal;
+        if (shift.shifts[1] == 0) continue;
+        const Vector3d dv = part * shift.shifts[1] * shift.shifts[1] / gives[1] * shift.normal;
         v_next[slot] += dv;
         impulse_n_s[stylus] += mass(slot) * dv;
       }
@@ -237,16 +238,16 @@ void ReferenceSolver::cutWith(const layout::ToolMotion& m, bool particles, const
   };
   // Returns where a spring, moved by `way` in the last substep, is severed, if it is. The tissue points of its ends
   // decide whether, the line between the nodes where.
-  const auto severed = [&](uint32_t slot, uint32_t far, bool linked, const Vector3d& way) -> std::optional<double> {
+  const auto severed = [&](uint32_t slot, uint32_t far, bool linked, const Vector3d& shift) -> std::optional<double> {
     if (particles) {
       return erased(position(slot)) || erased(position(far)) ? std::optional(kErasedFraction) : std::nullopt;
     }
     const Vector3d x = linked ? position(slot) : seen(slot), y = linked ? position(far) : seen(far);
     const bool rests = sweep.move().norm() == 0;
     const Vector3d overlap = kOverlap * (d - a);
-    const Vector3d offset = linked  ? Vector3d(way - overlap)
+    const Vector3d offset = linked  ? Vector3d(shift - overlap)
                             : rests ? Vector3d::Zero()
-                                    : Vector3d(sweep.along(way) - overlap);
+                                    : Vector3d(sweep.along(shift) - overlap);
     std::optional<Plane> plane = crossing(x, y, a + offset, b + offset, c);
     if (!plane) plane = crossing(x, y, a + offset, c, d);
     if (!plane) return std::nullopt;
@@ -259,8 +260,9 @@ void ReferenceSolver::cutWith(const layout::ToolMotion& m, bool particles, const
       if (!isFirstEnd(slot, s) || !isWhole(slot, s)) continue;
       const uint32_t far = farEnd(slot, s);
       const bool linked = body(slot).connections != layout::kImplicit;
-      const Vector3d way = first_ ? Vector3d::Zero() : Vector3d(0.5 * last_dt_s_ * (v_m_per_s[slot] + v_m_per_s[far]));
-      const std::optional<double> fraction = severed(slot, far, linked, way);
+      const Vector3d shift =
+          first_ ? Vector3d::Zero() : Vector3d(0.5 * last_dt_s_ * (v_m_per_s[slot] + v_m_per_s[far]));
+      const std::optional<double> fraction = severed(slot, far, linked, shift);
       if (!fraction) continue;
       eraseSpring(slot, s, *fraction);
       ++springs_cut;

@@ -53,7 +53,7 @@ class SolverBackend : public ToolPort, public TissuePort {
   virtual void surround(const Substep& step, const Environment& environment) = 0;
   /// Sums the impulses of obstacles in the tick into the measurements. @param places  [obstacles] positions at its end,
   /// tissue frame [m]
-  virtual void sumObstacles(const std::vector<Vector3f>& places) = 0;
+  virtual void sumObstacles(const std::vector<Vector3f>& positions) = 0;
   /// Measures the current state: all of TickStats but the contributions of tools and obstacles, which are cleared.
   virtual void measure() = 0;
   /// Sums the tick's reactions into the measurements, in ticks in which a stylus touches. @param tips  positions in the

@@ -38,7 +38,7 @@ StabilityMonitor::StabilityMonitor(const Limits& limits, double tick_s, double r
 
 void StabilityMonitor::restart(const layout::TickStats& stats) {
   owned_j_ = static_cast<double>(stats.kinetic_j) + stats.elastic_j;
-  note(stats);
+  record(stats);
   setbacks_ = 0;
   short_ticks_left_ = 0;
   short_wanted_s_ = 0;
@@ -76,7 +76,7 @@ StabilityMonitor::Trip StabilityMonitor::judge(const layout::TickStats& stats, b
   ++ticks_since_short_;
   setbacks_ = 0;
   owned_j_ = std::min(owned_j_ + work_j, static_cast<double>(stats.kinetic_j) + stats.elastic_j);
-  note(stats);
+  record(stats);
   const bool calm = fromBits(stats.max_speed_bits) < 0.5 * limits_.speed_m_per_s;
   if (health_.recovering && --recovery_ticks_left_ <= 0 && calm) {
     health_.recovering = false;
@@ -88,7 +88,7 @@ StabilityMonitor::Trip StabilityMonitor::judge(const layout::TickStats& stats, b
 }
 
 /// Records the measurements of a good state.
-void StabilityMonitor::note(const layout::TickStats& stats) {
+void StabilityMonitor::record(const layout::TickStats& stats) {
   health_.kinetic_j = stats.kinetic_j;
   health_.elastic_j = stats.elastic_j;
   const bool is_long = fromBits(stats.max_stretch_bits) > kStrainedStretch;

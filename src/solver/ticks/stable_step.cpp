@@ -47,8 +47,8 @@ void letGo(const Model& model, size_t label, HostState& state) {
     if (body.prestress.empty()) continue;
     const std::vector<Eigen::Matrix3d> strains = strainsByLabel(body);
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(strains[std::min(label, strains.size() - 1)]);
-    const Vector3d way = (-kOvershoot * axes.eigenvalues()).cwiseMax(-kMostReleased).cwiseMin(kMostReleased);
-    const Eigen::Matrix3d gradient = axes.eigenvectors() * way.asDiagonal() * axes.eigenvectors().transpose();
+    const Vector3d step = (-kOvershoot * axes.eigenvalues()).cwiseMax(-kMostReleased).cwiseMin(kMostReleased);
+    const Eigen::Matrix3d gradient = axes.eigenvectors() * step.asDiagonal() * axes.eigenvectors().transpose();
     for (const uint32_t slot : body.lattice.active_slots) {
       const Vector3f u = (gradient * (body.lattice.restPosition(slot) - body.lattice.origin_m)).cast<float>();
       state.displacement_m[model.slotOffset(b) + slot] = {u.x(), u.y(), u.z(), 0};
@@ -95,10 +95,10 @@ class Tissue {
     return sum;
   }
 
-  Eigen::VectorXd product(const Eigen::VectorXd& way) {
-    const double scale = kAmplitude * movers_.spacing_m / way.cwiseAbs().maxCoeff();
+  Eigen::VectorXd product(const Eigen::VectorXd& step) {
+    const double scale = kAmplitude * movers_.spacing_m / step.cwiseAbs().maxCoeff();
     for (size_t i = 0; i < movers_.slots.size(); ++i) {
-      const Vector3f u = (scale * way.segment<3>(static_cast<Eigen::Index>(3 * i))).cast<float>();
+      const Vector3f u = (scale * step.segment<3>(static_cast<Eigen::Index>(3 * i))).cast<float>();
       state_.displacement_m[movers_.slots[i]] = {u.x(), u.y(), u.z(), 0};
     }
     backend_.loadState(state_);
@@ -135,11 +135,11 @@ double largestOf(const std::vector<double>& diagonal, const std::vector<double>&
   return solver.eigenvalues()[n - 1] + beside.back() * std::abs(solver.eigenvectors()(n - 1, n - 1));
 }
 
-Eigen::VectorXd someWay(Eigen::Index size) {
+Eigen::VectorXd someDirection(Eigen::Index size) {
   std::minstd_rand random;  // the same on every machine
-  Eigen::VectorXd way(size);
-  for (double& x : way) x = static_cast<double>(random()) / static_cast<double>(std::minstd_rand::max()) - 0.5;
-  return way;
+  Eigen::VectorXd step(size);
+  for (double& x : step) x = static_cast<double>(random()) / static_cast<double>(std::minstd_rand::max()) - 0.5;
+  return step;
 }
 
 }  // namespace
@@ -156,18 +156,18 @@ double measureLimit_s(SolverBackend& backend, const Model& model) {
   Tissue tissue(backend, model);
   std::vector<double> diagonal, beside;
   if (tissue.size() > 0) {
-    Eigen::VectorXd way = someWay(tissue.size()), before = Eigen::VectorXd::Zero(tissue.size());
-    way /= std::sqrt(tissue.dot(way, way));
+    Eigen::VectorXd step = someDirection(tissue.size()), before = Eigen::VectorXd::Zero(tissue.size());
+    step /= std::sqrt(tissue.dot(step, step));
     double link = 0;
     for (int i = 0; i < std::min<Eigen::Index>(kProducts, tissue.size()); ++i) {
-      Eigen::VectorXd next = tissue.product(way) - link * before;
-      diagonal.push_back(tissue.dot(way, next));
-      next -= diagonal.back() * way;
+      Eigen::VectorXd next = tissue.product(step) - link * before;
+      diagonal.push_back(tissue.dot(step, next));
+      next -= diagonal.back() * step;
       link = std::sqrt(tissue.dot(next, next));
       beside.push_back(link);
       if (!(link > 1e-9 * diagonal.back())) break;  // the vectors span all that can oscillate
-      before = std::move(way);
-      way = next / link;
+      before = std::move(step);
+      step = next / link;
     }
   }
   backend.resetState();

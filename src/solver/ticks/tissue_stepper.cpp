@@ -137,7 +137,7 @@ void TissueStepper::measureTick(const ToolMotions& motions, bool contacts) {
     backend_->sumReactions({motions[0].to.position_m.cast<float>(), motions[1].to.position_m.cast<float>()});
     acts_.endTick(*backend_, motions);
   }
-  if (environment_ && environment_->obstacleCount() > 0) backend_->sumObstacles(environment_->obstaclePlaces());
+  if (environment_ && environment_->obstacleCount() > 0) backend_->sumObstacles(environment_->obstaclePositions());
   if (watch_) watch_->guard(motions, recovering_);
 }
 
@@ -189,7 +189,7 @@ void TissueStepper::substep(int index, const ProcessTick& tick, bool contacts) {
   step.tools = contacts;
   step.restarted = restarted_;
   step.index = index;
-  if (recovering_) step.most_way = slowedWay(watch_->setbacks());
+  if (recovering_) step.most_step = slowedStep(watch_->setbacks());
   step.implicit = stepsByPd() || !traitsOf(config_.integrator).is_explicit;
   step.resting_speed_m_per_s = restingSpeed(step);
   if (environment_) {
@@ -219,7 +219,7 @@ void TissueStepper::reset() {
   springs_cut_ = 0;
   processes_.reset();
   pulls_.clear();
-  told_ = {};
+  reported_pulls_ = {};
   stretch_ = stiffening_ = 0;
   releasing_ = 0;
   last_stiffening_ = kAtRest;
@@ -243,7 +243,7 @@ void TissueStepper::writeState(const HostState& state, bool staggered) {
   if (staggered) recovering_ = false;
   ++cut_revision_;
   last_stiffening_ = 0;  // it may have got there in any time
-  if (watch_) noteStretch(watch_->restart());
+  if (watch_) recordStretch(watch_->restart());
 }
 
 /// @throws Error  a saved number that this model's ticks cannot have
@@ -332,7 +332,7 @@ void TissueStepper::keepStats(const TickFindings& findings) {
 bool TissueStepper::applyVerdict(const RollbackGuard::Verdict& verdict) {
   if (verdict.published) keepStats(*verdict.published);
   if (verdict.good) {
-    noteStretch(*verdict.good);
+    recordStretch(*verdict.good);
     relaxSubsteps(*verdict.good);
   }
   restarted_ |= verdict.rolled_back;
@@ -344,7 +344,7 @@ bool TissueStepper::applyVerdict(const RollbackGuard::Verdict& verdict) {
 
 /// Records the stretch, rounded down: substeps that change in every tick make small forces flicker, and there is a
 /// margin.
-void TissueStepper::noteStretch(const layout::TickStats& stats) {
+void TissueStepper::recordStretch(const layout::TickStats& stats) {
   // Cells that tools squeeze are stiffer still by the tick in which this value is used.
   const double stiffening = static_cast<double>(floatFromBits(stats.max_stiffening_bits));
   const double grown = std::max(0.0, stiffening - last_stiffening_) * (1 + backend_->lag());
@@ -390,7 +390,7 @@ bool TissueStepper::pollStats(layout::TickStats& stats, bool wait) {
     return false;
   }
   stats = findings.stats;
-  told_ = findings.pulls;
+  reported_pulls_ = findings.pulls;
   return true;
 }
 

@@ -40,7 +40,7 @@ class TissueStepper : public Solver {
   int substeps() const final { return substeps_.calm; }
   uint64_t substepsDone() const final { return substeps_done_; }
   const TissueProcesses& processes() const final { return processes_.all(); }
-  const StylusPull& pull(uint32_t stylus) const final { return told_[stylus]; }
+  const StylusPull& pull(uint32_t stylus) const final { return reported_pulls_[stylus]; }
   void persist(Archive& archive) final;
   void goOnFrom(const HostState& state) final { writeState(state); }
   std::string backend() const final { return backend_->name(); }
@@ -64,7 +64,7 @@ class TissueStepper : public Solver {
   StabilityMonitor newGovernor() const;
   void replan();
   void tellOfCuts();
-  void noteStretch(const layout::TickStats& stats);
+  void recordStretch(const layout::TickStats& stats);
   bool hasLongSubsteps() const;
   bool stepsByPd() const { return recovering_ && recovers_by_pd_; }
   int calmSubsteps() const;
@@ -104,7 +104,7 @@ class TissueStepper : public Solver {
   std::optional<HostState> start_;      ///< start state; none: rest
   std::optional<RollbackGuard> watch_;  ///< only where a scene has a stability monitor
   std::vector<TickFindings> finished_;  ///< findings that arrived before they were requested, oldest first
-  StylusPulls told_;                    ///< pulls of the findings that were returned last
+  StylusPulls reported_pulls_;          ///< pulls of the findings that were returned last
   std::vector<layout::ToolMotion> motions_;
   uint64_t cut_revision_ = 0, substeps_done_ = 0;
   uint32_t springs_cut_ = 0;  ///< springs cut when dt_safe was last computed

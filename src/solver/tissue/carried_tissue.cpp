@@ -46,35 +46,36 @@ class OldLattice {
   bool isCut() const { return is_cut_; }  ///< some spring is cut
 
   /// Returns a rest position in spacings from node (0, 0, 0).
-  Vector3d placeOf(const Vector3d& rest_m) const { return (rest_m - lattice_.origin_m) / lattice_.spacing_m; }
+  Vector3d positionOf(const Vector3d& rest_m) const { return (rest_m - lattice_.origin_m) / lattice_.spacing_m; }
 
   /// Returns the node next to a position, on its side of cuts, or -1 if none is near.
-  int64_t nearest(const Vector3d& place) const {
-    const Vector3i middle = place.array().round().cast<int>();
+  int64_t nearest(const Vector3d& position) const {
+    const Vector3i middle = position.array().round().cast<int>();
     int64_t best = -1;
     double best_sq = 0;
     for (int reach = 0; reach <= kReach && best < 0; ++reach) {
       visitBox(middle.array() - reach, middle.array() + reach, [&](const Vector3i& node, uint32_t slot) {
-        const double sq = (node.cast<double>() - place).squaredNorm();
+        const double sq = (node.cast<double>() - position).squaredNorm();
         if (best < 0 || sq < best_sq) {
           best = slot;
           best_sq = sq;
         }
       });
     }
-    return best < 0 ? best : acrossCut(static_cast<uint32_t>(best), place);
+    return best < 0 ? best : acrossCut(static_cast<uint32_t>(best), position);
   }
 
   bool isLost(uint32_t slot) const { return isIsolated(bits(slot)) && !isIsolated(lattice_.nodes[slot]); }
 
-  Motion motionAt(const Vector3d& place) const {
-    const Vector3i lowest = place.array().floor().cast<int>();
+  Motion motionAt(const Vector3d& position) const {
+    const Vector3i lowest = position.array().floor().cast<int>();
     const int64_t cell = lattice_.slotAt(lowest);
     if (cell >= 0 && (bits(static_cast<uint32_t>(cell)).lo & layout::kCellBit))
-      return within(static_cast<uint32_t>(cell), place - lowest.cast<double>());
-    const int64_t next = nearest(place);
+      return within(static_cast<uint32_t>(cell), position - lowest.cast<double>());
+    const int64_t next = nearest(position);
     if (next < 0) return {};
-    return fitted(place, reachedFrom(static_cast<uint32_t>(next), box(lattice_.nodeAt(static_cast<uint32_t>(next)))));
+    return fitted(position,
+                  reachedFrom(static_cast<uint32_t>(next), box(lattice_.nodeAt(static_cast<uint32_t>(next)))));
   }
 
   /// Returns where the line between two positions is cut, as a share of its length; 0: nowhere.
@@ -101,19 +102,19 @@ class OldLattice {
   };
 
   /// Returns the neighbour across a cut if the position is on that side; else the same node.
-  int64_t acrossCut(uint32_t slot, const Vector3d& place) const {
+  int64_t acrossCut(uint32_t slot, const Vector3d& position) const {
     if (!(bits(slot).lo & layout::kSeveredBit) || state_.axial_cut.empty()) return slot;
-    const Vector3d way = place - lattice_.nodeAt(slot).cast<double>();
+    const Vector3d offset = position - lattice_.nodeAt(slot).cast<double>();
     int64_t out = slot;
     double furthest = 0;
     for (int c = 0; c < 3; ++c) {
-      const uint32_t spring = 2 * static_cast<uint32_t>(c) + (way[c] < 0);
+      const uint32_t spring = 2 * static_cast<uint32_t>(c) + (offset[c] < 0);
       const int64_t there = lattice_.neighborSlot(slot, spring);
       if (there < 0 || springCount(bits(slot), spring) != 0) continue;
-      const uint32_t lower = way[c] < 0 ? static_cast<uint32_t>(there) : slot;
+      const uint32_t lower = offset[c] < 0 ? static_cast<uint32_t>(there) : slot;
       const double cut = state_.axial_cut[3 * (offset_ + lower) + static_cast<uint32_t>(c)];
       if (cut == 0 || cut >= layout::kErasedShare) continue;
-      const double beyond = std::abs(way[c]) - (way[c] < 0 ? 1 - cut : cut);
+      const double beyond = std::abs(offset[c]) - (offset[c] < 0 ? 1 - cut : cut);
       if (beyond <= furthest) continue;
       furthest = beyond;
       out = there;
@@ -184,14 +185,14 @@ class OldLattice {
   }
 
   /// Fits the linear field closest to the values at some nodes, weighted towards those near the position.
-  Motion fitted(const Vector3d& place, const Reached& nodes) const {
+  Motion fitted(const Vector3d& position, const Reached& nodes) const {
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
     Eigen::Matrix<double, 4, 6> right = Eigen::Matrix<double, 4, 6>::Zero();
     // ascending slots: the sums are the same in every run
     for (const uint32_t slot : sorted(nodes)) {
-      const Vector3d way = lattice_.nodeAt(slot).cast<double>() - place;
-      const double weight = 1 / (way.squaredNorm() + kNearest_sq);
-      const Eigen::Vector4d basis(1, way.x(), way.y(), way.z());
+      const Vector3d offset = lattice_.nodeAt(slot).cast<double>() - position;
+      const double weight = 1 / (offset.squaredNorm() + kNearest_sq);
+      const Eigen::Vector4d basis(1, offset.x(), offset.y(), offset.z());
       const Motion motion = of(slot);
       Eigen::Matrix<double, 6, 1> value;
       value << motion.displacement_m, motion.velocity_m_per_s;
@@ -231,9 +232,9 @@ class NewLattice {
   void take(const OldLattice& old) {
     std::vector<bool> lost(lattice_.nodes.size());
     for (const uint32_t slot : lattice_.active_slots) {
-      const Vector3d place = old.placeOf(lattice_.restPosition(slot));
-      const Motion motion = old.motionAt(place);
-      const int64_t next = old.nearest(place);
+      const Vector3d position = old.positionOf(lattice_.restPosition(slot));
+      const Motion motion = old.motionAt(position);
+      const int64_t next = old.nearest(position);
       lost[slot] = next >= 0 && old.isLost(static_cast<uint32_t>(next));
       if (isFixed(state_.nodes[offset_ + slot]) || lost[slot]) continue;
       set(state_.displacement_m[offset_ + slot], motion.displacement_m);
@@ -241,14 +242,14 @@ class NewLattice {
     }
     if (!old.isCut()) return;
     for (const uint32_t slot : lattice_.active_slots) {
-      const Vector3d place = old.placeOf(lattice_.restPosition(slot));
+      const Vector3d position = old.positionOf(lattice_.restPosition(slot));
       for (uint32_t spring = 0; spring < layout::kSpringsPerNode; spring += 2) {
         const int64_t there = lattice_.neighborSlot(slot, spring);
         if (there < 0 || springCount(lattice_.nodes[slot], spring) == 0) continue;
         const bool end_lost = lost[slot] || lost[static_cast<size_t>(there)];
-        const float share = end_lost
-                                ? layout::kErasedShare
-                                : old.cutShare(place, old.placeOf(lattice_.restPosition(static_cast<uint32_t>(there))));
+        const float share =
+            end_lost ? layout::kErasedShare
+                     : old.cutShare(position, old.positionOf(lattice_.restPosition(static_cast<uint32_t>(there))));
         if (share > 0) cut(slot, static_cast<uint32_t>(there), spring, share);
       }
     }
@@ -266,10 +267,10 @@ class NewLattice {
     setSpringCount(of_b, oppositeSpring(spring), 0);
     of_a.lo |= layout::kSeveredBit;
     of_b.lo |= layout::kSeveredBit;
-    const Vector3i way(kNeighborOffsets[spring][0], kNeighborOffsets[spring][1], kNeighborOffsets[spring][2]);
+    const Vector3i offset(kNeighborOffsets[spring][0], kNeighborOffsets[spring][1], kNeighborOffsets[spring][2]);
     const Vector3i node = lattice_.nodeAt(a);
     for (int c = 0; c < 8; ++c) {
-      const Vector3i corner(c & 1, (c >> 1) & 1, (c >> 2) & 1), other = corner + way;
+      const Vector3i corner(c & 1, (c >> 1) & 1, (c >> 2) & 1), other = corner + offset;
       if (other.minCoeff() < 0 || other.maxCoeff() > 1) continue;
       const int64_t cell = lattice_.slotAt(node - corner);
       if (cell >= 0) state_.nodes[offset_ + static_cast<uint32_t>(cell)].lo &= ~layout::kCellBit;

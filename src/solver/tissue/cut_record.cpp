@@ -13,15 +13,15 @@ CutRecord::CutRecord(const Model& model, const JoinedNetwork& network, const Fea
     const uint32_t from_a = network.links[ends.link_a].lattice_spring & layout::kLatticeSpringMask;
     if (from_a >= layout::kAxialSprings) continue;
     const bool forward = from_a % 2 == 0;
-    places_.push_back({i, 3 * (forward ? ends.a : ends.b) + from_a / 2, forward});
+    entries_.push_back({i, 3 * (forward ? ends.a : ends.b) + from_a / 2, forward});
   }
-  if (features.lattice || !places_.empty()) size_ = 3 * model.slots();
+  if (features.lattice || !entries_.empty()) size_ = 3 * model.slots();
 }
 
 void CutRecord::addExplicit(const std::vector<float>& spring_cut, std::vector<float>& axial_cut) const {
-  for (const Place& place : places_) {
-    const float cut = spring_cut[place.spring];
-    axial_cut[place.at] = place.forward || cut == 0 || cut >= layout::kErasedShare ? cut : 1 - cut;
+  for (const Entry& entry : entries_) {
+    const float cut = spring_cut[entry.spring];
+    axial_cut[entry.at] = entry.forward || cut == 0 || cut >= layout::kErasedShare ? cut : 1 - cut;
   }
 }
 

@@ -21,12 +21,12 @@ class CutRecord {
   void addExplicit(const std::vector<float>& spring_cut, std::vector<float>& axial_cut) const;
 
  private:
-  struct Place {
+  struct Entry {
     uint32_t spring, at;  ///< indices into spring_cut and into axial_cut
     bool forward;         ///< the spring points along its axis from a to b
   };
   size_t size_ = 0;
-  std::vector<Place> places_;
+  std::vector<Entry> entries_;
 };
 
 }  // namespace viscera

@@ -90,19 +90,19 @@ Strengths allStrengths(const Model& model) {
 namespace {
 
 /// Returns a node's word as defined in surface_offsets.h.
-uint32_t packedWay(const Lattice& lattice, uint32_t slot) {
+uint32_t packedOffset(const Lattice& lattice, uint32_t slot) {
   const Vector3d cells = lattice.offset_to_surface_m[slot].cast<double>() / lattice.spacing_m;
   uint32_t word = 0;
   bool any = false;
   for (int axis = 0; axis < 3; ++axis) {
     const long steps =
-        std::clamp(std::lround(cells[axis] / layout::kWayStep), 1l - layout::kWayZero, layout::kWayZero - 1l);
-    word |= static_cast<uint32_t>(steps + layout::kWayZero) << (layout::kWayBits * static_cast<uint32_t>(axis));
+        std::clamp(std::lround(cells[axis] / layout::kOffsetStep), 1l - layout::kOffsetZero, layout::kOffsetZero - 1l);
+    word |= static_cast<uint32_t>(steps + layout::kOffsetZero) << (layout::kOffsetBits * static_cast<uint32_t>(axis));
     if (steps == 0) continue;
     any = true;
     Vector3i beside = lattice.nodeAt(slot);
     beside[axis] += steps > 0 ? 1 : -1;
-    if (lattice.slotAt(beside) >= 0) word |= layout::kWayEdgeBit << static_cast<uint32_t>(axis);
+    if (lattice.slotAt(beside) >= 0) word |= layout::kOffsetEdgeBit << static_cast<uint32_t>(axis);
   }
   return any ? word : 0;
 }
@@ -174,7 +174,7 @@ float edgeReach(const Model& model) {
 }
 
 std::vector<uint32_t> surfaceOffsets(const Model& model) {
-  return atSurface<uint32_t>(model, packedWay);
+  return atSurface<uint32_t>(model, packedOffset);
 }
 
 bool hasCellPrestress(const Model& model) {

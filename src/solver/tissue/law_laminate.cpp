@@ -57,19 +57,19 @@ Vector3d laminateJump(const LawLaminate& laminate, const Eigen::Matrix3d& f, dou
                           jumpEnergy(laminate, f, stiffening, a - by).gradient) /
                          (2 * kJumpDifference);
     }
-    Vector3d way = -curvature.partialPivLu().solve(now.gradient);
-    if (!(way.dot(now.gradient) < 0)) way = -now.gradient;
+    Vector3d direction = -curvature.partialPivLu().solve(now.gradient);
+    if (!(direction.dot(now.gradient) < 0)) direction = -now.gradient;
     // Where energies differ only by rounding, the gradient decides.
     const auto isBetter = [&](const JumpEnergy& next) {
       return next.value < now.value || next.gradient.norm() < 0.5 * now.gradient.norm();
     };
-    JumpEnergy next = jumpEnergy(laminate, f, stiffening, a + way);
-    while (!isBetter(next) && way.norm() > kLeastStep) {
-      way *= 0.5;
-      next = jumpEnergy(laminate, f, stiffening, a + way);
+    JumpEnergy next = jumpEnergy(laminate, f, stiffening, a + direction);
+    while (!isBetter(next) && direction.norm() > kLeastStep) {
+      direction *= 0.5;
+      next = jumpEnergy(laminate, f, stiffening, a + direction);
     }
-    if (way.norm() <= kLeastStep) break;
-    a += way;
+    if (direction.norm() <= kLeastStep) break;
+    a += direction;
     now = next;
   }
   return a;

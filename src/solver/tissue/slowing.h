@@ -13,10 +13,10 @@ constexpr float kSlowingKeeps = 0.9f;
 /// Returns the largest displacement of such a node in a substep, over the spacing of its body. With it energy falls,
 /// and no force carries a node past its neighbours, however much too stiff a strained cell is for the substep.
 /// @param setbacks  consecutive roll-backs: a slowed tick that was bad is retried with a smaller displacement
-inline float slowedWay(int setbacks) {
-  constexpr float kMostWay = 0.05f;
+inline float slowedStep(int setbacks) {
+  constexpr float kMostStep = 0.05f;
   constexpr int kMostHalvings = 8;
-  return std::ldexp(kMostWay, -std::clamp(setbacks - 1, 0, kMostHalvings));
+  return std::ldexp(kMostStep, -std::clamp(setbacks - 1, 0, kMostHalvings));
 }
 
 }  // namespace viscera

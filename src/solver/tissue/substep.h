@@ -18,7 +18,7 @@ struct Substep {
   bool tools = false;            ///< a probe or held nodes may act: the kernel with tools is used
   bool restarted = false;        ///< the state was written from outside since the last substep
   int index = 0;                 ///< index among the tick's substeps
-  float most_way = 0;            ///< slowing.h, in a recovery: largest displacement of a node, over its body's spacing
+  float most_step = 0;           ///< slowing.h, in a recovery: largest displacement of a node, over its body's spacing
   bool implicit = false;         ///< implicit Euler: external effects are part of the solution
   const layout::ObstacleMotion* obstacles = nullptr;  ///< [kMaxObstacles], of which obstacle_count exist
   uint32_t obstacle_count = 0;

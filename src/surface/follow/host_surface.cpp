@@ -22,9 +22,9 @@ using layout::SplitEdge;  // not the model's type
 /// Displacements of the bricks of a snapshot, as a shader's buffer of vec4.
 struct Shown {
   const float* first = nullptr;
-  const uint* places = nullptr;  ///< [bricks] place of a brick in the snapshot
+  const uint* positions = nullptr;  ///< [bricks] place of a brick in the snapshot
   vec4 operator[](uint slot) const {
-    const float* const at = first + kBrickFloats * places[slot >> 6] + (slot & 63u);
+    const float* const at = first + kBrickFloats * positions[slot >> 6] + (slot & 63u);
     return {at[0], at[64], at[128], 0};
   }
 };
@@ -136,7 +136,7 @@ struct HostSurface::Buffers : glsl::SkinKernel {
     bodies = of.bodies_.data();
     rest_m = of.rest_m_.data();
     nodes = snapshot.nodes.data();
-    displacement = {snapshot.displacement_m.data(), of.brick_places_.data()};
+    displacement = {snapshot.displacement_m.data(), of.brick_positions_.data()};
     node_normals = {of.node_normals_.data()};
     skin = of.wounds_ ? of.wounds_->bindings().data() : of.skins_.bindings.data();
     triangles = of.shown_.indices().data();
@@ -162,8 +162,8 @@ HostSurface::HostSurface(const Model& model, MovedNormals normals)
   std::vector<uint32_t> splits = splitsOf(skins_);
   shown_ = VisibleTriangles(model, vertices(), std::move(skins_.triangles), std::move(splits));
   alive_.assign(shown_.count(), layout::kShownWhole);
-  brick_places_.resize(bricks_.size());
-  for (uint32_t i = 0; i < shown_bricks_.size(); ++i) brick_places_[shown_bricks_[i]] = i;
+  brick_positions_.resize(bricks_.size());
+  for (uint32_t i = 0; i < shown_bricks_.size(); ++i) brick_positions_[shown_bricks_[i]] = i;
 }
 
 void HostSurface::reset() {

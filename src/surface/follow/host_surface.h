@@ -40,7 +40,7 @@ class HostSurface {
   JoinedSkins skins_;
   std::unique_ptr<Wounds> wounds_;  ///< null where no body with an inside can be cut
   VisibleTriangles shown_;
-  std::vector<uint32_t> shown_bricks_, brick_places_, alive_;
+  std::vector<uint32_t> shown_bricks_, brick_positions_, alive_;
   std::vector<layout::Brick> bricks_;
   std::vector<layout::BodyParams> bodies_;
   std::vector<layout::vec4> rest_m_, node_normals_;

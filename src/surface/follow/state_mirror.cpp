@@ -17,7 +17,7 @@ namespace viscera {
 StateMirror::StateMirror(const Model& model)
     : bricks_(allBricks(model)),
       shown_(viscera::shownBricks(model)),
-      places_(bricks_.size()),
+      positions_(bricks_.size()),
       known_m_(kBrickFloats * shown_.size()),
       stale_(bricks_.size(), revision_),
       displacement_(model.slots(), "shown displacement"),
@@ -25,7 +25,7 @@ StateMirror::StateMirror(const Model& model)
       brick_buffer_(bricks_, "shown bricks"),
       bodies_(layout::kMaxBodies),
       stale_buffer_(stale_) {
-  for (uint32_t i = 0; i < shown_.size(); ++i) places_[shown_[i]] = i;
+  for (uint32_t i = 0; i < shown_.size(); ++i) positions_[shown_[i]] = i;
   run_.reserve(layout::kBrickSlots * shown_.size());
   bodies_.write(bodyParams(model, 0));  // kernels here read only places and spacings
   if (!model.hasNetwork()) return;

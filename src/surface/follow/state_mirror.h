@@ -26,7 +26,7 @@ class StateMirror {
   void upload(const StateSnapshot& snapshot);
   StateView view() const;
   /// Returns the displacements of shownBricks() as uploaded last.
-  HostDisplacements displacements() const { return HostDisplacements::ofBricks(known_m_.data(), places_.data()); }
+  HostDisplacements displacements() const { return HostDisplacements::ofBricks(known_m_.data(), positions_.data()); }
   uint64_t movedBricks() const { return moved_bricks_; }  ///< bricks that had moved, over all uploads
 
  private:
@@ -38,9 +38,9 @@ class StateMirror {
   uint32_t revision_ = 1, moved_revision_ = 1;
   std::vector<layout::Brick> bricks_;
   std::vector<uint32_t> shown_;
-  std::vector<uint32_t> places_;   ///< [bricks] place of a brick in known_m_
-  std::vector<float> known_m_;     ///< [192 * shown] of the last snapshot
-  std::vector<layout::vec4> run_;  ///< consecutive bricks on the GPU that are to be uploaded
+  std::vector<uint32_t> positions_;  ///< [bricks] place of a brick in known_m_
+  std::vector<float> known_m_;       ///< [192 * shown] of the last snapshot
+  std::vector<layout::vec4> run_;    ///< consecutive bricks on the GPU that are to be uploaded
   uint32_t run_begin_ = 0, run_end_ = 0;
   std::vector<uint32_t> stale_;  ///< [bricks], see StateView::stale_bricks
   gpu::Buffer<layout::vec4> displacement_;

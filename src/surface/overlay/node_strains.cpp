@@ -48,7 +48,7 @@ NodeStrains::NodeStrains(const Model& model, Mean mean) : nodes_(model.slots(), 
     links_ = gpu::Buffer<layout::OverlayLink>(links.links, "overlay links");
     features.emplace_back("NETWORK");
   }
-  place_ = surfaceKernel("overlay_nodes.comp", features);
+  position_ = surfaceKernel("overlay_nodes.comp", features);
 }
 
 void NodeStrains::follow(const StateView& state) {
@@ -63,7 +63,7 @@ void NodeStrains::follow(const StateView& state) {
     links_.bindStorage(layout::kBindOverlayLinks);
   }
   nodes_.bindStorage(layout::kBindOverlayNodes);
-  runOver(place_, nodes_.size());
+  runOver(position_, nodes_.size());
   gpu::Program::storageBarrier();
 }
 

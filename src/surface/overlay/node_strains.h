@@ -25,7 +25,7 @@ class NodeStrains {
   gpu::Buffer<layout::vec4> nodes_;
   gpu::Buffer<uint32_t> link_starts_;  ///< of networks
   gpu::Buffer<layout::OverlayLink> links_;
-  gpu::Program place_;
+  gpu::Program position_;
 };
 
 }  // namespace viscera

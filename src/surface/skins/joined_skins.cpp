@@ -24,22 +24,22 @@ std::vector<uint32_t> ringStarts(const TriangleMesh& mesh) {
 }
 
 /// Returns the vertex of a split edge at its end a or b; these follow the body's own vertices.
-uint32_t splitVertex(const Skin& skin, const NetworkSkins::Place& place, uint32_t edge, bool at_b) {
-  return place.vertex + static_cast<uint32_t>(skin.bindings.size()) + 2 * edge + (at_b ? 1 : 0);
+uint32_t splitVertex(const Skin& skin, const NetworkSkins::Offsets& offsets, uint32_t edge, bool at_b) {
+  return offsets.vertex + static_cast<uint32_t>(skin.bindings.size()) + 2 * edge + (at_b ? 1 : 0);
 }
 
-layout::SplitTriangle splitTriangle(const Skin& skin, const NetworkSkins::Place& place, uint32_t t) {
+layout::SplitTriangle splitTriangle(const Skin& skin, const NetworkSkins::Offsets& offsets, uint32_t t) {
   layout::SplitTriangle out{};
-  out.triangle = place.triangle + t;
+  out.triangle = offsets.triangle + t;
   for (size_t i = 0; i < 3; ++i) {
     const uint32_t corner = skin.mesh.triangles[t][i], e = skin.triangle_edges[t][i];
-    out.slots[i] = place.slot + skin.bindings[corner].slot0;
+    out.slots[i] = offsets.slot + skin.bindings[corner].slot0;
     out.springs[i] = layout::kNoSpring;
     if (e == kNoSplitEdge) continue;
     const bool backwards = skin.split_edges[e].a != corner;
-    out.springs[i] = place.spring + skin.split_edges[e].spring;
-    out.vertices[2 * i] = splitVertex(skin, place, e, backwards);
-    out.vertices[2 * i + 1] = splitVertex(skin, place, e, !backwards);
+    out.springs[i] = offsets.spring + skin.split_edges[e].spring;
+    out.vertices[2 * i] = splitVertex(skin, offsets, e, backwards);
+    out.vertices[2 * i + 1] = splitVertex(skin, offsets, e, !backwards);
   }
   return out;
 }
@@ -50,54 +50,54 @@ bool isOneToOne(const Body& body) {
   return !body.hasCells();
 }
 
-void NetworkSkins::append(const Body& body, const Place& place) {
+void NetworkSkins::append(const Body& body, const Offsets& offsets) {
   const auto first_ring_vertex = static_cast<uint32_t>(vertices.size());
-  appendRings(body.skin, place);
-  if (!body.skin.split_edges.empty()) appendSplits(body.skin, place, first_ring_vertex);
+  appendRings(body.skin, offsets);
+  if (!body.skin.split_edges.empty()) appendSplits(body.skin, offsets, first_ring_vertex);
 }
 
-void NetworkSkins::appendRings(const Skin& skin, const Place& place) {
+void NetworkSkins::appendRings(const Skin& skin, const Offsets& offsets) {
   const auto first = static_cast<uint32_t>(rings.size());
   const std::vector<uint32_t> starts = ringStarts(skin.mesh);
   for (uint32_t v = 0; v < skin.bindings.size(); ++v) {
     const layout::SkinBinding& binding = skin.bindings[v];
-    vertices.push_back({place.vertex + v, place.slot + binding.slot0, first + starts[v], first + starts[v + 1],
+    vertices.push_back({offsets.vertex + v, offsets.slot + binding.slot0, first + starts[v], first + starts[v + 1],
                         binding.normal_constant});
   }
   std::vector<uint32_t> next(starts.begin(), starts.end() - 1);
   rings.resize(first + starts.back());
-  const auto slot = [&](uint32_t vertex) { return place.slot + skin.bindings[vertex].slot0; };
+  const auto slot = [&](uint32_t vertex) { return offsets.slot + skin.bindings[vertex].slot0; };
   for (uint32_t t = 0; t < skin.mesh.triangles.size(); ++t) {
     const std::array<uint32_t, 3>& corners = skin.mesh.triangles[t];
     for (size_t i = 0; i < 3; ++i) {
-      rings[first + next[corners[i]]++] = {slot(corners[(i + 1) % 3]), slot(corners[(i + 2) % 3]), place.triangle + t,
+      rings[first + next[corners[i]]++] = {slot(corners[(i + 1) % 3]), slot(corners[(i + 2) % 3]), offsets.triangle + t,
                                            0};
     }
   }
 }
 
-void NetworkSkins::appendSplits(const Skin& skin, const Place& place, uint32_t first_ring_vertex) {
+void NetworkSkins::appendSplits(const Skin& skin, const Offsets& offsets, uint32_t first_ring_vertex) {
   for (uint32_t e = 0; e < skin.split_edges.size(); ++e) {
     const SplitEdge& edge = skin.split_edges[e];
-    edges.push_back({first_ring_vertex + edge.a, first_ring_vertex + edge.b, place.spring + edge.spring,
-                     splitVertex(skin, place, e, false)});
+    edges.push_back({first_ring_vertex + edge.a, first_ring_vertex + edge.b, offsets.spring + edge.spring,
+                     splitVertex(skin, offsets, e, false)});
   }
-  for (uint32_t t = 0; t < skin.triangle_edges.size(); ++t) triangles.push_back(splitTriangle(skin, place, t));
+  for (uint32_t t = 0; t < skin.triangle_edges.size(); ++t) triangles.push_back(splitTriangle(skin, offsets, t));
 }
 
-void JoinedSkins::append(const Body& body, const NetworkSkins::Place& place, MovedNormals normals) {
+void JoinedSkins::append(const Body& body, const NetworkSkins::Offsets& offsets, MovedNormals normals) {
   const Skin& skin = body.skin;
   if (isOneToOne(body)) {
     any_one_to_one = true;
-    networks.append(body, place);
+    networks.append(body, offsets);
   } else {
     any_bound = true;
-    appendNormalNodes(body, place.slot, normals);
+    appendNormalNodes(body, offsets.slot, normals);
   }
-  appendBindings(skin, place.slot);
-  appendTriangles(skin, place);
+  appendBindings(skin, offsets.slot);
+  appendTriangles(skin, offsets);
   appendRests(skin);
-  appendCharts(skin, place);
+  appendCharts(skin, offsets);
   const std::vector<uint32_t> own_colors = vertexColors(skin.mesh, body.color, skin.two_sided, bodies_++);
   colors.insert(colors.end(), own_colors.begin(), own_colors.end());
   for (const SplitEdge& edge : skin.split_edges) {
@@ -142,9 +142,9 @@ void JoinedSkins::appendNormalNodes(const Body& body, uint32_t slot_offset, Move
   }
 }
 
-void JoinedSkins::appendTriangles(const Skin& skin, const NetworkSkins::Place& place) {
+void JoinedSkins::appendTriangles(const Skin& skin, const NetworkSkins::Offsets& offsets) {
   for (const auto& corners : skin.mesh.triangles) {
-    for (const uint32_t v : corners) triangles.push_back(v + place.vertex);
+    for (const uint32_t v : corners) triangles.push_back(v + offsets.vertex);
   }
 }
 
@@ -159,10 +159,10 @@ void JoinedSkins::appendRests(const Skin& skin) {
   }
 }
 
-void JoinedSkins::appendCharts(const Skin& skin, const NetworkSkins::Place& place) {
-  const size_t all = place.triangle + skin.mesh.triangles.size();
+void JoinedSkins::appendCharts(const Skin& skin, const NetworkSkins::Offsets& offsets) {
+  const size_t all = offsets.triangle + skin.mesh.triangles.size();
   if (!skin.mesh.charts.empty()) {
-    charts.resize(place.triangle, kNoChart);  // of the bodies before, which have none
+    charts.resize(offsets.triangle, kNoChart);  // of the bodies before, which have none
     for (const uint32_t chart : skin.mesh.charts) charts.push_back(chart == kNoChart ? chart : chart + charts_before_);
   } else if (!charts.empty()) {
     charts.resize(all, kNoChart);

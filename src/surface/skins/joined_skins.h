@@ -22,14 +22,14 @@ struct NetworkSkins {
   std::vector<layout::SplitTriangle> triangles;  ///< of bodies that can be cut
 
   /// Where the body begins in the buffers of Surface. Its split vertices follow its own.
-  struct Place {
+  struct Offsets {
     uint32_t slot = 0, vertex = 0, triangle = 0, spring = 0;
   };
-  void append(const Body& body, const Place& place);
+  void append(const Body& body, const Offsets& offsets);
 
  private:
-  void appendRings(const Skin& skin, const Place& place);
-  void appendSplits(const Skin& skin, const Place& place, uint32_t first_ring_vertex);
+  void appendRings(const Skin& skin, const Offsets& offsets);
+  void appendSplits(const Skin& skin, const Offsets& offsets, uint32_t first_ring_vertex);
 };
 
 /// How approximate normals follow the tissue where vertices are turned by them (docs/surface.md): carried with the
@@ -50,14 +50,14 @@ struct JoinedSkins {
   bool any_bound = false, any_one_to_one = false;
   uint32_t kinds = 0;  ///< bits of SkinBinding.springs that occur in a lattice's surface mesh
 
-  void append(const Body& body, const NetworkSkins::Place& place, MovedNormals normals);
+  void append(const Body& body, const NetworkSkins::Offsets& offsets, MovedNormals normals);
 
  private:
   void appendBindings(const Skin& skin, uint32_t slot_offset);
   void appendNormalNodes(const Body& body, uint32_t slot_offset, MovedNormals normals);
-  void appendTriangles(const Skin& skin, const NetworkSkins::Place& place);
+  void appendTriangles(const Skin& skin, const NetworkSkins::Offsets& offsets);
   void appendRests(const Skin& skin);
-  void appendCharts(const Skin& skin, const NetworkSkins::Place& place);
+  void appendCharts(const Skin& skin, const NetworkSkins::Offsets& offsets);
   uint32_t charts_before_ = 0, bodies_ = 0;  ///< of the bodies so far
 };
 JoinedSkins joinSkins(const Model& model, MovedNormals normals = MovedNormals::kCarried);

@@ -14,7 +14,7 @@ namespace {
 constexpr double kBesideOwn = 0.15;  // cells: a lip this near a vertex of the surface mesh is bound to the same nodes
 
 layout::SkinBinding bind(const CutCells& cells, const WoundVertex& vertex) {
-  return bindToSide(cells, vertex.point, vertex.normal, vertex.place);
+  return bindToSide(cells, vertex.point, vertex.normal, vertex.position);
 }
 
 }  // namespace
@@ -34,7 +34,7 @@ void BodyWound::bindSkin() {
     const bool beside =
         skin_.isRebound(own) && (vertex.point - skin_.pointOf(own)).squaredNorm() < kBesideOwn * kBesideOwn;
     if (skin_.isEnd(skin_.ownCount() + i)) {
-      lip_bindings_[i] = bindAcross(cells_, vertex.point, vertex.normal, vertex.place);
+      lip_bindings_[i] = bindAcross(cells_, vertex.point, vertex.normal, vertex.position);
     } else if (beside) {
       lip_bindings_[i] = bindLike(bindings_[own], cells_, vertex.point, vertex.normal);
     } else {
@@ -83,7 +83,7 @@ void BodyWound::follow() {
   walls_.update(cells_, skin_);
   bindSkin();
   bindWalls();
-  work_ = {cells_.changedCells().size(), skin_.looks(), walls_.trianglesMade() - made, walls_.pointsTried(),
+  work_ = {cells_.changedCells().size(), skin_.visitedCount(), walls_.trianglesMade() - made, walls_.pointsTried(),
            skin_.lookedAt().size() + skin_.lookedAtAdded().size() + walls_.changed().size()};
   // Copies; their cost grows with the wound. Added vertices follow the own ones, those of walls follow those of lips.
   const size_t own = own_bindings_.size(), first_wall = firstWallVertex();

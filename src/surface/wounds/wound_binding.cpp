@@ -52,8 +52,8 @@ uint32_t neighborOf(const CutCells& cells, uint32_t slot, uint32_t spring) {
 
 /// Visits triangles of a cell that `take(corner)` and `hold(slot, spring)` accept.
 template <class Take, class Hold, class Visit>
-void forEachInCell(const CutCells& cells, const WoundPlace& place, Take take, Hold hold, Visit visit) {
-  const Vector3i at = cells.lattice().nodeAt(place.cell);
+void forEachInCell(const CutCells& cells, const WoundPoint& position, Take take, Hold hold, Visit visit) {
+  const Vector3i at = cells.lattice().nodeAt(position.cell);
   for (int c = 0; c < 8; ++c) {
     if (!take(static_cast<size_t>(c))) continue;
     const auto slot = static_cast<uint32_t>(cells.slotAt(at + Vector3i(c & 1, c >> 1 & 1, c >> 2)));
@@ -70,11 +70,11 @@ void forEachInCell(const CutCells& cells, const WoundPlace& place, Take take, Ho
 
 /// Visits those on one side of the wound.
 template <class Visit>
-void forEachOfSide(const CutCells& cells, const WoundPlace& place, Visit visit) {
-  const CutCell* const cut = cells.find(place.cell);
-  const auto side = cut == nullptr ? 0 : cut->component[static_cast<size_t>(std::max(0, cut->cornerOf(place.node)))];
+void forEachOfSide(const CutCells& cells, const WoundPoint& position, Visit visit) {
+  const CutCell* const cut = cells.find(position.cell);
+  const auto side = cut == nullptr ? 0 : cut->component[static_cast<size_t>(std::max(0, cut->cornerOf(position.node)))];
   forEachInCell(
-      cells, place, [&](size_t corner) { return cut == nullptr || cut->component[corner] == side; },
+      cells, position, [&](size_t corner) { return cut == nullptr || cut->component[corner] == side; },
       [&](uint32_t slot, uint32_t spring) { return cells.isAlive(slot, spring); }, visit);
 }
 
@@ -145,24 +145,25 @@ layout::SkinBinding bindingOf(const Candidate& best, const Fit& fit, const CutCe
 }  // namespace
 
 layout::SkinBinding bindToSide(const CutCells& cells, const Vector3d& point, const Vector3d& normal,
-                               const WoundPlace& place) {
+                               const WoundPoint& position) {
   Candidate best;
   Fit fit;
   const auto consider = [&](const Candidate& candidate) {
     Fit next = fitOf(candidate, cells, point);
-    const bool own = candidate.slot0 == place.node || candidate.slot1 == place.node || candidate.slot2 == place.node;
+    const bool own =
+        candidate.slot0 == position.node || candidate.slot1 == position.node || candidate.slot2 == position.node;
     if (!own) next.cost += kOtherNode;
     if (next.cost >= fit.cost) return;
     fit = next;
     best = candidate;
   };
-  forEachOfSide(cells, place, consider);
-  if (fit.cost == std::numeric_limits<double>::infinity()) forEachAtNode(cells, place.node, consider);
+  forEachOfSide(cells, position, consider);
+  if (fit.cost == std::numeric_limits<double>::infinity()) forEachAtNode(cells, position.node, consider);
   return bindingOf(best, fit, cells, point, normal);
 }
 
 layout::SkinBinding bindAcross(const CutCells& cells, const Vector3d& point, const Vector3d& normal,
-                               const WoundPlace& place) {
+                               const WoundPoint& position) {
   Candidate best;
   Fit fit;
   const auto consider = [&](const Candidate& candidate) {
@@ -172,7 +173,7 @@ layout::SkinBinding bindAcross(const CutCells& cells, const Vector3d& point, con
     best = candidate;
   };
   forEachInCell(
-      cells, place, [](size_t) { return true; }, [](uint32_t, uint32_t) { return true; }, consider);
+      cells, position, [](size_t) { return true; }, [](uint32_t, uint32_t) { return true; }, consider);
   return bindingOf(best, fit, cells, point, normal);
 }
 

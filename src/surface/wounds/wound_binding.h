@@ -14,11 +14,11 @@ namespace viscera {
 /// are equal, and the point translates with it.
 /// @param point  in cells from the lattice's origin   @param normal  unit, at rest
 layout::SkinBinding bindToSide(const CutCells& cells, const Vector3d& point, const Vector3d& normal,
-                               const WoundPlace& place);
+                               const WoundPoint& position);
 
 /// Binds the end of a wound, which both of its sides share, to the nearest triangle of its cell as if it were intact.
 layout::SkinBinding bindAcross(const CutCells& cells, const Vector3d& point, const Vector3d& normal,
-                               const WoundPlace& place);
+                               const WoundPoint& position);
 
 /// Binds a point to the triangle of nodes of another binding, so that nothing can fold between the two.
 layout::SkinBinding bindLike(const layout::SkinBinding& other, const CutCells& cells, const Vector3d& point,

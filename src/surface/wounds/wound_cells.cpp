@@ -30,22 +30,22 @@ int edgeAt(int axis, int corner) {
   return 4 * axis + (corner >> u & 1) + 2 * (corner >> v & 1);
 }
 
-Vector3f placeOnEdge(int edge, float share) {
+Vector3f positionOnEdge(int edge, float share) {
   const int low = edgeCorners(edge)[0];
-  Vector3f place(static_cast<float>(low & 1), static_cast<float>(low >> 1 & 1), static_cast<float>(low >> 2));
-  place[edge / 4] = share;
-  return place;
+  Vector3f position(static_cast<float>(low & 1), static_cast<float>(low >> 1 & 1), static_cast<float>(low >> 2));
+  position[edge / 4] = share;
+  return position;
 }
 
 /// Returns the axis of the face through which a direction from a point leaves the unit cube (in two dimensions:
 /// square), and the multiple of the direction to there. Returns -1 for a direction of almost no length.
 template <int Dimensions>
-std::pair<int, float> wayOut(const Eigen::Matrix<float, Dimensions, 1>& from,
-                             const Eigen::Matrix<float, Dimensions, 1>& way) {
+std::pair<int, float> exit(const Eigen::Matrix<float, Dimensions, 1>& from,
+                           const Eigen::Matrix<float, Dimensions, 1>& direction) {
   std::pair<int, float> out(-1, std::numeric_limits<float>::infinity());
   for (int axis = 0; axis < Dimensions; ++axis) {
-    if (std::abs(way[axis]) < kNowhere) continue;
-    const float reach = ((way[axis] > 0 ? 1.0F : 0.0F) - from[axis]) / way[axis];
+    if (std::abs(direction[axis]) < kNowhere) continue;
+    const float reach = ((direction[axis] > 0 ? 1.0F : 0.0F) - from[axis]) / direction[axis];
     if (reach < out.second) out = {axis, reach};
   }
   return out;
@@ -62,16 +62,17 @@ int CutCell::cornerOf(uint32_t slot) const {
   return found == slots.end() ? -1 : static_cast<int>(found - slots.begin());
 }
 
-int CutCell::cornerAt(const Vector3f& place) const {
-  const auto [normal, to_face] = wayOut<3>(centre, place - centre);
+int CutCell::cornerAt(const Vector3f& position) const {
+  const auto [normal, to_face] = exit<3>(centre, position - centre);
   if (normal < 0) return 0;
-  const Vector3f way = place - centre;
-  const int side = way[normal] > 0 ? 1 : 0;
+  const Vector3f direction = position - centre;
+  const int side = direction[normal] > 0 ? 1 : 0;
   const auto axes = axesOf(normal);
   const Eigen::Vector2f& middle = face_centre[2 * static_cast<size_t>(normal) + static_cast<size_t>(side)];
   const Eigen::Vector2f along =
-      Eigen::Vector2f(centre[axes[0]] + to_face * way[axes[0]], centre[axes[1]] + to_face * way[axes[1]]) - middle;
-  const auto [across, to_edge] = wayOut<2>(middle, along);
+      Eigen::Vector2f(centre[axes[0]] + to_face * direction[axes[0]], centre[axes[1]] + to_face * direction[axes[1]]) -
+      middle;
+  const auto [across, to_edge] = exit<2>(middle, along);
   int corner = side << normal;
   if (across < 0) return corner;
   const int other = 1 - across, last = axes[static_cast<size_t>(other)];
@@ -129,7 +130,7 @@ bool CutCells::isCut(uint32_t low, uint32_t high, int axis) const {
          !(isGone(low) && isGone(high));
 }
 
-void CutCells::lookAt(uint32_t lowest) {
+void CutCells::updateCell(uint32_t lowest) {
   CutCell cell;
   cell.at = lattice_.nodeAt(lowest);
   for (int c = 0; c < 8; ++c)
@@ -173,13 +174,13 @@ void CutCells::complete(CutCell& cell) const {
     }
     const float share = axial_cut_[3 * size_t{cell.slots[static_cast<size_t>(low)]} + static_cast<size_t>(e / 4)];
     if (share > 0 && share < 1) cell.crossed[static_cast<size_t>(e)] = share;
-    const Vector3f place = placeOnEdge(e, cell.crossed[static_cast<size_t>(e)]);
-    sum += place;
+    const Vector3f position = positionOnEdge(e, cell.crossed[static_cast<size_t>(e)]);
+    sum += position;
     ++count;
     for (const int axis : axesOf(e / 4)) {
       const auto face = static_cast<size_t>(2 * axis + (low >> axis & 1));
       const auto axes = axesOf(axis);
-      face_sum[face] += Eigen::Vector2f(place[axes[0]], place[axes[1]]);
+      face_sum[face] += Eigen::Vector2f(position[axes[0]], position[axes[1]]);
       ++on_face[face];
     }
   }
@@ -241,7 +242,7 @@ void CutCells::update(const layout::NodeBits* nodes, const float* axial_cut) {
       seen_[cell] = mark_;
       keepRoom(changed_cells_, changed_cells_.size() + 1);
       changed_cells_.push_back(cell);
-      lookAt(cell);
+      updateCell(cell);
     }
   }
 }
@@ -269,24 +270,25 @@ Vector3i CutCells::nearestCell(const Vector3d& point) const {
   return nearest;
 }
 
-WoundPlace CutCells::placeOf(const Vector3d& point) const {
+WoundPoint CutCells::positionOf(const Vector3d& point) const {
   Vector3i home = point.array().floor().cast<int>();
   int64_t lowest = slotAt(home);
   if (lowest < 0 || lattice_.cell_labels[static_cast<size_t>(lowest)] == 0) {
     home = nearestCell(point);
     lowest = slotAt(home);
   }
-  WoundPlace place;
-  if (lowest < 0) return place;  // nothing within three cells: callers have no surface there
-  place.cell = static_cast<uint32_t>(lowest);
-  place.within = (point - home.cast<double>()).cwiseMax(0.0).cwiseMin(1.0).cast<float>();
-  if (const CutCell* const cell = find(place.cell)) {
-    place.node = cell->slots[static_cast<size_t>(cell->cornerAt(place.within))];
-    return place;
+  WoundPoint position;
+  if (lowest < 0) return position;  // nothing within three cells: callers have no surface there
+  position.cell = static_cast<uint32_t>(lowest);
+  position.within = (point - home.cast<double>()).cwiseMax(0.0).cwiseMin(1.0).cast<float>();
+  if (const CutCell* const cell = find(position.cell)) {
+    position.node = cell->slots[static_cast<size_t>(cell->cornerAt(position.within))];
+    return position;
   }
-  const Vector3i corner = home + Vector3i(place.within.x() > 0.5F, place.within.y() > 0.5F, place.within.z() > 0.5F);
-  place.node = static_cast<uint32_t>(slotAt(corner));
-  return place;
+  const Vector3i corner =
+      home + Vector3i(position.within.x() > 0.5F, position.within.y() > 0.5F, position.within.z() > 0.5F);
+  position.node = static_cast<uint32_t>(slotAt(corner));
+  return position;
 }
 
 bool CutCells::areParted(uint32_t node, uint32_t other) const {

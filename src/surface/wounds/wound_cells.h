@@ -27,7 +27,7 @@ struct CutCell {
   /// Returns the corner on the same side of the wound as a point. Divides the cell into 48 tetrahedra, each of its
   /// centre, the centre of a face, the crossing on an edge of that face, and a corner at that edge. Exact on flat cuts,
   /// and the same on both sides of a face that two cells share. @param place  0..1 within the cell
-  int cornerAt(const Vector3f& place) const;
+  int cornerAt(const Vector3f& position) const;
   bool holds(uint32_t slot) const { return cornerOf(slot) >= 0; }
   int cornerOf(uint32_t slot) const;  ///< -1 where the slot is none of its corners
 };
@@ -40,7 +40,7 @@ inline std::array<int, 2> edgeCorners(int edge) {
 }
 
 /// A place in a body, with its cell and its side of a wound.
-struct WoundPlace {
+struct WoundPoint {
   uint32_t cell = 0;  ///< slot of the lowest corner of the cell that holds the point, or of the nearest one
   Vector3f within = Vector3f::Zero();  ///< 0..1 in that cell; for a point outside, its nearest place there
   uint32_t node = 0;                   ///< slot of the node on the same side of the wound
@@ -74,7 +74,7 @@ class CutCells {
   /// Visits the cells within `reach` cells of those, by their lowest corner's slot; one cell maybe more than once.
   template <class Visit>
   void forEachCellNear(int reach, Visit visit) const;
-  WoundPlace placeOf(const Vector3d& point) const;
+  WoundPoint positionOf(const Vector3d& point) const;
   /// Returns whether a node has lost all of its springs, as erased nodes have. It stays where it is, and its side is
   /// not shown.
   bool isGone(uint32_t slot) const;
@@ -92,7 +92,7 @@ class CutCells {
   void findChanged(const layout::NodeBits* nodes, const float* axial_cut);
   void clear();
   bool isCut(uint32_t low, uint32_t high, int axis) const;
-  void lookAt(uint32_t lowest);
+  void updateCell(uint32_t lowest);
   void complete(CutCell& cell) const;
 
   const Lattice& lattice_;

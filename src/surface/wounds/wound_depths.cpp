@@ -13,7 +13,7 @@ WoundDepths::WoundDepths(const Skin& skin, const Lattice& lattice)
   const TriangleTree tree(skin.mesh);
   for (const uint32_t slot : lattice.active_slots) {
     const Vector3f node = lattice.restPosition(slot).cast<float>();
-    const MeshPlace nearest = tree.nearest(node);
+    const MeshPoint nearest = tree.nearest(node);
     if (!nearest.found()) continue;
     const auto& c = skin.mesh.triangles[nearest.triangle];
     const Vector3f a = skin.mesh.positions_m[c[0]];

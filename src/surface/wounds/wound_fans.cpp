@@ -16,22 +16,22 @@ constexpr uint64_t kFans = uint64_t{1} << 62U, kFansBetween = uint64_t{2} << 62U
 
 /// Moves a vertex to the vertex of the surface mesh that it belongs to.
 void WoundWalls::placeLipVertex(uint32_t vertex) {
-  touched_.note(vertex, mark_);
+  touched_.record(vertex, mark_);
   const Vector3d& point = skin_->pointOf(vertices_[vertex].skin_vertex);
   if (vertices_[vertex].point == point) return;
   vertices_[vertex].point = point;
-  to_shade_.note(vertex, mark_);
+  to_shade_.record(vertex, mark_);
   askAround(vertex);
 }
 
 void WoundWalls::dropFan(uint32_t f) {
   Fan& fan = fans_[f];
   if (fan.triangle == kNone) return;
-  noteFansBeside(fan.triangle);
+  recordNeighborFans(fan.triangle);
   for (uint32_t& triangle : fan.triangles) dropTriangle(triangle);
-  for (const uint32_t vertex : {fan.from, fan.to}) touched_.note(vertex, mark_);
+  for (const uint32_t vertex : {fan.from, fan.to}) touched_.record(vertex, mark_);
   if (fan.cell != kNone) {
-    points_to_find_.note(fan.cell, mark_);
+    points_to_find_.record(fan.cell, mark_);
     uint32_t* link = &first_fans_[fan.cell];
     while (*link != f) link = &fans_[*link].next;
     *link = fan.next;
@@ -45,21 +45,21 @@ void WoundWalls::placeFan(uint32_t f, const Lip& lip) {
   fan.from = lipVertex(lip.from);
   fan.to = lipVertex(lip.to);
   for (const uint32_t vertex : {fan.from, fan.to}) placeLipVertex(vertex);
-  noteFansBeside(lip.triangle);
+  recordNeighborFans(lip.triangle);
   if (lip.cell == Lip::kNoCell) return;
   fan.cell = cells_->numberOf(lip.cell);
   fan.next = first_fans_[fan.cell];
   first_fans_[fan.cell] = f;
-  points_to_find_.note(fan.cell, mark_);
+  points_to_find_.record(fan.cell, mark_);
 }
 
 /// Notes the fans of a triangle and of those that share an edge with it, as lips continue from one to the other.
-void WoundWalls::noteFansBeside(uint32_t triangle) {
+void WoundWalls::recordNeighborFans(uint32_t triangle) {
   for (const uint32_t edge : skin_->edgesOf(triangle)) {
     for (const uint32_t beside : skin_->trianglesAt(edge)) {
       const uint32_t shown = beside == WoundSkinIndex::kNone ? kNone : skin_->shownOf(beside);
       if (shown == kNone) continue;
-      for (uint32_t i = 0; i < skin_->shown()[shown].lip_count; ++i) fans_to_make_.note(6 * shown + i, mark_);
+      for (uint32_t i = 0; i < skin_->shown()[shown].lip_count; ++i) fans_to_make_.record(6 * shown + i, mark_);
     }
   }
 }
@@ -122,7 +122,7 @@ void WoundWalls::findOutward(uint32_t vertex) {
 /// between.
 void WoundWalls::addFans() {
   for (const uint32_t cell : cells_changed_.list) {
-    for (uint32_t f = first_fans_[cell]; f != kNone; f = fans_[f].next) noteFansBeside(fans_[f].triangle);
+    for (uint32_t f = first_fans_[cell]; f != kNone; f = fans_[f].next) recordNeighborFans(fans_[f].triangle);
   }
   for (const uint32_t f : fans_to_make_.list) addFan(f);
   for (const uint32_t vertex : touched_.list) findOutward(vertex);

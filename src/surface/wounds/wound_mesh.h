@@ -23,7 +23,7 @@ class WoundMesh {
 
   const std::vector<uint32_t>& corners() const { return corners_; }  ///< [3 * n]
   std::array<uint32_t, 3> cornersOf(uint32_t name) const {
-    const uint32_t* const at = &corners_[3 * size_t{place_of_[name]}];
+    const uint32_t* const at = &corners_[3 * size_t{position_of_[name]}];
     return {at[0], at[1], at[2]};
   }
   uint64_t orderOf(uint32_t name) const { return orders_[name]; }
@@ -36,13 +36,13 @@ class WoundMesh {
   size_t made() const { return made_; }
 
  private:
-  std::vector<uint32_t> corners_;   ///< [3 * n] by place
-  std::vector<uint32_t> names_;     ///< [n] by place
-  std::vector<uint32_t> place_of_;  ///< [names]
-  std::vector<uint64_t> orders_;    ///< [names]
-  std::vector<uint32_t> next_;      ///< [3 * names] of the corners at a vertex: 3 * name + corner, or kNone
-  std::vector<uint32_t> first_;     ///< [vertices]
-  std::vector<uint32_t> free_;      ///< names
+  std::vector<uint32_t> corners_;      ///< [3 * n] by place
+  std::vector<uint32_t> names_;        ///< [n] by place
+  std::vector<uint32_t> position_of_;  ///< [names]
+  std::vector<uint64_t> orders_;       ///< [names]
+  std::vector<uint32_t> next_;         ///< [3 * names] of the corners at a vertex: 3 * name + corner, or kNone
+  std::vector<uint32_t> first_;        ///< [vertices]
+  std::vector<uint32_t> free_;         ///< names
   size_t made_ = 0;
 };
 

@@ -13,7 +13,7 @@ namespace viscera {
 
 namespace {
 
-constexpr double kOfTheWay = 0.6;     // share of the path through the triangle in which a wound ends
+constexpr double kOfThePath = 0.6;    // share of the path through the triangle in which a wound ends
 constexpr double kOtherwise = 0.25;   // share of the path to the third corner, where the blade's direction is unusable
 constexpr double kLeastAlong = 0.05;  // of its longest share: a direction with less away from the edge is not reliable
 constexpr double kBeside = 0.02;      // cells: distance from a lip at which its side is found, where no node shows it
@@ -40,9 +40,9 @@ void WoundSkin::addPiece(const CutCells& cells, std::initializer_list<uint32_t> 
 void WoundSkin::addLip(const CutCells& cells, uint32_t from, uint32_t to, uint32_t corner, VisiblePieces& out) const {
   if (!isShown(cells, corner)) return;
   const Vector3d middle = (pointOf(from) + pointOf(to)) / 2;
-  const CutCell* cell = cells.find(cells.placeOf(middle).cell);
+  const CutCell* cell = cells.find(cells.positionOf(middle).cell);
   for (const uint32_t end : {from, to}) {
-    if (cell == nullptr) cell = cells.find(placeOf(end).cell);
+    if (cell == nullptr) cell = cells.find(positionOf(end).cell);
   }
   const Vector3d along = (pointOf(to) - pointOf(from)).stableNormalized(), across = middle - pointOf(corner);
   Lip& lip = out.lips[out.lip_count++];
@@ -51,10 +51,10 @@ void WoundSkin::addLip(const CutCells& cells, uint32_t from, uint32_t to, uint32
   if (cell == nullptr) return;
   lip.cell = static_cast<uint32_t>(cells.slotAt(cell->at));
   const bool from_split = from >= own_, to_split = to >= own_;
-  if (from_split && cell->holds(placeOf(from).node)) {
-    lip.node = placeOf(from).node;
-  } else if (to_split && cell->holds(placeOf(to).node)) {
-    lip.node = placeOf(to).node;
+  if (from_split && cell->holds(positionOf(from).node)) {
+    lip.node = positionOf(from).node;
+  } else if (to_split && cell->holds(positionOf(to).node)) {
+    lip.node = positionOf(to).node;
   } else {
     const Vector3d beside = middle + kBeside * (pointOf(corner) - middle).stableNormalized();
     const Vector3d within = (beside - cell->at.cast<double>()).cwiseMax(0.0).cwiseMin(1.0);
@@ -70,7 +70,7 @@ Vector3d WoundSkin::endOf(uint32_t triangle, uint32_t first) const {
   const Vector3d &v = index_.points[corners[first]], &w = index_.points[corners[(first + 1) % 3]],
                  &tip = index_.points[corners[(first + 2) % 3]];
   const Vector3d at = added_[copies_[edge] - own_].point;
-  Vector3d way = tip - at;
+  Vector3d offset = tip - at;
   const auto [one, other] = index_.edge_triangles[edge];
   const uint32_t before = one == triangle ? other : one;
   if (before != WoundSkinIndex::kNone) {
@@ -81,7 +81,7 @@ Vector3d WoundSkin::endOf(uint32_t triangle, uint32_t first) const {
       from += added_[copies_[e] - own_].point;
       ++count;
     }
-    if (count > 0) way = at - from / count;
+    if (count > 0) offset = at - from / count;
   }
   // In shares of the corners: the path ends before it leaves the triangle.
   const Vector3d vw = w - v, vt = tip - v, normal = vw.cross(vt);
@@ -90,22 +90,22 @@ Vector3d WoundSkin::endOf(uint32_t triangle, uint32_t first) const {
   const auto shares = [&](const Vector3d& d) {
     return Eigen::Vector2d(normal.dot(d.cross(vt)) / area2, normal.dot(vw.cross(d)) / area2);
   };
-  const Eigen::Vector2d here = shares(at - v), along = shares(way);
+  const Eigen::Vector2d here = shares(at - v), along = shares(offset);
   if (along.y() <= kLeastAlong * along.cwiseAbs().maxCoeff()) return at + kOtherwise * (tip - at);
   double reach = std::numeric_limits<double>::infinity();
   if (along.x() < 0) reach = std::min(reach, -here.x() / along.x());
   const double sum = along.x() + along.y();
   if (sum > 0) reach = std::min(reach, (1 - here.x() - here.y()) / sum);
-  const Eigen::Vector2d end = here + kOfTheWay * reach * along;
+  const Eigen::Vector2d end = here + kOfThePath * reach * along;
   return v + end.x() * vw + end.y() * vt;
 }
 
 /// Adds a vertex within a triangle, with its old number if it had one.
 uint32_t WoundSkin::addInside(VisiblePieces& out, const WoundVertex& vertex, bool is_end) {
-  const uint32_t known = shown_of_[out.triangle], place = out.inside_count;
-  const bool was_there = known != kNone && place < shown_[known].inside_count;
-  const uint32_t number = was_there ? shown_[known].inside[place] : newVertices(1, free_vertices_);
-  setVertex(number, vertex, {kNoEdge, out.triangle, place}, is_end);
+  const uint32_t known = shown_of_[out.triangle], position = out.inside_count;
+  const bool was_there = known != kNone && position < shown_[known].inside_count;
+  const uint32_t number = was_there ? shown_[known].inside[position] : newVertices(1, free_vertices_);
+  setVertex(number, vertex, {kNoEdge, out.triangle, position}, is_end);
   out.inside[out.inside_count++] = number;
   return number;
 }
@@ -115,7 +115,7 @@ void WoundSkin::showTapered(const CutCells& cells, uint32_t first, VisiblePieces
   const uint32_t v = corners[first], w = corners[(first + 1) % 3], tip = corners[(first + 2) % 3];
   const uint32_t edge = index_.triangle_edges[out.triangle][first], of_v = copyAt(edge, v), of_w = copyAt(edge, w);
   const Vector3d at = endOf(out.triangle, first);
-  const uint32_t end = addInside(out, {at, added_[of_v - own_].normal, cells.placeOf(at), v}, true);
+  const uint32_t end = addInside(out, {at, added_[of_v - own_].normal, cells.positionOf(at), v}, true);
   addPiece(cells, {v, of_v, end}, out);
   addLip(cells, of_v, end, v, out);
   addPiece(cells, {w, end, of_w}, out);
@@ -145,7 +145,7 @@ void WoundSkin::showStar(const CutCells& cells, VisiblePieces& out) {
   }
   for (size_t i = 0; i < 3; ++i) {
     const uint32_t a = corners[i], to_next = copyAt(edges[i], a), to_last = copyAt(edges[(i + 2) % 3], a);
-    const uint32_t centre = addInside(out, {middle, normal.stableNormalized(), placeOf(to_next), a}, false);
+    const uint32_t centre = addInside(out, {middle, normal.stableNormalized(), positionOf(to_next), a}, false);
     addPiece(cells, {a, to_next, centre, to_last}, out);
     addLip(cells, to_next, centre, a, out);
     addLip(cells, centre, to_last, a, out);
@@ -158,7 +158,7 @@ void WoundSkin::cutUp(const CutCells& cells, uint32_t crossed, VisiblePieces& ou
   if (crossed == 6) showParted(cells, 2, out);
   if (crossed == 5) showParted(cells, 0, out);
   if (crossed == 7) showStar(cells, out);
-  for (uint32_t i = 0; i < out.inside_count; ++i) noteLookedAt(out.inside[i]);
+  for (uint32_t i = 0; i < out.inside_count; ++i) recordVisited(out.inside[i]);
 }
 
 /// Returns whether walls must be updated.

@@ -52,7 +52,7 @@ void WoundWalls::askAlways(uint32_t cell) {
 
 /// Notes the points of all triangles at a vertex.
 void WoundWalls::askAround(uint32_t vertex) {
-  mesh_.forEachAt(vertex, [&](uint32_t triangle, uint32_t) { noteCorners(triangle); });
+  mesh_.forEachAt(vertex, [&](uint32_t triangle, uint32_t) { recordCorners(triangle); });
 }
 
 /// Notes the points that depend on a point that has moved in a round.
@@ -151,9 +151,9 @@ void WoundWalls::setDown(uint32_t cell) {
     const uint32_t vertex = point_vertices_[8 * size_t{cell} + component];
     if (vertex == kNone || vertices_[vertex].point == at) continue;
     vertices_[vertex].point = at;
-    to_bind_.note(vertex, mark_);
+    to_bind_.record(vertex, mark_);
     mesh_.forEachAt(vertex, [&](uint32_t triangle, uint32_t) {
-      for (const uint32_t corner : mesh_.cornersOf(triangle)) to_shade_.note(corner, mark_);
+      for (const uint32_t corner : mesh_.cornersOf(triangle)) to_shade_.record(corner, mark_);
     });
   }
 }
@@ -190,7 +190,7 @@ void WoundWalls::findNormals() {
     }
     vertices_[vertex].normal =
         normal.squaredNorm() > 0 ? Vector3d(normal.stableNormalized()) : Vector3d(Vector3d::UnitZ());
-    to_bind_.note(vertex, mark_);
+    to_bind_.record(vertex, mark_);
   }
 }
 

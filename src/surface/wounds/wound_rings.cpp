@@ -39,20 +39,20 @@ uint64_t WoundWalls::orderOf(uint32_t vertex) const {
 /// too.
 void WoundWalls::gatherOpen(uint32_t vertex) {
   ends_.clear();
-  const auto note = [&](uint32_t end, int way) { appendTo(ends_, std::make_pair(end, way)); };
+  const auto record = [&](uint32_t end, int direction) { appendTo(ends_, std::make_pair(end, direction)); };
   mesh_.forEachAt(vertex, [&](uint32_t triangle, uint32_t corner) {
     if (isFill(mesh_.orderOf(triangle))) return;
     const std::array<uint32_t, 3> corners = mesh_.cornersOf(triangle);
-    note(corners[(corner + 1) % 3], 1);
-    note(corners[(corner + 2) % 3], -1);
+    record(corners[(corner + 1) % 3], 1);
+    record(corners[(corner + 2) % 3], -1);
   });
   const uint32_t of_skin = vertices_[vertex].skin_vertex;
   if (of_skin != WoundVertex::kNone) {
     forEachLipAt(of_skin, [&](const Lip& lip) {
       if (lip.from == of_skin)
-        note(lipVertex(lip.to), 1);
+        record(lipVertex(lip.to), 1);
       else
-        note(lipVertex(lip.from), -1);
+        record(lipVertex(lip.from), -1);
     });
   }
   std::sort(ends_.begin(), ends_.end());
@@ -60,7 +60,7 @@ void WoundWalls::gatherOpen(uint32_t vertex) {
     const uint32_t end = ends_[i].first;
     int sum = 0;
     for (; i < ends_.size() && ends_[i].first == end; ++i) sum += ends_[i].second;
-    if (sum != 0) around_hole_.note(end, mark_);
+    if (sum != 0) around_hole_.record(end, mark_);
     for (; sum > 0; --sum) appendTo(open_, OpenEdge{orderOf(vertex), orderOf(end), vertex, end});
   }
 }
@@ -72,7 +72,7 @@ void WoundWalls::dropFill(uint32_t vertex) {
     if (isFill(mesh_.orderOf(triangle))) appendTo(around_, std::make_pair(mesh_.orderOf(triangle), triangle));
   });
   for (const auto& [order, triangle] : around_) {
-    noteCorners(triangle);
+    recordCorners(triangle);
     const std::array<uint32_t, 3> corners = mesh_.cornersOf(triangle);
     mesh_.remove(triangle);
     for (const uint32_t corner : corners) {
@@ -87,31 +87,31 @@ void WoundWalls::dropFill(uint32_t vertex) {
 /// Goes one edge on along a hole. Fills rings that the path closes, and removes them from it.
 /// @returns whether the path continues
 bool WoundWalls::stepAlongHole() {
-  const OpenEdge first_there{orderOf(way_.back()), 0};
+  const OpenEdge first_there{orderOf(path_.back()), 0};
   auto next = static_cast<size_t>(std::lower_bound(open_.begin(), open_.end(), first_there) - open_.begin());
-  while (next < open_.size() && open_[next].from == way_.back() && walked_[next]) ++next;
-  if (next == open_.size() || open_[next].from != way_.back()) {  // at a border of the mesh: nothing closes there
-    appendTo(hole_ends_, way_.back());
+  while (next < open_.size() && open_[next].from == path_.back() && walked_[next]) ++next;
+  if (next == open_.size() || open_[next].from != path_.back()) {  // at a border of the mesh: nothing closes there
+    appendTo(hole_ends_, path_.back());
     return false;
   }
   walked_[next] = true;
   const uint32_t vertex = open_[next].to;
-  const auto met = std::find(way_.begin(), way_.end(), vertex);
-  if (met == way_.end()) {
-    appendTo(way_, vertex);
+  const auto met = std::find(path_.begin(), path_.end(), vertex);
+  if (met == path_.end()) {
+    appendTo(path_, vertex);
     return true;
   }
-  const auto first = static_cast<size_t>(met - way_.begin());
+  const auto first = static_cast<size_t>(met - path_.begin());
   closeRing(first);
-  way_.resize(first + 1);
-  return way_.size() > 1;
+  path_.resize(first + 1);
+  return path_.size() > 1;
 }
 
 /// Fills what is still open: where lips step from cell to cell across an edge of the lattice, or end before the cut
 /// inside does. Such holes are rings of a few edges between points of neighbouring cells. Rings along which something
 /// has changed are filled again.
 void WoundWalls::closeHoles() {
-  for (const uint32_t vertex : touched_.list) around_hole_.note(vertex, mark_);
+  for (const uint32_t vertex : touched_.list) around_hole_.record(vertex, mark_);
   open_.clear();
   for (size_t i = 0; i < around_hole_.list.size(); ++i) gatherOpen(around_hole_.list[i]);
   for (const uint32_t vertex : around_hole_.list) dropFill(vertex);
@@ -123,8 +123,8 @@ void WoundWalls::closeHoles() {
   fills_ = 0;
   for (size_t i = 0; i < open_.size(); ++i) {
     while (!walked_[i]) {  // more than once where another edge leads away from its start
-      way_.clear();
-      appendTo(way_, open_[i].from);
+      path_.clear();
+      appendTo(path_, open_[i].from);
       while (stepAlongHole()) {
       }
     }
@@ -143,17 +143,17 @@ bool WoundWalls::isEdge(uint32_t a, uint32_t b) const {
 }
 
 void WoundWalls::addFill(uint32_t a, uint32_t b, uint32_t c) {
-  noteCorners(mesh_.add({a, b, c}, kFills | fills_++));
+  recordCorners(mesh_.add({a, b, c}, kFills | fills_++));
 }
 
 void WoundWalls::fillFromMiddle(const uint32_t* ring, size_t count) {
   WoundVertex middle;
-  middle.place = {kNone, Vector3f::Zero(), 0};
+  middle.position = {kNone, Vector3f::Zero(), 0};
   for (size_t i = 0; i < count; ++i) {
-    middle.point += firstPlace(ring[i]) / static_cast<double>(count);
-    if (middle.place.cell == kNone && cell_of_[ring[i]] != kNone) middle.place = vertices_[ring[i]].place;
+    middle.point += firstPosition(ring[i]) / static_cast<double>(count);
+    if (middle.position.cell == kNone && cell_of_[ring[i]] != kNone) middle.position = vertices_[ring[i]].position;
   }
-  if (middle.place.cell == kNone) middle.place = skin_->placeOf(vertices_[ring[0]].skin_vertex);
+  if (middle.position.cell == kNone) middle.position = skin_->positionOf(vertices_[ring[0]].skin_vertex);
   const uint32_t centre = newVertex(middle, kNone);
   for (size_t i = 0; i < count; ++i) addFill(centre, ring[(i + 1) % count], ring[i]);
 }
@@ -162,8 +162,8 @@ void WoundWalls::fillFromMiddle(const uint32_t* ring, size_t count) {
 /// That point must not be one that the other side has in the ring as well, as the fan would span a web from lip to lip.
 /// If an edge of the fan exists already, and would get four triangles, fills from the middle of the ring.
 void WoundWalls::closeRing(size_t first) {
-  const auto begin = way_.begin() + static_cast<ptrdiff_t>(first), end = way_.end();
-  const auto point = [&](uint32_t vertex) { return firstPlace(vertex); };
+  const auto begin = path_.begin() + static_cast<ptrdiff_t>(first), end = path_.end();
+  const auto point = [&](uint32_t vertex) { return firstPosition(vertex); };
   const auto has_twin = [&](uint32_t vertex) {
     return std::count_if(begin, end, [&](uint32_t v) { return point(v) == point(vertex); }) > 1;
   };

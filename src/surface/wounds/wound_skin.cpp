@@ -24,7 +24,10 @@ constexpr double kSamples = 4;        // WoundSkinIndex samples triangles at 1 /
 }  // namespace
 
 WoundSkin::WoundSkin(const Skin& skin, const Lattice& lattice)
-    : skin_(skin), index_(skin, lattice), own_(static_cast<uint32_t>(skin.bindings.size())), places_(index_.places) {
+    : skin_(skin),
+      index_(skin, lattice),
+      own_(static_cast<uint32_t>(skin.bindings.size())),
+      positions_(index_.positions) {
   reach_ = kReach + static_cast<int>(std::ceil(index_.longest / kSamples));
   const size_t triangles = skin.mesh.triangles.size(), edges = index_.edges.size();
   seen_triangles_.marks.resize(triangles);
@@ -49,7 +52,7 @@ void WoundSkin::clear() {
   looked_at_.clear();
   looked_at_added_.clear();
   for (const uint32_t vertex : rebound_) {
-    places_[vertex] = index_.places[vertex];
+    positions_[vertex] = index_.positions[vertex];
     rebound_at_[vertex] = kNone;
   }
   rebound_.clear();
@@ -79,14 +82,14 @@ void WoundSkin::clear() {
 /// Finds triangles where the cells, or the nodes that carry their vertices, have changed.
 void WoundSkin::findNear(const CutCells& cells) {
   near_.clear();
-  const auto note = [&](uint32_t cell) {
+  const auto record = [&](uint32_t cell) {
     index_.of_cells.forEach(cell, [&](uint32_t triangle) {
       if (seen_triangles_.first(triangle, mark_)) appendTo(near_, triangle);
     });
   };
-  cells.forEachCellNear(reach_, note);
+  cells.forEachCellNear(reach_, record);
   for (const uint32_t slot : cells.changedSlots())
-    index_.of_slots.forEach(slot, [&](uint32_t v) { note(index_.places[v].cell); });
+    index_.of_slots.forEach(slot, [&](uint32_t v) { record(index_.positions[v].cell); });
 }
 
 /// Returns whether a triangle lies in a cut cell.
@@ -109,14 +112,14 @@ bool WoundSkin::isNearGone(const CutCells& cells, uint32_t triangle) const {
   return gone;
 }
 
-void WoundSkin::lookAtVertex(const CutCells& cells, uint32_t v) {
+void WoundSkin::updateVertex(const CutCells& cells, uint32_t v) {
   if (!seen_vertices_.first(v, mark_)) return;
   const layout::SkinBinding& binding = skin_.bindings[v];
-  const bool in_cut = cells.find(index_.places[v].cell) != nullptr;
+  const bool in_cut = cells.find(index_.positions[v].cell) != nullptr;
   const bool torn = (cells.isSevered(binding.slot0) || cells.isSevered(binding.slot2)) &&
                     (!cells.isAlive(binding.slot0, binding.springs & 31U) ||
                      !cells.isAlive(binding.slot2, binding.springs >> 10U & 31U));
-  places_[v] = in_cut ? cells.placeOf(index_.points[v]) : index_.places[v];
+  positions_[v] = in_cut ? cells.positionOf(index_.points[v]) : index_.positions[v];
   const bool now = in_cut || torn, before = isRebound(v);
   if (now || before) appendTo(looked_at_, v);
   if (now && !before) {
@@ -130,16 +133,16 @@ void WoundSkin::lookAtVertex(const CutCells& cells, uint32_t v) {
   }
 }
 
-void WoundSkin::findPlaces(const CutCells& cells) {
+void WoundSkin::findPositions(const CutCells& cells) {
   looked_at_.clear();
   for (const uint32_t t : near_)
-    for (const uint32_t v : skin_.mesh.triangles[t]) lookAtVertex(cells, v);
+    for (const uint32_t v : skin_.mesh.triangles[t]) updateVertex(cells, v);
   for (const uint32_t slot : cells.changedSlots())
-    index_.of_slots.forEach(slot, [&](uint32_t v) { lookAtVertex(cells, v); });
+    index_.of_slots.forEach(slot, [&](uint32_t v) { updateVertex(cells, v); });
 }
 
-void WoundSkin::findSteps(const CutCells& cells, uint32_t edge, double first, const WoundPlace& from, double last,
-                          const WoundPlace& to) {
+void WoundSkin::findSteps(const CutCells& cells, uint32_t edge, double first, const WoundPoint& from, double last,
+                          const WoundPoint& to) {
   const Vector3d &a = index_.points[index_.edges[edge][0]], &b = index_.points[index_.edges[edge][1]];
   const double length = (last - first) * (b - a).norm();
   if (from.node == to.node && length <= kStep) return;
@@ -148,7 +151,7 @@ void WoundSkin::findSteps(const CutCells& cells, uint32_t edge, double first, co
     return;
   }
   const double middle = (first + last) / 2;
-  const WoundPlace at = cells.placeOf(a + middle * (b - a));
+  const WoundPoint at = cells.positionOf(a + middle * (b - a));
   findSteps(cells, edge, first, from, middle, at);
   findSteps(cells, edge, middle, at, last, to);
 }
@@ -157,7 +160,7 @@ void WoundSkin::findSteps(const CutCells& cells, uint32_t edge, double first, co
 bool WoundSkin::findCrossing(const CutCells& cells, uint32_t edge, bool& sliver) {
   const auto [a, b] = index_.edges[edge];
   steps_.clear();
-  findSteps(cells, edge, 0, places_[a], 1, places_[b]);
+  findSteps(cells, edge, 0, positions_[a], 1, positions_[b]);
   if (steps_.empty()) return false;
   if (steps_.size() > 1) {
     const uint32_t from = steps_.front().from.node, to = steps_.back().to.node;
@@ -175,7 +178,7 @@ bool WoundSkin::findCrossing(const CutCells& cells, uint32_t edge, bool& sliver)
   return true;
 }
 
-void WoundSkin::lookAtEdge(const CutCells& cells, uint32_t edge) {
+void WoundSkin::updateEdge(const CutCells& cells, uint32_t edge) {
   const auto near = [&](uint32_t triangle) { return triangle != WoundSkinIndex::kNone && isNear(cells, triangle); };
   const auto [one, other] = index_.edge_triangles[edge];
   bool sliver = false;
@@ -196,17 +199,17 @@ void WoundSkin::lookAtEdge(const CutCells& cells, uint32_t edge) {
   if (is_new) found = newVertices(2, free_pairs_);
   for (uint32_t i = 0; i < 2; ++i) {
     setVertex(found + i, crossing_[i], {edge, kNone, i}, false);
-    noteLookedAt(found + i);
+    recordVisited(found + i);
   }
   if (is_new || changed_marks_[found - own_] == mark_ || changed_marks_[found + 1 - own_] == mark_)
     appendTo(changed_edges_, edge);
 }
 
-void WoundSkin::lookAtEdges(const CutCells& cells) {
+void WoundSkin::updateEdges(const CutCells& cells) {
   changed_edges_.clear();
   for (const uint32_t t : near_) {
     for (const uint32_t edge : index_.triangle_edges[t]) {
-      if (seen_edges_.first(edge, mark_)) lookAtEdge(cells, edge);
+      if (seen_edges_.first(edge, mark_)) updateEdge(cells, edge);
     }
   }
 }
@@ -234,7 +237,7 @@ void WoundSkin::dropLonely() {
     for (const uint32_t triangle : index_.edge_triangles[edge])
       if (triangle != WoundSkinIndex::kNone) of_triangle(triangle);
   };
-  const auto look = [&](uint32_t triangle) {
+  const auto check = [&](uint32_t triangle) {
     if (seen_triangles_.first(triangle, mark_)) appendTo(near_, triangle);
   };
   const auto judge = [&](uint32_t edge) {
@@ -245,8 +248,8 @@ void WoundSkin::dropLonely() {
     if (now == copies_[edge] && !moved) return;
     copies_[edge] = now;
     visit(edge, [&](uint32_t triangle) {
-      look(triangle);
-      for (const uint32_t beside : index_.triangle_edges[triangle]) visit(beside, look);
+      check(triangle);
+      for (const uint32_t beside : index_.triangle_edges[triangle]) visit(beside, check);
     });
   };
   for (const uint32_t edge : changed_edges_)
@@ -285,8 +288,8 @@ void WoundSkin::setVertex(uint32_t vertex, const WoundVertex& to, const Owner& o
   const uint32_t i = vertex - own_;
   WoundVertex& known = added_[i];
   Owner& of = owners_[i];
-  const bool same = known.point == to.point && known.normal == to.normal && known.place.cell == to.place.cell &&
-                    known.place.within == to.place.within && known.place.node == to.place.node &&
+  const bool same = known.point == to.point && known.normal == to.normal && known.position.cell == to.position.cell &&
+                    known.position.within == to.position.within && known.position.node == to.position.node &&
                     known.skin_vertex == to.skin_vertex && of.edge == owner.edge && of.triangle == owner.triangle &&
                     of.which == owner.which && is_end_[i] == is_end;
   if (same) return;
@@ -302,7 +305,7 @@ void WoundSkin::free(uint32_t vertex) {
   changed_marks_[vertex - own_] = mark_;
 }
 
-void WoundSkin::noteLookedAt(uint32_t vertex) {
+void WoundSkin::recordVisited(uint32_t vertex) {
   if (looked_marks_[vertex - own_] == mark_) return;
   looked_marks_[vertex - own_] = mark_;
   appendTo(looked_at_added_, vertex - own_);
@@ -355,8 +358,8 @@ void WoundSkin::update(const CutCells& cells) {
   changed_.clear();
   looked_at_added_.clear();
   findNear(cells);
-  findPlaces(cells);
-  lookAtEdges(cells);
+  findPositions(cells);
+  updateEdges(cells);
   dropLonely();
   for (const uint32_t t : near_) show(cells, t);
   writeTriangles();

@@ -28,7 +28,7 @@ struct Lip {
 struct WoundVertex {
   Vector3d point = Vector3d::Zero();  ///< at rest, in cells from the lattice's origin
   Vector3d normal = Vector3d::Zero();
-  WoundPlace place;
+  WoundPoint position;
   uint32_t skin_vertex = kNone;  ///< of a wall: its vertex on the surface mesh; of a lip: one with the same look
 
   static constexpr uint32_t kNone = UINT32_MAX;
@@ -82,7 +82,7 @@ class WoundSkin {
   const std::vector<uint32_t>& lookedAt() const { return looked_at_; }
   const std::vector<uint32_t>& lookedAtAdded() const { return looked_at_added_; }
   WoundVertex own(uint32_t vertex) const {
-    return {index_.points[vertex], index_.normals[vertex].cast<double>(), places_[vertex], vertex};
+    return {index_.points[vertex], index_.normals[vertex].cast<double>(), positions_[vertex], vertex};
   }
   /// Returns the edge that a vertex belongs to, or kNoEdge. Vertices of an edge belong to its two triangles.
   uint32_t edgeOf(uint32_t vertex) const { return vertex < own_ ? kNoEdge : owners_[vertex - own_].edge; }
@@ -95,17 +95,17 @@ class WoundSkin {
   const Vector3d& pointOf(uint32_t vertex) const {
     return vertex < own_ ? index_.points[vertex] : added_[vertex - own_].point;
   }
-  const WoundPlace& placeOf(uint32_t vertex) const {
-    return vertex < own_ ? places_[vertex] : added_[vertex - own_].place;
+  const WoundPoint& positionOf(uint32_t vertex) const {
+    return vertex < own_ ? positions_[vertex] : added_[vertex - own_].position;
   }
   uint32_t ownCount() const { return own_; }
-  size_t looks() const { return near_.size(); }  ///< triangles that the last update has visited
-  size_t slivers() const { return slivers_; }    ///< edges with a piece between two wounds that is not shown
+  size_t visitedCount() const { return near_.size(); }  ///< triangles that the last update has visited
+  size_t slivers() const { return slivers_; }           ///< edges with a piece between two wounds that is not shown
 
  private:
   struct Step {
     double before = 0, behind = 0;  ///< shares of the edge
-    WoundPlace from, to;
+    WoundPoint from, to;
   };
   /// Owner of an added vertex.
   struct Owner {
@@ -114,15 +114,15 @@ class WoundSkin {
   };
   void clear();
   void findNear(const CutCells& cells);
-  void findPlaces(const CutCells& cells);
-  void lookAtVertex(const CutCells& cells, uint32_t vertex);
+  void findPositions(const CutCells& cells);
+  void updateVertex(const CutCells& cells, uint32_t vertex);
   bool isNear(const CutCells& cells, uint32_t triangle) const;
   bool isNearGone(const CutCells& cells, uint32_t triangle) const;
-  void lookAtEdges(const CutCells& cells);
-  void lookAtEdge(const CutCells& cells, uint32_t edge);
+  void updateEdges(const CutCells& cells);
+  void updateEdge(const CutCells& cells, uint32_t edge);
   bool findCrossing(const CutCells& cells, uint32_t edge, bool& sliver);
-  void findSteps(const CutCells& cells, uint32_t edge, double first, const WoundPlace& from, double last,
-                 const WoundPlace& to);
+  void findSteps(const CutCells& cells, uint32_t edge, double first, const WoundPoint& from, double last,
+                 const WoundPoint& to);
   uint32_t onlyFound(uint32_t triangle) const;
   bool isLonely(uint32_t edge) const;
   void dropLonely();
@@ -131,7 +131,7 @@ class WoundSkin {
   uint32_t newVertices(size_t count, std::vector<uint32_t>& freed);
   void setVertex(uint32_t vertex, const WoundVertex& to, const Owner& owner, bool is_end);
   void free(uint32_t vertex);
-  void noteLookedAt(uint32_t vertex);
+  void recordVisited(uint32_t vertex);
   uint32_t addInside(VisiblePieces& out, const WoundVertex& vertex, bool is_end);
   void show(const CutCells& cells, uint32_t triangle);
   void cutUp(const CutCells& cells, uint32_t crossed, VisiblePieces& out);
@@ -145,7 +145,7 @@ class WoundSkin {
   void writeTriangles();
   void closeGaps();
   void setTriangle(size_t at, uint32_t source, const uint32_t* corners);
-  bool isShown(const CutCells& cells, uint32_t vertex) const { return !cells.isGone(placeOf(vertex).node); }
+  bool isShown(const CutCells& cells, uint32_t vertex) const { return !cells.isGone(positionOf(vertex).node); }
 
   /// Set of numbers seen in this update: no two updates have the same mark.
   struct Seen {
@@ -156,9 +156,9 @@ class WoundSkin {
   const Skin& skin_;
   const WoundSkinIndex index_;
   uint32_t own_ = 0, mark_ = 0;
-  int reach_ = 0;                   ///< cells from a change to what it may affect
-  std::vector<WoundPlace> places_;  ///< [own] of vertices
-  std::vector<uint32_t> near_;      ///< triangles to visit
+  int reach_ = 0;                      ///< cells from a change to what it may affect
+  std::vector<WoundPoint> positions_;  ///< [own] of vertices
+  std::vector<uint32_t> near_;         ///< triangles to visit
   Seen seen_triangles_, seen_vertices_, seen_edges_, judged_edges_;
   std::vector<uint32_t> found_;          ///< [edges] the first of the two vertices of a crossing, or kNoEdge
   std::vector<uint32_t> copies_;         ///< [edges] the same, of wounds with more than one crossing

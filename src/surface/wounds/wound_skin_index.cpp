@@ -23,7 +23,7 @@ WoundSkinIndex::WoundSkinIndex(const Skin& skin, const Lattice& lattice) : norma
   const CutCells whole(lattice);
   for (const Vector3f& at : skin.mesh.positions_m) {
     points.push_back((at.cast<double>() - lattice.origin_m) / lattice.spacing_m);
-    places.push_back(whole.placeOf(points.back()));
+    positions.push_back(whole.positionOf(points.back()));
   }
   addEdges(skin.mesh);
   listCells(skin.mesh, whole, lattice.nodes.size());
@@ -37,7 +37,7 @@ WoundSkinIndex::WoundSkinIndex(const Skin& skin, const Lattice& lattice) : norma
 
 void WoundSkinIndex::addEdges(const TriangleMesh& mesh) {
   struct Side {
-    uint32_t a, b, place;  // of 3 * triangles
+    uint32_t a, b, position;  // of 3 * triangles
   };
   std::vector<Side> sides;
   for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -47,17 +47,17 @@ void WoundSkinIndex::addEdges(const TriangleMesh& mesh) {
     }
   }
   std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
-    return std::array<uint32_t, 3>{x.a, x.b, x.place} < std::array<uint32_t, 3>{y.a, y.b, y.place};
+    return std::array<uint32_t, 3>{x.a, x.b, x.position} < std::array<uint32_t, 3>{y.a, y.b, y.position};
   });
   triangle_edges.resize(mesh.triangles.size());
   for (const Side& side : sides) {
     if (edges.empty() || edges.back() != std::array<uint32_t, 2>{side.a, side.b}) {
       edges.push_back({side.a, side.b});
-      edge_triangles.push_back({side.place / 3, kNone});
+      edge_triangles.push_back({side.position / 3, kNone});
     } else if (edge_triangles.back()[1] == kNone) {
-      edge_triangles.back()[1] = side.place / 3;
+      edge_triangles.back()[1] = side.position / 3;
     }
-    triangle_edges[side.place / 3][side.place % 3] = static_cast<uint32_t>(edges.size() - 1);
+    triangle_edges[side.position / 3][side.position % 3] = static_cast<uint32_t>(edges.size() - 1);
   }
 }
 
@@ -68,7 +68,7 @@ void WoundSkinIndex::listCells(const TriangleMesh& mesh, const CutCells& whole, 
     const Vector3d &a = points[corners[0]], &b = points[corners[1]], &c = points[corners[2]];
     for (const Vector3d& at :
          {a, b, c, Vector3d((a + b) / 2), Vector3d((b + c) / 2), Vector3d((c + a) / 2), Vector3d((a + b + c) / 3)})
-      touched.push_back({whole.placeOf(at).cell, t});
+      touched.push_back({whole.positionOf(at).cell, t});
     longest = std::max({longest, (b - a).norm(), (c - b).norm(), (a - c).norm()});
   }
   std::vector<std::array<uint32_t, 2>> cells;

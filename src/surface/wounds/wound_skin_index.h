@@ -31,7 +31,7 @@ struct WoundSkinIndex {
 
   std::vector<Vector3d> points;                         ///< [vertices] at rest, in cells from the lattice's origin
   std::vector<Vector3f> normals;                        ///< [vertices]
-  std::vector<WoundPlace> places;                       ///< [vertices] in the uncut lattice
+  std::vector<WoundPoint> positions;                    ///< [vertices] in the uncut lattice
   std::vector<std::array<uint32_t, 2>> edges;           ///< lower vertex first
   std::vector<std::array<uint32_t, 3>> triangle_edges;  ///< 01, 12, 20
   std::vector<std::array<uint32_t, 2>> edge_triangles;  ///< [edges] the first two that have it, or kNone

@@ -41,7 +41,7 @@ Vector3d outwardOf(const CutCell& cut, uint8_t component) {
 
 }  // namespace
 
-void WoundWalls::Seen::note(uint32_t i, uint32_t mark) {
+void WoundWalls::Seen::record(uint32_t i, uint32_t mark) {
   if (i >= marks.size()) {
     keepRoom(marks, i + 1);
     marks.resize(i + 1);
@@ -63,26 +63,27 @@ uint32_t WoundWalls::newVertex(const WoundVertex& vertex, uint32_t cell) {
   vertices_[number] = vertex;
   cell_of_[number] = cell;
   outward_[number] = Vector3d::Zero();
-  to_shade_.note(number, mark_);
+  to_shade_.record(number, mark_);
   return number;
 }
 
 /// Finds the node and the outward direction from it for a point's vertex. @returns whether that has changed
 bool WoundWalls::place(uint32_t v, const CutCell& cut, uint8_t component) {
   WoundVertex& vertex = vertices_[v];
-  const Vector3d point = firstPlace(v);
-  const WoundPlace before = vertex.place;
-  vertex.place = {cut.slots[0], Vector3f::Zero(), 0};
+  const Vector3d point = firstPosition(v);
+  const WoundPoint before = vertex.position;
+  vertex.position = {cut.slots[0], Vector3f::Zero(), 0};
   double nearest = -1;
   for (size_t c = 0; c < 8; ++c) {
     if (cut.component[c] != component) continue;
     const double distance2 = (point - cells_->lattice().nodeAt(cut.slots[c]).cast<double>()).squaredNorm();
     if (nearest >= 0 && distance2 >= nearest) continue;
     nearest = distance2;
-    vertex.place.node = cut.slots[c];
+    vertex.position.node = cut.slots[c];
   }
   const Vector3d outward = outwardOf(cut, component);
-  const bool same = before.cell == vertex.place.cell && before.node == vertex.place.node && outward == outward_[v];
+  const bool same =
+      before.cell == vertex.position.cell && before.node == vertex.position.node && outward == outward_[v];
   outward_[v] = outward;
   return !same;
 }
@@ -105,23 +106,23 @@ uint32_t WoundWalls::lipVertex(uint32_t skin_vertex) {
 }
 
 /// Returns the place of a vertex before points are relaxed.
-Vector3d WoundWalls::firstPlace(uint32_t vertex) const {
+Vector3d WoundWalls::firstPosition(uint32_t vertex) const {
   const uint32_t cell = cell_of_[vertex];
   return cell == kNone ? vertices_[vertex].point : points_[cell].at[0];
 }
 
 /// Notes what depends on a triangle's corners.
-void WoundWalls::noteCorners(uint32_t triangle) {
+void WoundWalls::recordCorners(uint32_t triangle) {
   for (const uint32_t vertex : mesh_.cornersOf(triangle)) {
-    to_shade_.note(vertex, mark_);
+    to_shade_.record(vertex, mark_);
     if (cell_of_[vertex] != kNone) askAlways(cell_of_[vertex]);
   }
 }
 
 void WoundWalls::dropTriangle(uint32_t& known) {
   if (known == kNone) return;
-  noteCorners(known);
-  for (const uint32_t vertex : mesh_.cornersOf(known)) touched_.note(vertex, mark_);
+  recordCorners(known);
+  for (const uint32_t vertex : mesh_.cornersOf(known)) touched_.record(vertex, mark_);
   mesh_.remove(known);
   known = kNone;
 }
@@ -132,8 +133,8 @@ void WoundWalls::setTriangle(const std::array<uint32_t, 3>& corners, uint64_t or
   dropTriangle(known);
   if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) return;
   known = mesh_.add(corners, order);
-  noteCorners(known);
-  for (const uint32_t vertex : corners) touched_.note(vertex, mark_);
+  recordCorners(known);
+  for (const uint32_t vertex : corners) touched_.record(vertex, mark_);
 }
 
 /// Returns whether the spring from a node along an axis crosses the wound inside the tissue. At the end of the lattice
@@ -184,14 +185,14 @@ void WoundWalls::findPoint(uint32_t number) {
   point.marks = marks;
   point.order = cell.order;
   if (moved) {
-    cells_changed_.note(number, mark_);
+    cells_changed_.record(number, mark_);
     askAlways(number);
   }
   for (uint8_t component = 0; component < 8; ++component) {
     const uint32_t vertex = point_vertices_[8 * size_t{number} + component];
     if (vertex == kNone || (!place(vertex, cell, component) && !moved)) continue;
-    touched_.note(vertex, mark_);
-    to_bind_.note(vertex, mark_);
+    touched_.record(vertex, mark_);
+    to_bind_.record(vertex, mark_);
     askAround(vertex);
   }
 }
@@ -199,17 +200,17 @@ void WoundWalls::findPoint(uint32_t number) {
 /// Computes the points of cells in which springs or lips have changed.
 void WoundWalls::findPoints() {
   for (const uint32_t lowest : cells_->changedCells()) {
-    if (cells_->numberOf(lowest) != kNone) cells_changed_.note(cells_->numberOf(lowest), mark_);
+    if (cells_->numberOf(lowest) != kNone) cells_changed_.record(cells_->numberOf(lowest), mark_);
     const Vector3i at = cells_->lattice().nodeAt(lowest);
     for (int i = 0; i < 27; ++i) {
       const uint32_t cell = cellAt(*cells_, at + Vector3i(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
-      if (cell != kNone) points_to_find_.note(cell, mark_);
+      if (cell != kNone) points_to_find_.record(cell, mark_);
     }
   }
   for (const uint32_t cell : cells_changed_.list) {
     for (size_t component = 0; component < 8; ++component) {
       const uint32_t vertex = point_vertices_[8 * size_t{cell} + component];
-      if (vertex != kNone) to_bind_.note(vertex, mark_);
+      if (vertex != kNone) to_bind_.record(vertex, mark_);
     }
   }
   for (const uint32_t cell : points_to_find_.list) {
@@ -240,8 +241,8 @@ void WoundWalls::addQuad(uint32_t number, int axis) {
     }
   }
   for (size_t i = 0; i < 4; ++i) {
-    const size_t place = 4 * static_cast<size_t>(axis) + i;
-    setTriangle(now[i], cell.order << 4U | place, quads_[number][place]);
+    const size_t position = 4 * static_cast<size_t>(axis) + i;
+    setTriangle(now[i], cell.order << 4U | position, quads_[number][position]);
   }
 }
 
@@ -254,7 +255,7 @@ void WoundWalls::addQuads() {
       for (const Vector3i& from : {at, Vector3i(at + u), Vector3i(at + v), Vector3i(at + u + v)}) {
         const int64_t lowest = cells_->slotAt(from);
         const uint32_t cell = lowest < 0 ? kNone : cells_->numberOf(static_cast<uint32_t>(lowest));
-        if (cell != kNone) quads_to_make_.note(3 * cell + axis, mark_);
+        if (cell != kNone) quads_to_make_.record(3 * cell + axis, mark_);
       }
     }
   }
@@ -266,7 +267,7 @@ bool WoundWalls::isBetterAcross(const std::array<uint32_t, 4>& around) const {
   std::array<Vector3d, 4> at;
   Vector3d outward = Vector3d::Zero();
   for (size_t i = 0; i < 4; ++i) {
-    at[i] = firstPlace(around[i]);
+    at[i] = firstPosition(around[i]);
     outward += outward_[around[i]];
   }
   const auto area = [&](size_t a, size_t b, size_t c) { return outward.dot((at[b] - at[a]).cross(at[c] - at[a])); };

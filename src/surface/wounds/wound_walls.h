@@ -79,7 +79,7 @@ class WoundWalls {
   /// Set of numbers seen in this update.
   struct Seen {
     std::vector<uint32_t> marks, list;
-    void note(uint32_t i, uint32_t mark);
+    void record(uint32_t i, uint32_t mark);
     bool has(uint32_t i, uint32_t mark) const { return i < marks.size() && marks[i] == mark; }
   };
 
@@ -89,7 +89,7 @@ class WoundWalls {
   void takeFans();
   void placeFan(uint32_t fan, const Lip& lip);
   void dropFan(uint32_t fan);
-  void noteFansBeside(uint32_t triangle);
+  void recordNeighborFans(uint32_t triangle);
   void placeLipVertex(uint32_t vertex);
   void findPoints();
   void findPoint(uint32_t cell);
@@ -126,7 +126,7 @@ class WoundWalls {
   void setDown(uint32_t cell);
   Vector3d placeSeen(uint32_t vertex, uint32_t from_cell, size_t round) const;
   void findNormals();
-  Vector3d firstPlace(uint32_t vertex) const;
+  Vector3d firstPosition(uint32_t vertex) const;
 
   uint8_t sideOf(uint32_t cell, uint32_t node) const;
   uint32_t pointVertex(uint32_t cell, uint8_t component);
@@ -135,7 +135,7 @@ class WoundWalls {
   uint64_t orderOf(uint32_t vertex) const;
   void setTriangle(const std::array<uint32_t, 3>& corners, uint64_t order, uint32_t& known);
   void dropTriangle(uint32_t& known);
-  void noteCorners(uint32_t triangle);
+  void recordCorners(uint32_t triangle);
   void askAlways(uint32_t cell);
 
   const CutCells* cells_ = nullptr;
@@ -163,7 +163,7 @@ class WoundWalls {
   std::vector<std::pair<uint32_t, int>> ends_;  ///< of the edges of one vertex
   std::vector<OpenEdge> open_;                  ///< ascending
   std::vector<bool> walked_;                    ///< [open_]
-  std::vector<uint32_t> way_;                   ///< along a hole
+  std::vector<uint32_t> path_;                  ///< along a hole
   uint64_t fills_ = 0;                          ///< in this update
   std::array<std::vector<std::pair<uint64_t, uint32_t>>, kRounds + 1> asked_;  ///< heaps of cells by their order
   std::array<std::vector<uint32_t>, kRounds + 1> asked_marks_;                 ///< [cells]

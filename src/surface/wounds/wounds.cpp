@@ -50,18 +50,18 @@ Wounds::Wounds(const Model& model, const JoinedSkins& skins)
   uint32_t vertex = 0;
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
-    Place place;
-    place.slot = model.slotOffset(b);
-    place.vertex = vertex;
-    place.color = body.color;
-    place.origin_m = body.lattice.origin_m;
-    place.spacing_m = body.lattice.spacing_m;
-    place.number = static_cast<uint32_t>(b);
+    WoundOfBody position;
+    position.slot = model.slotOffset(b);
+    position.vertex = vertex;
+    position.color = body.color;
+    position.origin_m = body.lattice.origin_m;
+    position.spacing_m = body.lattice.spacing_m;
+    position.number = static_cast<uint32_t>(b);
     if (canBeWounded(body)) {
-      place.wound = std::make_unique<BodyWound>(body.skin, body.lattice);
-      place.depths = std::make_unique<WoundDepths>(body.skin, body.lattice);
+      position.wound = std::make_unique<BodyWound>(body.skin, body.lattice);
+      position.depths = std::make_unique<WoundDepths>(body.skin, body.lattice);
     }
-    places_.push_back(std::move(place));
+    positions_.push_back(std::move(position));
     vertex += static_cast<uint32_t>(body.skin.bindings.size() + 2 * body.skin.split_edges.size());
   }
   reset();
@@ -70,18 +70,18 @@ Wounds::Wounds(const Model& model, const JoinedSkins& skins)
 void Wounds::reset() {
   springs_.clear();
   clear();
-  for (const Place& place : places_) {
-    if (place.wound) place.wound->makeWhole();
+  for (const WoundOfBody& position : positions_) {
+    if (position.wound) position.wound->makeWhole();
   }
   shown_ = next();
 }
 
 /// Makes all surface meshes whole again.
 void Wounds::clear() {
-  for (const Place& place : places_) {
-    if (!place.wound) continue;
-    for (const uint32_t own : place.wound->rebound())
-      bindings_[place.vertex + own] = whole_bindings_[place.vertex + own];
+  for (const WoundOfBody& position : positions_) {
+    if (!position.wound) continue;
+    for (const uint32_t own : position.wound->rebound())
+      bindings_[position.vertex + own] = whole_bindings_[position.vertex + own];
   }
   bindings_.resize(whole_bindings_.size());
   colors_.resize(whole_colors_.size());
@@ -99,7 +99,7 @@ std::shared_ptr<VisibleWounds> Wounds::next() {
   out.revision = revisions_++;
   out.vertices = bindings_.size();
   out.holes = out.slivers = 0;
-  out.bodies.resize(places_.size());
+  out.bodies.resize(positions_.size());
   for (VisibleWounds::OfBody& body : out.bodies) {
     body.wounded = false;
     body.skin.clear();
@@ -111,12 +111,12 @@ std::shared_ptr<VisibleWounds> Wounds::next() {
 
 /// Appends triangles with global vertex numbers: a wound numbers the body's own vertices first, then those it has
 /// added, which follow all others here.
-void Wounds::appendTriangles(const Place& place, const BodyWound& wound, VisibleWounds::OfBody& out) const {
+void Wounds::appendTriangles(const WoundOfBody& position, const BodyWound& wound, VisibleWounds::OfBody& out) const {
   const auto own = static_cast<uint32_t>(wound.ownVertices()), first_added = static_cast<uint32_t>(bindings_.size());
   const auto number = [&](const std::vector<uint32_t>& triangles, std::vector<uint32_t>& all) {
     keepRoom(all, triangles.size());
     all = triangles;
-    for (uint32_t& vertex : all) vertex = vertex < own ? place.vertex + vertex : first_added + (vertex - own);
+    for (uint32_t& vertex : all) vertex = vertex < own ? position.vertex + vertex : first_added + (vertex - own);
   };
   out.wounded = true;
   number(wound.skinTriangles(), out.skin);
@@ -125,31 +125,32 @@ void Wounds::appendTriangles(const Place& place, const BodyWound& wound, Visible
   out.skin_sources = wound.skinSources();
 }
 
-void Wounds::append(Place& place, VisibleWounds::OfBody& out) {
-  const BodyWound& wound = *place.wound;
+void Wounds::append(WoundOfBody& position, VisibleWounds::OfBody& out) {
+  const BodyWound& wound = *position.wound;
   const auto own = static_cast<uint32_t>(wound.ownVertices());
-  appendTriangles(place, wound, out);
+  appendTriangles(position, wound, out);
   for (const uint32_t vertex : wound.rebound())
-    bindings_[place.vertex + vertex] = numbered(place.slot, wound.bindings()[vertex]);
-  for (size_t v = own; v < wound.bindings().size(); ++v) bindings_.push_back(numbered(place.slot, wound.bindings()[v]));
+    bindings_[position.vertex + vertex] = numbered(position.slot, wound.bindings()[vertex]);
+  for (size_t v = own; v < wound.bindings().size(); ++v)
+    bindings_.push_back(numbered(position.slot, wound.bindings()[v]));
   for (const WoundVertex& vertex : wound.lipVertices()) {
-    colors_.push_back(whole_colors_[place.vertex + vertex.skin_vertex]);
-    addRest(place, vertex, 0);
+    colors_.push_back(whole_colors_[position.vertex + vertex.skin_vertex]);
+    addRest(position, vertex, 0);
   }
-  const uint32_t flesh = rgba(woundColor(place.color), place.number);
+  const uint32_t flesh = rgba(woundColor(position.color), position.number);
   const std::vector<WoundVertex>& walls = wound.wallVertices();
-  keepRoom(place.wall_depths_m, walls.size());
-  place.wall_depths_m.resize(walls.size());
+  keepRoom(position.wall_depths_m, walls.size());
+  position.wall_depths_m.resize(walls.size());
   for (const uint32_t v : wound.changedWalls())
-    place.wall_depths_m[v] = walls[v].skin_vertex == WoundVertex::kNone ? place.depths->at(walls[v].point) : 0;
+    position.wall_depths_m[v] = walls[v].skin_vertex == WoundVertex::kNone ? position.depths->at(walls[v].point) : 0;
   for (size_t v = 0; v < walls.size(); ++v) {
     colors_.push_back(flesh);
-    addRest(place, walls[v], place.wall_depths_m[v]);
+    addRest(position, walls[v], position.wall_depths_m[v]);
   }
 }
 
-void Wounds::addRest(const Place& place, const WoundVertex& vertex, double depth_m) {
-  const Vector3f at = (place.origin_m + place.spacing_m * vertex.point).cast<float>();
+void Wounds::addRest(const WoundOfBody& position, const WoundVertex& vertex, double depth_m) {
+  const Vector3f at = (position.origin_m + position.spacing_m * vertex.point).cast<float>();
   added_rests_.push_back({at.x(), at.y(), at.z(), static_cast<float>(depth_m)});
 }
 
@@ -172,15 +173,15 @@ bool Wounds::update(const CutSprings& cuts) {
   clear();
   const std::shared_ptr<VisibleWounds> now = next();
   const float* const axial_cut = cuts.axial_cut.empty() ? nullptr : cuts.axial_cut.data();
-  for (size_t b = 0; b < places_.size(); ++b) {
-    Place& place = places_[b];
-    const layout::NodeBits* const nodes = cuts.nodes.data() + place.slot;
-    if (!place.wound) continue;
-    place.wound->update(nodes, axial_cut ? axial_cut + 3 * size_t{place.slot} : nullptr);
-    if (!place.wound->any()) continue;
-    append(place, now->bodies[b]);
-    now->holes += place.wound->holes();
-    now->slivers += place.wound->slivers();
+  for (size_t b = 0; b < positions_.size(); ++b) {
+    WoundOfBody& position = positions_[b];
+    const layout::NodeBits* const nodes = cuts.nodes.data() + position.slot;
+    if (!position.wound) continue;
+    position.wound->update(nodes, axial_cut ? axial_cut + 3 * size_t{position.slot} : nullptr);
+    if (!position.wound->any()) continue;
+    append(position, now->bodies[b]);
+    now->holes += position.wound->holes();
+    now->slivers += position.wound->slivers();
   }
   now->vertices = bindings_.size();
   shown_ = now;

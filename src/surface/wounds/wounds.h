@@ -49,7 +49,7 @@ class Wounds {
   const std::vector<layout::vec4>& addedRests() const { return added_rests_; }
 
  private:
-  struct Place {
+  struct WoundOfBody {
     std::unique_ptr<BodyWound> wound;  ///< null where the body is no lattice or cannot be cut
     uint32_t slot = 0, vertex = 0;     ///< first ones of the body
     Vector3d color, origin_m;
@@ -58,15 +58,15 @@ class Wounds {
     std::vector<double> wall_depths_m;    ///< [wall vertices] of wound
     uint32_t number = 0;                  ///< of the body
   };
-  void appendTriangles(const Place& place, const BodyWound& wound, VisibleWounds::OfBody& out) const;
-  void append(Place& place, VisibleWounds::OfBody& out);
-  void addRest(const Place& place, const WoundVertex& vertex, double depth_m);
+  void appendTriangles(const WoundOfBody& position, const BodyWound& wound, VisibleWounds::OfBody& out) const;
+  void append(WoundOfBody& position, VisibleWounds::OfBody& out);
+  void addRest(const WoundOfBody& position, const WoundVertex& vertex, double depth_m);
   void clear();
   std::shared_ptr<VisibleWounds> next();
   bool isKnown(const layout::NodeBits* nodes);
 
   size_t slots_ = 0;
-  std::vector<Place> places_;              ///< [bodies]
+  std::vector<WoundOfBody> positions_;     ///< [bodies]
   std::vector<layout::NodeBits> springs_;  ///< [slots] of the last update; empty before the first one
   std::vector<layout::SkinBinding> whole_bindings_, bindings_;
   std::vector<uint32_t> whole_colors_, colors_;

@@ -68,10 +68,10 @@ double unbalanced(const Body& body) {
     Vector3d sum = Vector3d::Zero();
     for (uint32_t i = links.starts[slot]; i < links.starts[slot + 1]; ++i) {
       const layout::Link& link = links.links[i];
-      const Vector3d way(link.offset_length.x, link.offset_length.y, link.offset_length.z);
+      const Vector3d offset(link.offset_length.x, link.offset_length.y, link.offset_length.z);
       const double l0 = static_cast<double>(link.offset_length.w);
-      const double force = static_cast<double>(link.stiffness * link.prestrain_m2) / (way.norm() + l0);
-      sum += force * way.normalized();
+      const double force = static_cast<double>(link.stiffness * link.prestrain_m2) / (offset.norm() + l0);
+      sum += force * offset.normalized();
       largest = std::max(largest, std::abs(force));
     }
     if (!isFixed(body.lattice.nodes[slot])) worst = std::max(worst, sum.norm());
@@ -129,10 +129,10 @@ TEST(Prestress, ASheetThatIsHeldKeepsAllOfIt) {
   EXPECT_LT(unbalanced(body), kBalanced);
   EXPECT_TRUE(contains(noteOf(body), "100 % of the requested strain")) << noteOf(body);
   for (const NetworkSpring& spring : body.network->springs) {
-    const Vector3d way = body.network->positions_m[spring.b] - body.network->positions_m[spring.a];
-    const Vector3d n = way.normalized();
+    const Vector3d offset = body.network->positions_m[spring.b] - body.network->positions_m[spring.a];
+    const Vector3d n = offset.normalized();
     const double strain = 0.02 * n.x() * n.x() + 0.1 * n.y() * n.y();  // rotated by a quarter turn
-    EXPECT_NEAR(spring.rest_length_m / way.norm(), 1 - strain, kExact);
+    EXPECT_NEAR(spring.rest_length_m / offset.norm(), 1 - strain, kExact);
   }
 }
 

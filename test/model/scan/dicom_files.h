@@ -56,8 +56,8 @@ inline std::string head() {
 }
 
 /// Returns the position of a slice: that of the volume with a coordinate of its own along the third axis.
-inline std::string position(const TestVolume& v, double place) {
-  const Vector3d at = v.lps.col(3) + place * v.lps.col(2);
+inline std::string position(const TestVolume& v, double height) {
+  const Vector3d at = v.lps.col(3) + height * v.lps.col(2);
   std::ostringstream text;
   text.precision(12);
   text << at.x() << '\\' << at.y() << '\\' << at.z();

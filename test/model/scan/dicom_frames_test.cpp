@@ -32,15 +32,15 @@ std::string frames(const TestVolume& v, const std::string& kind, const std::stri
 }
 
 /// @param places  positions of the frames along the third axis
-std::string enhanced(const TestVolume& v, const std::vector<double>& places, const std::string& pixels) {
+std::string enhanced(const TestVolume& v, const std::vector<double>& heights, const std::string& pixels) {
   std::vector<std::string> groups;
-  for (const double place : places)
-    groups.push_back(sequence(0x20, 0x9113, {position(v, place)}) +
+  for (const double height : heights)
+    groups.push_back(sequence(0x20, 0x9113, {position(v, height)}) +
                      sequence(0x28, 0x9145, {element(0x28, 0x1052, "DS", "-3") + element(0x28, 0x1053, "DS", "2")}));
   return frames(v, kEnhancedCt, "", groups, 16, pixels);
 }
 
-TEST_F(Dicom, FramesOfOneFileAreSortedByPlace) {
+TEST_F(Dicom, FramesOfOneFileAreSortedByPosition) {
   TestVolume v;
   v.size[2] = 4;
   v.fill();
@@ -65,8 +65,8 @@ TEST_F(Dicom, SegmentsOfBitsMayOverlap) {
   const auto segment = [](unsigned value, const std::string& name) {
     return element(0x62, 4, "US", us(value)) + element(0x62, 5, "LO", name);
   };
-  const auto group = [&](double place, unsigned value) {
-    return sequence(0x20, 0x9113, {position(v, place)}) + sequence(0x62, 0xa, {element(0x62, 0xb, "US", us(value))});
+  const auto group = [&](double height, unsigned value) {
+    return sequence(0x20, 0x9113, {position(v, height)}) + sequence(0x62, 0xa, {element(0x62, 0xb, "US", us(value))});
   };
   // Label 1: voxels 0 to 5 of the first slice. Label 7: voxels 4 to 7 of it, and voxel 0 of the second slice.
   const std::vector<std::string> groups = {group(0, 1), group(0, 7), group(1, 7)};
@@ -95,18 +95,18 @@ TEST_F(Dicom, SegmentsOfBitsMayOverlap) {
 }
 
 /// Returns a file of one segment with frames at these heights, in steps of the volume's third axis.
-std::string segmentAt(const TestVolume& v, const std::vector<double>& places, const std::string& measures) {
+std::string segmentAt(const TestVolume& v, const std::vector<double>& heights, const std::string& measures) {
   std::vector<std::string> groups;
-  for (const double place : places)
-    groups.push_back(sequence(0x20, 0x9113, {position(v, place)}) +
+  for (const double height : heights)
+    groups.push_back(sequence(0x20, 0x9113, {position(v, height)}) +
                      sequence(0x62, 0xa, {element(0x62, 0xb, "US", us(1))}));
   const std::string names = element(0x62, 1, "CS", "BINARY") +
                             sequence(0x62, 2, {element(0x62, 4, "US", us(1)) + element(0x62, 5, "LO", "liver")});
-  const size_t bytes = (12 * places.size() + 7) / 8;
+  const size_t bytes = (12 * heights.size() + 7) / 8;
   return frames(v, kSegmentation, names, groups, 1, std::string(bytes + bytes % 2, '\xff'), measures);
 }
 
-TEST_F(Dicom, PlacesOfSegmentsGoBeforeWhatIsSaidOfTheirStep) {
+TEST_F(Dicom, PositionsOfSegmentsGoBeforeWhatIsSaidOfTheirStep) {
   TestVolume v;
   v.lps.col(2) = Eigen::Vector3d(0, 0, 1.25);
   const std::string thick = element(0x18, 0x50, "DS", "2.0"), thin = element(0x18, 0x50, "DS", "0.625"),
@@ -116,8 +116,8 @@ TEST_F(Dicom, PlacesOfSegmentsGoBeforeWhatIsSaidOfTheirStep) {
     EXPECT_EQ(source->frame().size.z(), 4);
     EXPECT_NEAR(source->frame().axes.col(2).norm(), 1.25e-3, 1e-9);
   }
-  const auto slices = [&](const std::vector<double>& places, const std::string& measures) {
-    const auto source = openScan(test::written("gaps.dcm", segmentAt(v, places, measures)));
+  const auto slices = [&](const std::vector<double>& heights, const std::string& measures) {
+    const auto source = openScan(test::written("gaps.dcm", segmentAt(v, heights, measures)));
     return source->frame().size.z();
   };
   EXPECT_EQ(slices({0, 1, 4, 5}, thick), 6) << "two slices without the segment";

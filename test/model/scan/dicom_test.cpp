@@ -20,10 +20,10 @@ using namespace test::dicom;
 using test::TestVolume;
 
 /// Returns one slice at the volume's position with a coordinate of its own along the third axis.
-std::string slice(const TestVolume& v, int k, double place, const std::string& series = "1.2.3") {
+std::string slice(const TestVolume& v, int k, double height, const std::string& series = "1.2.3") {
   const size_t bytes = 2 * static_cast<size_t>(v.size[0] * v.size[1]);
   return head() + element(8, 0x16, "UI", "1.2.840.10008.5.1.4.1.1.2") + element(8, 0x60, "CS", "CT") +
-         element(8, 0x103e, "LO", "made " + series) + element(0x20, 0xe, "UI", series) + position(v, place) +
+         element(8, 0x103e, "LO", "made " + series) + element(0x20, 0xe, "UI", series) + position(v, height) +
          orientation(v) + element(0x28, 2, "US", us(1)) + element(0x28, 4, "CS", "MONOCHROME2") +
          element(0x28, 0x10, "US", us(static_cast<unsigned>(v.size[1]))) +
          element(0x28, 0x11, "US", us(static_cast<unsigned>(v.size[0]))) + spacing(v) +
@@ -33,12 +33,12 @@ std::string slice(const TestVolume& v, int k, double place, const std::string& s
 }
 
 /// Writes a folder of slices at their positions; file names have the reverse order.
-std::string series(const TestVolume& v, const std::vector<double>& places) {
+std::string series(const TestVolume& v, const std::vector<double>& heights) {
   const std::string folder = test::temporaryPath("series");
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
-  for (size_t n = 0; n < places.size(); ++n)
-    test::written("series/" + std::to_string(100 - n) + ".dcm", slice(v, static_cast<int>(n) % v.size[2], places[n]));
+  for (size_t n = 0; n < heights.size(); ++n)
+    test::written("series/" + std::to_string(100 - n) + ".dcm", slice(v, static_cast<int>(n) % v.size[2], heights[n]));
   return folder;
 }
 
@@ -47,7 +47,7 @@ void expectError(const std::string& path, const std::string& what, const ScanOpt
   EXPECT_NE(text.find(what), std::string::npos) << text;
 }
 
-TEST_F(Dicom, SlicesAreSortedByPlaceAndTiltStays) {
+TEST_F(Dicom, SlicesAreSortedByPositionAndTiltStays) {
   TestVolume v;
   v.size[2] = 5;
   v.fill();
@@ -62,7 +62,7 @@ TEST_F(Dicom, SlicesAreSortedByPlaceAndTiltStays) {
   for (size_t n = 0; n < all.size(); ++n) ASSERT_EQ(all[n], 2 * v.voxels[n] - 3) << n;
 }
 
-TEST_F(Dicom, MissingDoubledAndUnevenSlicesAreRefusedWithThePlace) {
+TEST_F(Dicom, MissingDoubledAndUnevenSlicesAreRefusedWithThePosition) {
   TestVolume v;
   v.size[2] = 5;
   v.fill();

@@ -112,7 +112,7 @@ inline Matrix3d turned() {
   return rotationFromDegrees({kTurnsDeg[0], kTurnsDeg[1], kTurnsDeg[2]}).toRotationMatrix();
 }
 
-inline Vector3d placeMm(const VolumeFrame& frame, const Vector3d& voxel) {
+inline Vector3d positionMm(const VolumeFrame& frame, const Vector3d& voxel) {
   return 1000 * (frame.axes * voxel + frame.origin);
 }
 
@@ -122,7 +122,7 @@ void forEachVoxel(const VolumeFrame& frame, Visit visit) {
   size_t at = 0;
   for (int k = 0; k < frame.size.z(); ++k) {
     for (int j = 0; j < frame.size.y(); ++j) {
-      for (int i = 0; i < frame.size.x(); ++i) visit(at++, placeMm(frame, Vector3d(i, j, k)));
+      for (int i = 0; i < frame.size.x(); ++i) visit(at++, positionMm(frame, Vector3d(i, j, k)));
     }
   }
 }

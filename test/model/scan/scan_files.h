@@ -91,14 +91,15 @@ class NiftiHeader {
   void dim(size_t n, int64_t value) {
     second_ ? put<int64_t>(0, 16 + 8 * n, value) : put<int16_t>(40 + 2 * n, 0, static_cast<int16_t>(value));
   }
-  void real(size_t place1, size_t place2, size_t n, double value) {
-    second_ ? put<double>(0, place2 + 8 * n, value) : put<float>(place1 + 4 * n, 0, static_cast<float>(value));
+  void real(size_t position1, size_t position2, size_t n, double value) {
+    second_ ? put<double>(0, position2 + 8 * n, value) : put<float>(position1 + 4 * n, 0, static_cast<float>(value));
   }
   template <typename T>
-  void put(size_t place1, size_t place2, T value) {
+  void put(size_t position1, size_t position2, T value) {
     char raw[sizeof(T)];
     std::memcpy(raw, &value, sizeof(T));
-    for (size_t b = 0; b < sizeof(T); ++b) bytes_[(second_ ? place2 : place1) + b] = raw[big_ ? sizeof(T) - 1 - b : b];
+    for (size_t b = 0; b < sizeof(T); ++b)
+      bytes_[(second_ ? position2 : position1) + b] = raw[big_ ? sizeof(T) - 1 - b : b];
   }
   const std::string& bytes() const { return bytes_; }
 

@@ -119,13 +119,13 @@ TEST(ScanFrame, QformIsTakenWithoutSform) {
     code(false, 1);  // both are present, and they differ
     const std::string path = test::written("both.nii", header.bytes() + v.bytes());
     EXPECT_NE(test::errorOf(path).find("set transform to sform or qform"), std::string::npos);
-    ScanOptions told;
-    told.transform = "qform";
-    EXPECT_LT(openScan(path, told)->frame().axes.determinant(), 0);
-    told.transform = "sform";
-    EXPECT_GT(openScan(path, told)->frame().axes.determinant(), 0);
-    told.transform = "best";
-    EXPECT_NE(test::errorOf(path, told).find("accepted: sform or qform"), std::string::npos);
+    ScanOptions given;
+    given.transform = "qform";
+    EXPECT_LT(openScan(path, given)->frame().axes.determinant(), 0);
+    given.transform = "sform";
+    EXPECT_GT(openScan(path, given)->frame().axes.determinant(), 0);
+    given.transform = "best";
+    EXPECT_NE(test::errorOf(path, given).find("accepted: sform or qform"), std::string::npos);
   }
 }
 
@@ -212,8 +212,8 @@ TEST(ScanFrame, AFileThatDoesNotSayIsToldOrRefused) {
   const TestVolume v;
   test::NiftiHeader header(v);
   header.put<int16_t>(254, 0, 0);
-  ScanOptions told;
-  told.axes = "RPS";
+  ScanOptions given;
+  given.axes = "RPS";
   const std::vector<std::string> paths = {
       test::written("none.nii", header.bytes() + v.bytes()),
       test::written("none.nrrd",
@@ -222,7 +222,7 @@ TEST(ScanFrame, AFileThatDoesNotSayIsToldOrRefused) {
                     test::replaced(test::nrrdHeader(v), "left-posterior-superior", "scanner-xyz") + v.bytes())};
   for (const std::string& path : paths) {
     EXPECT_NE(test::errorOf(path).find("set axes"), std::string::npos);
-    EXPECT_LT((openScan(path, told)->frame().axes - columns({0, -.001, 0}, {-.002, 0, 0}, {0, 0, .003})).norm(),
+    EXPECT_LT((openScan(path, given)->frame().axes - columns({0, -.001, 0}, {-.002, 0, 0}, {0, 0, .003})).norm(),
               kSameFrameM)
         << path;
     for (const char* wrong : {"RLS", "RA", "XYZ", "ras"}) {
@@ -232,7 +232,7 @@ TEST(ScanFrame, AFileThatDoesNotSayIsToldOrRefused) {
     }
   }
   const std::string says = test::written("says.nrrd", test::nrrdHeader(v) + v.bytes());
-  EXPECT_NE(test::errorOf(says, told).find("remove the key axes"), std::string::npos);
+  EXPECT_NE(test::errorOf(says, given).find("remove the key axes"), std::string::npos);
 }
 
 TEST(ScanFrame, RealVolumes) {

@@ -37,9 +37,9 @@ TEST_F(MeshDialects, BinaryStlWhateverItsHeader) {
     EXPECT_NEAR(volume("box.stl", bytes), 1, kDialectRounding);
   ImportReport report;
   read("long.stl", good + "\r\n", &report);
-  EXPECT_TRUE(says(report.look_notes.at(0), {"long.stl", "2 bytes after its last triangle"}));
+  EXPECT_TRUE(says(report.appearance_notes.at(0), {"long.stl", "2 bytes after its last triangle"}));
   read("few.stl", counted(7), &report);
-  EXPECT_TRUE(says(report.look_notes.at(0), {"few.stl", "announces 7 triangles", "12"}));
+  EXPECT_TRUE(says(report.appearance_notes.at(0), {"few.stl", "announces 7 triangles", "12"}));
   EXPECT_TRUE(says(refusal("many.stl", counted(13)), {"many.stl", "truncated", "13 triangles", "12"}));
   EXPECT_TRUE(says(refusal("cut.stl", good.substr(0, good.size() - 20)), {"truncated", "12 triangles", "11"}));
 }

@@ -118,8 +118,8 @@ TEST_F(MshSolid, EveryVersionIsALatticeWithItsGroupsAsParts) {
     const TriangleMesh mesh = meshOf(msh);
     EXPECT_EQ(mesh.part_names, (std::vector<std::string>{version == 1 ? "3" : "left half", "7"}));
     EXPECT_NEAR(signedVolume(mesh), 2 * kHalf_m3, kExact * kHalf_m3);
-    ASSERT_EQ(report_.look_notes.size(), 1u);
-    EXPECT_TRUE(says(report_.look_notes[0], {"solid.msh: MSH ", "96 tetrahedra; ignored: 1 triangles"}));
+    ASSERT_EQ(report_.appearance_notes.size(), 1u);
+    EXPECT_TRUE(says(report_.appearance_notes[0], {"solid.msh: MSH ", "96 tetrahedra; ignored: 1 triangles"}));
     EXPECT_EQ(report_.parts, 2);
   }
 }

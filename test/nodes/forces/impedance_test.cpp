@@ -77,10 +77,11 @@ TEST(Impedance, IsTheForceThatGoesOutWhateverStandsBetweenDeviceAndTool) {
     EXPECT_EQ(out.header.frame_id, mailbox.deviceFrame().name);
     const Vector3d tip_m(0, 0, -0.0015);
     const Vector3d wanted_n = servo.model().at(tip_m, 3600).force_n;
-    const Vector3d told_n = toDevice({wanted_n, Vector3d::Zero(), false}, mailbox.deviceFrame(), device.force).force_n;
-    const Vector3d place_m = mailbox.inDevice({tip_m, Quaterniond::Identity()}).position_m;
+    const Vector3d sent_force_n =
+        toDevice({wanted_n, Vector3d::Zero(), false}, mailbox.deviceFrame(), device.force).force_n;
+    const Vector3d position_m = mailbox.inDevice({tip_m, Quaterniond::Identity()}).position_m;
     ASSERT_GT(wanted_n.z(), 0.3);
-    EXPECT_LT((forceAt(out, place_m) - told_n).norm(), kImpedanceRounding) << plain;
+    EXPECT_LT((forceAt(out, position_m) - sent_force_n).norm(), kImpedanceRounding) << plain;
   }
 }
 
@@ -92,7 +93,7 @@ TEST(Impedance, GivesNoMoreThanTheStylusMay) {
   EXPECT_NEAR(forceAt(out, {0, 0, -0.0015}).norm(), 0.1, kImpedanceRounding);
 }
 
-TEST(Impedance, IsNothingForAHandThatHasTheClutchOrIsNotThere) {
+TEST(Impedance, IsNothingForAStylusThatHasTheClutchOrIsNotThere) {
   DeviceProfile device;
   StylusMailbox mailbox(StylusConfig{}, "tissue", device);
   const HapticServo servo = pressed();

@@ -30,7 +30,7 @@ inline DevicePose poseAt(double x_m, const std::string& frame = "tissue") {
   return {{{x_m, 0, 0}, Quaterniond::Identity()}, frame, ros::Time(kBegin_s)};
 }
 
-inline FramePlace nowhere(const std::string&) {
+inline FramePose nowhere(const std::string&) {
   return {};
 }
 

@@ -14,19 +14,19 @@ SenderWatch::SteadyTime timeAt(double time_s) {
 
 TEST(SenderWatch, NamesNodesThatSendAtTheSameTimeAndSaysSoOnce) {
   SenderWatch watch;
-  EXPECT_FALSE(watch.note("/driver", timeAt(0)));
-  EXPECT_FALSE(watch.note("/driver", timeAt(0.1)));
+  EXPECT_FALSE(watch.record("/driver", timeAt(0)));
+  EXPECT_FALSE(watch.record("/driver", timeAt(0.1)));
   EXPECT_EQ(watch.several(timeAt(0.1)), "");
-  EXPECT_TRUE(watch.note("/replay", timeAt(0.2)));
-  EXPECT_FALSE(watch.note("/driver", timeAt(0.3)));
+  EXPECT_TRUE(watch.record("/replay", timeAt(0.2)));
+  EXPECT_FALSE(watch.record("/driver", timeAt(0.3)));
   EXPECT_EQ(watch.several(timeAt(0.3)), "/driver, /replay");
   EXPECT_EQ(watch.several(timeAt(5)), "");
 }
 
 TEST(SenderWatch, DriverThatTakesOverFromAnotherIsNoTrouble) {
   SenderWatch watch;
-  watch.note("/driver_1", timeAt(0));
-  EXPECT_FALSE(watch.note("/driver_2", timeAt(2)));
+  watch.record("/driver_1", timeAt(0));
+  EXPECT_FALSE(watch.record("/driver_2", timeAt(2)));
   EXPECT_EQ(watch.several(timeAt(2)), "");
 }
 

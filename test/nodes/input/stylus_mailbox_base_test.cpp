@@ -19,32 +19,32 @@ Quaterniond aboutZ(double angle_deg) {
 class StylusBaseTest : public ::testing::Test {
  protected:
   /// Sends the next pose of the device, without a tick.
-  std::optional<Drop> say(const Vector3d& place_m) {
+  std::optional<Drop> say(const Vector3d& position_m) {
     now_s_ += kPeriod_s;
-    DevicePose pose{{place_m, Quaterniond::Identity()}, "table", ros::Time(kBegin_s + now_s_)};
+    DevicePose pose{{position_m, Quaterniond::Identity()}, "table", ros::Time(kBegin_s + now_s_)};
     return mailbox_.put(
-        pose, [this](const std::string&) { return FramePlace{base_}; }, arrival(now_s_));
+        pose, [this](const std::string&) { return FramePose{base_}; }, arrival(now_s_));
   }
   bool taken() { return mailbox_.take(at(now_s_)).valid; }
   bool peeked() const { return mailbox_.peek(at(now_s_)).valid; }
   uint64_t moves() const { return mailbox_.baseMoves(); }
 
-  const Vector3d hand_m_{0.3, 0, 0};  // relative to the base
+  const Vector3d tip_m_{0.3, 0, 0};  // relative to the base
   Pose base_;
   double now_s_ = 0;
   StylusMailbox mailbox_{config(), "tissue"};
 };
 
-TEST_F(StylusBaseTest, ThatLeapsMakesTheHandAppearAgain) {
-  say(hand_m_);
+TEST_F(StylusBaseTest, ThatLeapsMakesTheStylusAppearAgain) {
+  say(tip_m_);
   base_.position_m.x() = 0.004;  // like a base that is carried
-  say(hand_m_);
+  say(tip_m_);
   EXPECT_TRUE(taken());
   EXPECT_EQ(moves(), 0u);
   mailbox_.press(ButtonRole::kButton2, {0}, 0, at(0.3));
   mailbox_.press(ButtonRole::kButton2, {1}, 0, at(now_s_));
   base_.position_m.x() = 0.05;
-  say(hand_m_);
+  say(tip_m_);
   EXPECT_FALSE(taken());
   const StylusSample after = mailbox_.take(at(now_s_));
   EXPECT_TRUE(after.valid);
@@ -52,11 +52,11 @@ TEST_F(StylusBaseTest, ThatLeapsMakesTheHandAppearAgain) {
   EXPECT_EQ(moves(), 1u);
 }
 
-TEST_F(StylusBaseTest, ThatTurnsInItsPlaceMakesTheHandAppearAgain) {
-  say(hand_m_);
+TEST_F(StylusBaseTest, ThatRotatesInPlaceMakesTheStylusAppearAgain) {
+  say(tip_m_);
   const Vector3d before_m = mailbox_.take(at(now_s_)).pose.position_m;
   base_.orientation = aboutZ(30);
-  say(hand_m_);
+  say(tip_m_);
   const StylusSample leapt = mailbox_.take(at(now_s_));
   EXPECT_GT((leapt.pose.position_m - before_m).norm(), 0.15);
   EXPECT_FALSE(leapt.valid);
@@ -73,13 +73,13 @@ TEST_F(StylusBaseTest, ThatTurnsAboutTheTipSweepsNoBlade) {
   EXPECT_EQ(moves(), 1u);
 }
 
-TEST_F(StylusBaseTest, ThatMovesSoThatTheHandStaysIsNoLeap) {
-  say(hand_m_);
+TEST_F(StylusBaseTest, ThatMovesSoThatTheStylusStaysIsNoLeap) {
+  say(tip_m_);
   EXPECT_TRUE(taken());
   base_.orientation = aboutZ(4);  // about the device: its origin moves by 2 cm, without a tool there
-  base_.position_m = hand_m_ - base_.orientation * hand_m_;
+  base_.position_m = tip_m_ - base_.orientation * tip_m_;
   EXPECT_GT(base_.position_m.norm(), 0.02);
-  say(hand_m_);
+  say(tip_m_);
   EXPECT_TRUE(taken());
   EXPECT_EQ(moves(), 0u);
 }
@@ -88,7 +88,7 @@ TEST_F(StylusBaseTest, ThatIsCarriedAndTurnedSlowlyIsFollowed) {
   for (int step = 0; step < 300; ++step) {  // 90 degrees in 3 s, 16 cm a second at the tip
     base_.orientation = aboutZ(0.3 * step);
     base_.position_m.x() = 1e-4 * step;
-    say(hand_m_);
+    say(tip_m_);
     EXPECT_TRUE(peeked()) << step;
     EXPECT_TRUE(taken()) << step;
   }
@@ -97,16 +97,16 @@ TEST_F(StylusBaseTest, ThatIsCarriedAndTurnedSlowlyIsFollowed) {
 
 /// After a jump, forces between ticks would use the tissue model of the previous position.
 TEST_F(StylusBaseTest, ThatLeapsIsSeenByALookAlone) {
-  say(hand_m_);
+  say(tip_m_);
   EXPECT_TRUE(taken());
   EXPECT_TRUE(peeked());
   base_.orientation = aboutZ(30);
-  say(hand_m_);
+  say(tip_m_);
   EXPECT_FALSE(peeked());
   EXPECT_FALSE(peeked()) << "looking takes nothing";
   EXPECT_FALSE(taken());
   EXPECT_FALSE(peeked()) << "during the tick without a hand";
-  say(hand_m_);
+  say(tip_m_);
   EXPECT_FALSE(peeked());
   EXPECT_TRUE(taken());
   EXPECT_TRUE(peeked());
@@ -128,7 +128,7 @@ class StylusClutchTest : public ::testing::Test {
   StylusMailbox mailbox_{config(), "tissue"};
 };
 
-TEST_F(StylusClutchTest, HoldsTheLastGoodPlaceAndNoneThatWasRefused) {
+TEST_F(StylusClutchTest, HoldsTheLastGoodPositionAndNoneThatWasRefused) {
   say(0.1);
   EXPECT_EQ(say(100), Drop::kOutsideWorkspace);
   clutch(true);

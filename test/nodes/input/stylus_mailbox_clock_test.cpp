@@ -42,13 +42,13 @@ struct DriftingDevice {
   double ahead_s = 1e9;  // like a clock that was not set
   StylusMailbox mailbox{config(), "tissue"};
   std::mt19937 random{7};
-  std::uniform_real_distribution<double> way_s{0.001, 0.031};
+  std::uniform_real_distribution<double> delay_s{0.001, 0.031};
 
   /// Sends a pose at time_s, by our clock. @param late_s  delay in addition to the latency
   std::optional<Drop> tell(double time_s, double late_s = 0) {
     DevicePose pose = poseAt(0.1);
     pose.stamp = ros::Time(ahead_s + (1 + drift) * time_s);
-    return mailbox.put(pose, nowhere, arrival(time_s + way_s(random) + late_s));
+    return mailbox.put(pose, nowhere, arrival(time_s + delay_s(random) + late_s));
   }
   /// Sends poses. @returns number of dropped poses
   size_t play(double from_s, double to_s) {
@@ -71,7 +71,7 @@ TEST(StylusClock, ThatGoesSlowOrFastIsFollowedForHours) {
 
 TEST(StylusClock, OfAQuickDeviceIsFollowedThoughStampsAreCoarse) {
   DriftingDevice device{8000, -200e-6};  // 25 ns from pose to pose, below the resolution of a double at 1e9 s
-  device.way_s = std::uniform_real_distribution<double>(1e-5, 3e-5);
+  device.delay_s = std::uniform_real_distribution<double>(1e-5, 3e-5);
   EXPECT_EQ(device.play(0, 120), 0u);
   EXPECT_EQ(device.tell(120, 0.19), std::nullopt);  // 24 ms of drift are not a delay
   EXPECT_EQ(device.tell(120.5, 0.21), Drop::kDelayed);

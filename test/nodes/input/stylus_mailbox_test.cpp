@@ -46,7 +46,7 @@ TEST_F(StylusMailboxTest, NewerPoseOvertakesTheOlder) {
 }
 
 TEST_F(StylusMailboxTest, PoseOfADeviceIsBroughtToTheTissueFrame) {
-  const auto lookup = [](const std::string& frame) -> FramePlace {
+  const auto lookup = [](const std::string& frame) -> FramePose {
     if (frame != "base") return {};
     return {Pose{{0, 0, 0.5}, Quaterniond(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitZ()))}};
   };
@@ -73,7 +73,7 @@ TEST_F(StylusMailboxTest, NotANumberIsDropped) {
 }
 
 TEST_F(StylusMailboxTest, InfiniteTransformIsDropped) {
-  const auto lookup = [](const std::string&) -> FramePlace {
+  const auto lookup = [](const std::string&) -> FramePose {
     return {Pose{{std::numeric_limits<double>::infinity(), 0, 0}, Quaterniond::Identity()}};
   };
   EXPECT_EQ(mailbox_.put(poseAt(0.1, "base"), lookup, arrival(0)), Drop::kNotFinite);
@@ -136,7 +136,7 @@ TEST_F(StylusMailboxTest, ClockThatStandsStillIsNoDriverThatHangs) {
 }
 
 TEST_F(StylusMailboxTest, FrameWhoseTransformIsTooOldIsDropped) {
-  const auto lookup = [](const std::string&) -> FramePlace { return {std::nullopt, true}; };
+  const auto lookup = [](const std::string&) -> FramePose { return {std::nullopt, true}; };
   EXPECT_EQ(mailbox_.put(poseAt(0.1, "base"), lookup, arrival(0)), Drop::kOldTransform);
 }
 
@@ -177,7 +177,7 @@ TEST_F(StylusButtonTest, PressBetweenTwoTicksIsNotLost) {
   EXPECT_FALSE(take().button1);
 }
 
-TEST_F(StylusButtonTest, EndsWithItsHandAndMustBeReleasedBeforeItActs) {
+TEST_F(StylusButtonTest, EndsWithItsStylusAndMustBeReleasedBeforeItActs) {
   press(1, 1);
   EXPECT_TRUE(take().button2);
   EXPECT_FALSE(take(2).button2);  // tracking was lost
@@ -191,13 +191,13 @@ TEST_F(StylusButtonTest, EndsWithItsHandAndMustBeReleasedBeforeItActs) {
   EXPECT_TRUE(take(4).button2);
 }
 
-TEST_F(StylusButtonTest, EndsThoughNotLookedAtWhileTheHandWasAway) {
+TEST_F(StylusButtonTest, EndsThoughNotReadWhileTheStylusWasAway) {
   press(1, 1);
   track(3, 3.5);
   EXPECT_FALSE(take(3.5).button2);
 }
 
-TEST_F(StylusButtonTest, PressWithoutAHandIsIgnored) {
+TEST_F(StylusButtonTest, ButtonWithoutAStylusIsIgnored) {
   press(0, 1, 2);
   track(2.1, 3);
   EXPECT_FALSE(take(3).button1);
@@ -206,7 +206,7 @@ TEST_F(StylusButtonTest, PressWithoutAHandIsIgnored) {
   EXPECT_FALSE(take(6).button1);
 }
 
-TEST_F(StylusButtonTest, ThatIsDownWhenTheHandComesMustBeReleased) {
+TEST_F(StylusButtonTest, ThatIsDownWhenTheStylusComesMustBeReleased) {
   track(3, 3.1);
   press(0, 1, 3.1);  // a driver that repeats the state of its buttons
   track(3.2, 4);

@@ -63,21 +63,21 @@ TEST(PictureWatch, TellsOnceWhichCameraIsBehindWithItsNumbers) {
   cameras[1].name = "far";
   PictureWatch watch(cameras);
   for (int second = 1; second < PictureWatch::kReadings; ++second) {
-    EXPECT_TRUE(watch.note({30, 30}, {9, 11}).empty());
+    EXPECT_TRUE(watch.record({30, 30}, {9, 11}).empty());
     EXPECT_TRUE(watch.areBehind());
   }
-  const std::vector<std::string> said = watch.note({30, 30}, {9, 11});
+  const std::vector<std::string> said = watch.record({30, 30}, {9, 11});
   ASSERT_EQ(said.size(), 1u);
   for (const char* word : {"'near'", "9 pictures", "30 wanted", "width_px", "supersampling", "rate_hz", "spacing_m"})
     EXPECT_NE(said[0].find(word), std::string::npos) << word;
   for (int second = 0; second < 3 * PictureWatch::kReadings; ++second)
-    EXPECT_TRUE(watch.note({30, 30}, {9, 11}).empty());
+    EXPECT_TRUE(watch.record({30, 30}, {9, 11}).empty());
 }
 
 TEST(PictureWatch, WhoWantsNoneIsNotBehind) {
   PictureWatch watch(std::vector<CameraConfig>(1));
   for (int second = 0; second < 2 * PictureWatch::kReadings; ++second) {
-    EXPECT_TRUE(watch.note({0}, {0}).empty());
+    EXPECT_TRUE(watch.record({0}, {0}).empty());
     EXPECT_FALSE(watch.areBehind());
   }
 }
@@ -87,10 +87,10 @@ TEST(PictureWatch, SaysHowPixelsAreMade) {
   cameras[1].supersampling = 1;
   cameras[2].supersampling = 2;
   const PictureWatch watch(cameras);
-  EXPECT_NE(watch.ways(true)[0].find("only one is lit"), std::string::npos);
-  EXPECT_EQ(watch.ways(false)[0].find("only one is lit"), std::string::npos);
-  EXPECT_NE(watch.ways(true)[1].find("1 sample"), std::string::npos);
-  EXPECT_NE(watch.ways(true)[2].find("4 samples each"), std::string::npos);
+  EXPECT_NE(watch.renderPaths(true)[0].find("only one is lit"), std::string::npos);
+  EXPECT_EQ(watch.renderPaths(false)[0].find("only one is lit"), std::string::npos);
+  EXPECT_NE(watch.renderPaths(true)[1].find("1 sample"), std::string::npos);
+  EXPECT_NE(watch.renderPaths(true)[2].find("4 samples each"), std::string::npos);
 }
 
 }  // namespace

@@ -60,9 +60,9 @@ TEST(SimulatedTime, NeverGoesBackNorJumpsAtAReset) {
 
 TEST(Slowness, IsToldAfterTwoReadingsAndAgainOnlyAfterItHasKeptUp) {
   Slowness slowness;
-  std::string told;
-  for (const char reading : std::string("ssssfsssfffssfss")) told += slowness.note(reading == 's') ? '!' : '.';
-  EXPECT_EQ(told, ".!..........!...");
+  std::string reports;
+  for (const char reading : std::string("ssssfsssfffssfss")) reports += slowness.record(reading == 's') ? '!' : '.';
+  EXPECT_EQ(reports, ".!..........!...");
 }
 
 TEST(Relaunch, KnowsTheRunOfRoslaunchByTheFolderOfItsLog) {

@@ -55,7 +55,7 @@ void expectSays(const std::string& screen, const std::string& words) {
   EXPECT_NE(screen.find(words), std::string::npos) << "'" << words << "' in:\n" << screen;
 }
 
-TEST(StatusScreen, TellsPaceRatesHandsForcesAndWhyPosesWereDropped) {
+TEST(StatusScreen, ReportsPaceRatesStylusesForcesAndWhyPosesWereDropped) {
   StatusView view;
   view.columns = 200;  // no line is wrapped
   const std::string screen = statusScreen(session(), view);
@@ -72,9 +72,9 @@ TEST(StatusScreen, TellsPaceRatesHandsForcesAndWhyPosesWereDropped) {
 }
 
 TEST(StatusScreen, SaysThatNothingIsWrong) {
-  const std::vector<ReceivedStatus> told{simulation("simulator", 0.5)};
-  expectSays(statusScreen(told, {}), "wrong       nothing");
-  EXPECT_TRUE(isSimulatorTold(told, {}));
+  const std::vector<ReceivedStatus> reports{simulation("simulator", 0.5)};
+  expectSays(statusScreen(reports, {}), "wrong       nothing");
+  EXPECT_TRUE(isSimulatorKnown(reports, {}));
 }
 
 TEST(StatusScreen, SaysThatThereIsNoSimulator) {
@@ -87,34 +87,34 @@ TEST(StatusScreen, SaysThatThereIsNoSimulator) {
   expectSays(screen, "no /diagnostics for 3 s");
   expectSays(screen, "http://lab:11311");
   expectSays(screen, "roslaunch viscera training.launch");
-  EXPECT_FALSE(isSimulatorTold({}, view));
+  EXPECT_FALSE(isSimulatorKnown({}, view));
   expectSays(statusScreen({{"camera_driver", "rate", 0, "", {}, 0}}, view), "nodes that send /diagnostics: camera_d");
 }
 
 TEST(StatusScreen, SaysThatASimulatorHasFallenSilent) {
-  const std::vector<ReceivedStatus> told{simulation("simulator", 7.5)};
-  const std::string screen = statusScreen(told, {});
+  const std::vector<ReceivedStatus> reports{simulation("simulator", 7.5)};
+  const std::string screen = statusScreen(reports, {});
   expectSays(screen, "heard 7.5 s ago");
   expectSays(screen, "it is silent");
   EXPECT_EQ(screen.find("nothing"), std::string::npos) << screen;
-  EXPECT_FALSE(isSimulatorTold(told, {}));
+  EXPECT_FALSE(isSimulatorKnown(reports, {}));
 }
 
 TEST(StatusScreen, ShowsTheSimulatorThatIsAskedFor) {
-  const std::vector<ReceivedStatus> told{simulation("a/simulator", 0), simulation("b/simulator", 0)};
+  const std::vector<ReceivedStatus> reports{simulation("a/simulator", 0), simulation("b/simulator", 0)};
   StatusView view;
-  expectSays(statusScreen(told, view), "a/simulator,");
-  expectSays(statusScreen(told, view), "b/simulator,");
+  expectSays(statusScreen(reports, view), "a/simulator,");
+  expectSays(statusScreen(reports, view), "b/simulator,");
   view.simulator = "b/simulator";
-  EXPECT_EQ(statusScreen(told, view).find("a/simulator,"), std::string::npos);
+  EXPECT_EQ(statusScreen(reports, view).find("a/simulator,"), std::string::npos);
 }
 
 TEST(StatusScreen, KeepsToTheColumnsAndMovesNoCursor) {
   StatusView view;
   view.columns = 60;
-  std::vector<ReceivedStatus> told = session();
-  told[0].message = "\033[2Jevil";
-  const std::string screen = statusScreen(told, view);
+  std::vector<ReceivedStatus> reports = session();
+  reports[0].message = "\033[2Jevil";
+  const std::string screen = statusScreen(reports, view);
   expectSays(screen, "\\x1b[2Jevil");
   std::istringstream in(screen);
   for (std::string line; std::getline(in, line);) EXPECT_LE(line.size(), view.columns) << line;

@@ -37,18 +37,18 @@ Scene scene() {
   return scene;
 }
 
-SceneStyle look() {
-  SceneStyle look;
-  look.obstacles = {Pose{{0.2, 0, 0}, Quaterniond::Identity()}};
-  look.tools[0].present = true;
-  look.tools[0].mode = ToolMode::kProbe;
-  look.tools[0].to.position_m = {0, 0.1, 0};
-  look.reactions[0].force_n = {0, 0, 2};
-  return look;
+SceneStyle style() {
+  SceneStyle style;
+  style.obstacles = {Pose{{0.2, 0, 0}, Quaterniond::Identity()}};
+  style.tools[0].present = true;
+  style.tools[0].mode = ToolMode::kProbe;
+  style.tools[0].to.position_m = {0, 0.1, 0};
+  style.reactions[0].force_n = {0, 0, 2};
+  return style;
 }
 
-MarkerArray markersOf(const SceneStyle& look) {
-  return SceneMarkers(scene(), {}).at(look, ros::Time(3));
+MarkerArray markersOf(const SceneStyle& style) {
+  return SceneMarkers(scene(), {}).at(style, ros::Time(3));
 }
 
 std::vector<Marker> shown(const MarkerArray& array, const std::string& names) {
@@ -59,7 +59,7 @@ std::vector<Marker> shown(const MarkerArray& array, const std::string& names) {
 }
 
 TEST(SceneMarkers, ToolsAreTheTrianglesThatTheCameraShowsWhereTheyAre) {
-  const auto tools = shown(markersOf(look()), "tools");
+  const auto tools = shown(markersOf(style()), "tools");
   ASSERT_FALSE(tools.empty());
   size_t corners = 0;
   for (const Marker& tool : tools) {
@@ -73,7 +73,7 @@ TEST(SceneMarkers, ToolsAreTheTrianglesThatTheCameraShowsWhereTheyAre) {
 }
 
 TEST(SceneMarkers, AModeHasItsOwnShape) {
-  SceneStyle grabbing = look();
+  SceneStyle grabbing = style();
   grabbing.tools[0].mode = ToolMode::kGrab;
   size_t corners = 0;
   const auto tools = shown(markersOf(grabbing), "tools");
@@ -84,7 +84,7 @@ TEST(SceneMarkers, AModeHasItsOwnShape) {
 
 TEST(SceneMarkers, FingersStandAsFarOpenAsTheirTool) {
   const auto width_m = [](double opening_rad) {
-    SceneStyle grabbing = look();
+    SceneStyle grabbing = style();
     grabbing.tools[0].mode = ToolMode::kGrab;
     grabbing.tools[0].opens_to_rad = opening_rad;
     double widest_m = 0;
@@ -112,7 +112,7 @@ TEST(SceneMarkers, ATextStandsInThePlaceOfTheTissueUntilThereIsSome) {
   EXPECT_EQ(texts[0].header.frame_id, "room/tissue");
   EXPECT_EQ(texts[0].pose.position.y, 0.2);
   EXPECT_GT(texts[0].scale.z, 0);
-  const MarkerArray after = markers.at(look(), ros::Time(4));
+  const MarkerArray after = markers.at(style(), ros::Time(4));
   EXPECT_TRUE(std::any_of(after.markers.begin(), after.markers.end(), [](const Marker& marker) {
     return marker.ns == "preparing" && marker.action == Marker::DELETE;
   }));
@@ -122,7 +122,7 @@ TEST(SceneMarkers, ATextStandsInThePlaceOfTheTissueUntilThereIsSome) {
 TEST(SceneMarkers, ForcesAreArrowsFromTheTipInTheScaleThatIsAskedFor) {
   PublishOptions options;
   options.force_arrow_m_per_n = 0.05;
-  const auto forces = shown(SceneMarkers(scene(), options).at(look(), ros::Time(3)), "forces");
+  const auto forces = shown(SceneMarkers(scene(), options).at(style(), ros::Time(3)), "forces");
   ASSERT_EQ(forces.size(), 1u);
   ASSERT_EQ(forces[0].points.size(), 2u);
   EXPECT_EQ(forces[0].points[0].y, 0.1);
@@ -130,7 +130,7 @@ TEST(SceneMarkers, ForcesAreArrowsFromTheTipInTheScaleThatIsAskedFor) {
 }
 
 TEST(SceneMarkers, ForcesThatAreNoneOrNotFiniteHaveNoArrow) {
-  SceneStyle none = look();
+  SceneStyle none = style();
   none.reactions[0].force_n.setZero();
   EXPECT_TRUE(shown(markersOf(none), "forces").empty());
   none.reactions[0].force_n.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -138,7 +138,7 @@ TEST(SceneMarkers, ForcesThatAreNoneOrNotFiniteHaveNoArrow) {
 }
 
 TEST(SceneMarkers, ObstaclesAreInTheirTrueSizeAtTheirPose) {
-  const auto obstacles = shown(markersOf(look()), "obstacles");
+  const auto obstacles = shown(markersOf(style()), "obstacles");
   ASSERT_EQ(obstacles.size(), 1u);
   EXPECT_EQ(obstacles[0].pose.position.x, 0.2);
   double farthest_m = 0;
@@ -147,7 +147,7 @@ TEST(SceneMarkers, ObstaclesAreInTheirTrueSizeAtTheirPose) {
 }
 
 TEST(SceneMarkers, WhatIsNotThereIsDeletedUnderTheIdsThatItHad) {
-  const MarkerArray present = markersOf(look()), absent = markersOf(SceneStyle{{}, look().obstacles, {}});
+  const MarkerArray present = markersOf(style()), absent = markersOf(SceneStyle{{}, style().obstacles, {}});
   std::set<std::pair<std::string, int>> deleted;
   for (const Marker& marker : absent.markers)
     if (marker.action == Marker::DELETE) deleted.emplace(marker.ns, marker.id);
@@ -159,7 +159,7 @@ TEST(SceneMarkers, WhatIsNotThereIsDeletedUnderTheIdsThatItHad) {
 
 TEST(SceneMarkers, NoTwoMarkersShareAnId) {
   std::set<std::pair<std::string, int>> ids;
-  const MarkerArray array = markersOf(look());
+  const MarkerArray array = markersOf(style());
   for (const Marker& marker : array.markers) EXPECT_TRUE(ids.emplace(marker.ns, marker.id).second) << marker.ns;
 }
 
@@ -172,7 +172,7 @@ TEST(SceneMarkers, SuturesAreLinesThroughTheirNodesOnceTheyArePlaced) {
   with.sutures = {suture, suture};
   with.sutures[1].radius_m = 1e-5;
   const SceneMarkers markers(with, {});
-  SceneStyle placed = look();
+  SceneStyle placed = style();
   EXPECT_TRUE(shown(markers.at(placed, ros::Time(3)), "sutures").empty());
   placed.sutures = {{0, TubeKind::kSuture, {{0, 0, 0}, {0.01, 0, 0}, {0.02, 0, 0.01}}},
                     {1, TubeKind::kSuture, {{0, 1, 0}, {0, 2, 0}}}};
@@ -193,7 +193,7 @@ TEST(SceneMarkers, ClipsAreLinesBehindThoseOfSutures) {
   Scene with = scene();
   with.styluses[0].button1 = ToolMode::kClip;
   const SceneMarkers markers(with, {});
-  SceneStyle placed = look();
+  SceneStyle placed = style();
   EXPECT_TRUE(shown(markers.at(placed, ros::Time(3)), "sutures").empty());
   placed.sutures = {{0, TubeKind::kClip, {{0, 0, 0}, {0.01, 0, 0}, {0.01, 0.002, 0}, {0, 0.002, 0}}}};
   const auto lines = shown(markers.at(placed, ros::Time(3)), "sutures");
@@ -209,7 +209,7 @@ TEST(SceneMarkers, NeedlesAreLinesAlongTheirWireFromTheTip) {
   with.sutures = {suture, suture};
   with.sutures[1].needle.arc = NeedleArc::kHalfCircle;
   const SceneMarkers markers(with, {});
-  SceneStyle placed = look();
+  SceneStyle placed = style();
   EXPECT_TRUE(shown(markers.at(placed, ros::Time(3)), "needles").empty());
   NeedleState needle;
   needle.suture = 1;
@@ -228,11 +228,11 @@ TEST(SceneMarkers, NeedlesAreLinesAlongTheirWireFromTheTip) {
 }
 
 TEST(SceneMarkers, ToolsThatAreWhereTheirFramesAreGoWithThese) {
-  SceneStyle look = viscera::nodes::look();
-  look.in_tf[0] = true;
+  SceneStyle style = viscera::nodes::style();
+  style.in_tf[0] = true;
   PublishOptions options;
   options.frame_prefix = "room/";
-  for (const Marker& tool : shown(SceneMarkers(scene(), options).at(look, ros::Time(3)), "tools")) {
+  for (const Marker& tool : shown(SceneMarkers(scene(), options).at(style, ros::Time(3)), "tools")) {
     EXPECT_EQ(tool.header.frame_id, "room/left_tool");
     EXPECT_TRUE(tool.frame_locked);
     EXPECT_EQ(tool.header.stamp, ros::Time()) << "the newest";
@@ -247,21 +247,21 @@ TEST(SceneMarkers, AToolThatIsHeldBackIsNotWhereItsFrameIs) {
   samples[0].valid = samples[1].valid = true;
   frame.tools[0].present = frame.tools[1].present = true;
   frame.tools[1].to.position_m.x() = 0.001;
-  const SceneStyle look = lookOf(frame, samples);
-  EXPECT_TRUE(look.in_tf[0]);
-  EXPECT_FALSE(look.in_tf[1]);
+  const SceneStyle style = styleOf(frame, samples);
+  EXPECT_TRUE(style.in_tf[0]);
+  EXPECT_FALSE(style.in_tf[1]);
   samples[0].valid = false;
-  EXPECT_FALSE(lookOf(frame, samples).in_tf[0]) << "its frame is not sent";
+  EXPECT_FALSE(styleOf(frame, samples).in_tf[0]) << "its frame is not sent";
 }
 
 class SentMeshesTest : public ::testing::Test {
  protected:
   /// Returns the ids of tools that are sent for these contents.
-  std::vector<int> tools(const SceneStyle& look, double time_s) {
+  std::vector<int> tools(const SceneStyle& style, double time_s) {
     const auto now = SteadyTime(std::chrono::hours(1)) +
                      std::chrono::duration_cast<SteadyTime::duration>(std::chrono::duration<double>(time_s));
     std::vector<int> out;
-    const MarkerArray news = sent_.newsOf(markers_.at(look, ros::Time(time_s)), now);
+    const MarkerArray news = sent_.newsOf(markers_.at(style, ros::Time(time_s)), now);
     for (const Marker& marker : news.markers)
       if (marker.ns == "tools") out.push_back(marker.id);
     names_ = shown(news, "names").size();
@@ -273,34 +273,34 @@ class SentMeshesTest : public ::testing::Test {
 };
 
 TEST_F(SentMeshesTest, AreSentOnceAndAgainAsTheyChange) {
-  SceneStyle look = viscera::nodes::look();
-  look.in_tf[0] = true;
-  const size_t all = tools(look, 0).size();
+  SceneStyle style = viscera::nodes::style();
+  style.in_tf[0] = true;
+  const size_t all = tools(style, 0).size();
   EXPECT_GE(all, 8U) << "of two styluses, present or not";
-  look.tools[0].to.position_m.x() = 0.01;
-  EXPECT_TRUE(tools(look, 0.1).empty()) << "its frame has moved";
+  style.tools[0].to.position_m.x() = 0.01;
+  EXPECT_TRUE(tools(style, 0.1).empty()) << "its frame has moved";
   EXPECT_EQ(names_, 2U) << "all else is in every array";
-  look.tools[0].mode = ToolMode::kGrab;
-  EXPECT_FALSE(tools(look, 0.2).empty());
-  EXPECT_TRUE(tools(look, 0.3).empty());
-  look.tools[0].present = false;
-  EXPECT_FALSE(tools(look, 0.4).empty()) << "gone";
-  EXPECT_TRUE(tools(look, 0.5).empty());
-  EXPECT_EQ(tools(look, 5.1).size(), all) << "every 5 s, for bags that are split";
-  EXPECT_TRUE(tools(look, 5.2).empty());
+  style.tools[0].mode = ToolMode::kGrab;
+  EXPECT_FALSE(tools(style, 0.2).empty());
+  EXPECT_TRUE(tools(style, 0.3).empty());
+  style.tools[0].present = false;
+  EXPECT_FALSE(tools(style, 0.4).empty()) << "gone";
+  EXPECT_TRUE(tools(style, 0.5).empty());
+  EXPECT_EQ(tools(style, 5.1).size(), all) << "every 5 s, for bags that are split";
+  EXPECT_TRUE(tools(style, 5.2).empty());
   sent_.clear();
-  EXPECT_EQ(tools(look, 5.3).size(), all);
+  EXPECT_EQ(tools(style, 5.3).size(), all);
 }
 
 TEST_F(SentMeshesTest, OfToolsThatAreNotInTheirFramesAreSentAsTheyMove) {
-  SceneStyle look = viscera::nodes::look();
-  tools(look, 0);
-  EXPECT_TRUE(tools(look, 0.1).empty());
-  look.tools[0].to.position_m.x() = 0.01;
-  EXPECT_FALSE(tools(look, 0.2).empty());
+  SceneStyle style = viscera::nodes::style();
+  tools(style, 0);
+  EXPECT_TRUE(tools(style, 0.1).empty());
+  style.tools[0].to.position_m.x() = 0.01;
+  EXPECT_FALSE(tools(style, 0.2).empty());
 }
 
-TEST(SceneMarkers, NamesAtOnePlaceAreWrittenAboveEachOther) {
+TEST(SceneMarkers, NamesAtOnePositionAreWrittenAboveEachOther) {
   constexpr double kLetter_m = 0.01;
   std::vector<Label> labels(4, Label{"left", {0.1, 0, 0}});
   labels[3].position_m = {0.5, 0, 0};
@@ -313,17 +313,17 @@ TEST(SceneMarkers, NamesAtOnePlaceAreWrittenAboveEachOther) {
 }
 
 TEST(SceneMarkers, NodesThatAreHeldArePointsThatGoWithTheTool) {
-  SceneStyle look = viscera::nodes::look();
-  EXPECT_TRUE(shown(markersOf(look), "held").empty());
-  look.held_m[0] = {{0, 0, 0.001}, {0.002, 0, 0}};
-  const auto held = shown(markersOf(look), "held");
+  SceneStyle style = viscera::nodes::style();
+  EXPECT_TRUE(shown(markersOf(style), "held").empty());
+  style.held_m[0] = {{0, 0, 0.001}, {0.002, 0, 0}};
+  const auto held = shown(markersOf(style), "held");
   ASSERT_EQ(held.size(), 1U);
   EXPECT_EQ(held[0].type, Marker::POINTS);
   EXPECT_EQ(held[0].pose.position.y, 0.1);
   ASSERT_EQ(held[0].points.size(), 2U);
   EXPECT_EQ(held[0].points[1].x, 0.002);
-  look.tools[0].present = false;
-  EXPECT_TRUE(shown(markersOf(look), "held").empty());
+  style.tools[0].present = false;
+  EXPECT_TRUE(shown(markersOf(style), "held").empty());
 }
 
 }  // namespace

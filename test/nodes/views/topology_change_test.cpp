@@ -22,7 +22,7 @@ TEST(TopologyChange, NothingChangesNothing) {
   EXPECT_EQ(edited(triangles(50), edits), triangles(50));
 }
 
-TEST(TopologyChange, OneTriangleInPiecesIsOnePlace) {
+TEST(TopologyChange, OneTriangleInPiecesIsOnePosition) {
   const std::vector<uint32_t> before = triangles(1000);
   std::vector<uint32_t> after = before;
   after.erase(after.begin() + 300, after.begin() + 303);

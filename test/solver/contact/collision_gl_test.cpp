@@ -34,7 +34,7 @@ class Passages {
 
   /// Returns the number of nodes that passed through a triangle since the last call: over it before and after, on
   /// different sides.
-  int look(const HostState& state) {
+  int find(const HostState& state) {
     std::vector<double> heights;
     for (const auto& t : model_.bodies[triangles_].network->triangles) {
       const Vector3d a = positionOf(model_, triangles_, t[0], state),
@@ -112,7 +112,7 @@ TEST_P(Collide, SheetsThatMeetAtHalfACellPerSubstepDoNotPassThroughEachOther) {
         for (int s = 0; s < kSubsteps; ++s) {
           solver->step({});
           const HostState state = solver->readState();
-          EXPECT_EQ(down.look(state) + up.look(state), 0) << s;
+          EXPECT_EQ(down.find(state) + up.find(state), 0) << s;
         }
       }
     }
@@ -129,7 +129,7 @@ TEST_P(Collide, SheetsPassThroughEachOtherWhereNothingCollides) {
   int passed = 0;
   for (int s = 0; s < 20; ++s) {
     solver->step({});
-    passed += down.look(solver->readState());
+    passed += down.find(solver->readState());
   }
   EXPECT_GT(passed, 30);
 }
@@ -149,7 +149,7 @@ TEST_P(Collide, ASmallPieceShotAtASheetDoesNotPassWhereverItHits) {
     Passages passages(model, 0, 1);
     for (int s = 0; s < 40; ++s) {
       solver->step({});
-      EXPECT_EQ(passages.look(solver->readState()), 0) << "trial " << trial << ", substep " << s;
+      EXPECT_EQ(passages.find(solver->readState()), 0) << "trial " << trial << ", substep " << s;
     }
   }
 }

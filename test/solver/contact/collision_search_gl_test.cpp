@@ -168,7 +168,7 @@ TEST(SearchOnBothBackends, PassesOverACrowdAndSeesEverybodyElse) {
     const std::vector<CollisionPair> pairs = pass.findPairs(buffers);
     EXPECT_GE(pairs.size(), 81u) << "the two sheets that lie on each other";
     for (const CollisionPair& pair : pairs) EXPECT_GE(pair[0], model.slotOffset(1));
-    pass.noteCrowded(buffers.stats);
+    pass.recordCrowded(buffers.stats);
     EXPECT_EQ(buffers.stats.read()[0].crowded, collapsed ? model.bodies[0].lattice.active_slots.size() : 0);
     lattice.write(state);
     EXPECT_EQ(on_cpu.findPairs(lattice), pairs);

@@ -117,8 +117,8 @@ TEST_P(Surround, ABodyStaysOnASlopeIfAndOnlyIfItsTangentIsBelowTheFriction) {
     const Vector3d down = lying.orientation * Vector3d::UnitX();
     // Of rounding at 1 m/s2 and more: a resting body may creep by at most a micrometre.
     EXPECT_NEAR(meanVelocity(model, end).dot(down), slides * kTime_s, 1e-2 * slides * kTime_s + 1e-5);
-    const double way_m = 0.5 * slides * kTime_s * kTime_s;
-    EXPECT_NEAR(farthest(model, end, lying), way_m, 1e-2 * way_m + 1e-6);
+    const double offset_m = 0.5 * slides * kTime_s * kTime_s;
+    EXPECT_NEAR(farthest(model, end, lying), offset_m, 1e-2 * offset_m + 1e-6);
   }
 }
 
@@ -146,15 +146,15 @@ TEST_P(Surround, ABlockOfTissueStaysOnASlopeToo) {
 TEST_P(Surround, NothingPassesAThinPlateHoweverFast) {
   const Model model = modelOf({looseCloth(5, 5, kEnvironmentSpacing_m)});
   for (const double plate_speed : {0.0, 5.0}) {
-    for (const double ways : {0.5, 3.0, 40.0}) {  // of the plate's thickness per substep
-      SCOPED_TRACE(ways);
+    for (const double offsets : {0.5, 3.0, 40.0}) {  // of the plate's thickness per substep
+      SCOPED_TRACE(offsets);
       constexpr double kThickness_m = 1e-3;
       Scene scene = sceneFor(model, 1);
       scene.obstacles = {plate(kThickness_m)};
       scene.obstacles[0].velocity_m_per_s = Vector3d(0, 0, plate_speed);
-      const double dt_s = 1 / scene.solver.tick_hz, speed = ways * kThickness_m / dt_s;
+      const double dt_s = 1 / scene.solver.tick_hz, speed = offsets * kThickness_m / dt_s;
       HostState state = restState(model);
-      const Pose above{Vector3d(0, 0, 0.3 * ways * kThickness_m), rotationFromDegrees({0.01, 0.02, 0})};
+      const Pose above{Vector3d(0, 0, 0.3 * offsets * kThickness_m), rotationFromDegrees({0.01, 0.02, 0})};
       place(model, 0, above, Vector3d(0.2 * speed, 0, -speed), state);
       begin(model, scene, state);
       double top_m = 0;

@@ -17,17 +17,17 @@ constexpr double kImplicitContactSpacing_m = 0.01;
 // iteration error.
 constexpr double kImplicitContactForce = 0.01;
 
-struct Way {
+struct Variant {
   Integrator integrator;
   double fraction;  ///< over dt_safe
 };
-constexpr Way kWays[] = {
+constexpr Variant kVariants[] = {
     {Integrator::kLeapfrog, 0.5}, {Integrator::kPd, 2}, {Integrator::kPd, 5}, {Integrator::kPd, 10}};
 constexpr int kIterations = 20;  // the default: a state at rest is the solution, however few
 
 class ImplicitContact : public OnBackend {
  protected:
-  static std::vector<Way> ways() { return {std::begin(kWays), std::end(kWays)}; }
+  static std::vector<Variant> variants() { return {std::begin(kVariants), std::end(kVariants)}; }
 };
 
 INSTANTIATE_TEST_SUITE_P(Backends, ImplicitContact, ::testing::ValuesIn(backendKinds()), backendSuffix);
@@ -69,17 +69,18 @@ TEST_P(ImplicitContact, AStaticProbeFeelsTheSameForceWhateverTheIntegratorAndThe
   ASSERT_LT(expected_n, 0);
   StylusConfig stylus;
   stylus.probe.radius_m = kRadius_m;
-  for (const Way& way : ways()) {
-    SCOPED_TRACE(::testing::Message() << "integrator " << static_cast<int>(way.integrator) << " dt " << way.fraction);
-    const Scene scene = sceneWith(way.integrator, model, 4, way.fraction, kIterations, {stylus});
+  for (const Variant& variant : variants()) {
+    SCOPED_TRACE(::testing::Message() << "integrator " << static_cast<int>(variant.integrator) << " dt "
+                                      << variant.fraction);
+    const Scene scene = sceneWith(variant.integrator, model, 4, variant.fraction, kIterations, {stylus});
     const auto solver = make(model, scene);
     const Vector3d top(kImplicitContactSpacing_m, kImplicitContactSpacing_m,
                        2 * kImplicitContactSpacing_m - kDepth_m + kRadius_m);
     const double tick_s = 1 / scene.solver.tick_hz;
     for (double t = 0; t < 1.0; t += tick_s) solver->step(probeAt(top));
-    const Vector3d felt = xyz(lastStats(*solver).impulse[0]) / tick_s;
-    EXPECT_NEAR(felt.z(), expected_n, kImplicitContactForce * std::abs(expected_n));
-    EXPECT_LT(std::hypot(felt.x(), felt.y()), kImplicitContactForce * std::abs(expected_n));
+    const Vector3d force_n = xyz(lastStats(*solver).impulse[0]) / tick_s;
+    EXPECT_NEAR(force_n.z(), expected_n, kImplicitContactForce * std::abs(expected_n));
+    EXPECT_LT(std::hypot(force_n.x(), force_n.y()), kImplicitContactForce * std::abs(expected_n));
   }
 }
 
@@ -91,9 +92,10 @@ TEST_P(ImplicitContact, AnObstacleBearsTheWeightOfWhatLiesOnItWhateverTheIntegra
   ReferenceSolver masses(model, gravity, 1);
   double weight_n = 0;
   for (const uint32_t slot : masses.active) weight_n += 9.81 * masses.mass(slot);
-  for (const Way& way : ways()) {
-    SCOPED_TRACE(::testing::Message() << "integrator " << static_cast<int>(way.integrator) << " dt " << way.fraction);
-    Scene scene = sceneWith(way.integrator, model, 4, way.fraction, kIterations, {}, gravity);
+  for (const Variant& variant : variants()) {
+    SCOPED_TRACE(::testing::Message() << "integrator " << static_cast<int>(variant.integrator) << " dt "
+                                      << variant.fraction);
+    Scene scene = sceneWith(variant.integrator, model, 4, variant.fraction, kIterations, {}, gravity);
     scene.obstacles = {planeAt(-1), planeAt(0)};
     const auto solver = make(model, scene);
     const double tick_s = 1 / scene.solver.tick_hz;

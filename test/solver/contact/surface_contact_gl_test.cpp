@@ -19,7 +19,7 @@ constexpr double kSurfaceContactSpacing_m = 0.01;
 constexpr double kTop_m = 0.5 * 0.0273;          // height of the body's surface
 constexpr double kTopNodes_m = kTop_m + 0.0027;  // the last cells are filled to 0.73
 constexpr double kPress_m = 1e-3;
-constexpr double kPlace_m = 2e-6;  // of a pressed node: displacement of a substep while it settles, and rounding
+constexpr double kPosition_m = 2e-6;  // of a pressed node: displacement of a substep while it settles, and rounding
 
 class SurfaceContact : public OnBackend {};
 INSTANTIATE_TEST_SUITE_P(Backends, SurfaceContact, ::testing::ValuesIn(backendKinds()), backendSuffix);
@@ -85,7 +85,7 @@ TEST_P(SurfaceContact, ObstaclesMeetTheSurfaceWhereItIs) {
     for (double t = 0; t < 0.5; t += 1 / scene.solver.tick_hz) solver->step({});
     const std::vector<Vector3d> pressed = topDisplacements(model, solver->readState());
     EXPECT_EQ(pressed.size(), 16u);
-    for (const Vector3d& u : pressed) EXPECT_NEAR(u.z(), -kPress_m, kPlace_m);
+    for (const Vector3d& u : pressed) EXPECT_NEAR(u.z(), -kPress_m, kPosition_m);
   }
 }
 
@@ -110,8 +110,8 @@ TEST_P(SurfaceContact, AProbeMeetsTheSurfaceWhereItIs) {
   // Tips also touch the adjacent springs, which hold them off like a cone of their slope.
   const double seen_m = kRadius_m - (kTopNodes_m - kTop_m), away_m = (rest + lowest - tip).norm();
   const double cone_m = 0.02 * seen_m;  // slope 0.2
-  EXPECT_GE(away_m, seen_m - kPlace_m);
-  EXPECT_LE(away_m, seen_m + cone_m + kPlace_m);
+  EXPECT_GE(away_m, seen_m - kPosition_m);
+  EXPECT_LE(away_m, seen_m + cone_m + kPosition_m);
   EXPECT_LT(lowest.z(), -0.9 * kPress_m);
 }
 

@@ -42,9 +42,9 @@ std::string tearingToughness(double j_per_m2) {
 }
 
 /// A stylus that grips the middle of the upper side, and lifts it.
-class TearingHand {
+class TearingTool {
  public:
-  explicit TearingHand(const Scene& scene) : scene_(scene), model_(buildModel(scene_)), solver_(model_, scene_) {}
+  explicit TearingTool(const Scene& scene) : scene_(scene), model_(buildModel(scene_)), solver_(model_, scene_) {}
   void lift(int first, int last) {
     for (int i = first; i < last; ++i) {
       ToolMotions motions;
@@ -95,8 +95,8 @@ TEST(Tearing, SpringsAcrossASquareTakeTheWorkOfIt) {
 }
 
 TEST(Tearing, AGripThatPullsTooHardTearsTissueOff) {
-  TearingHand tears(tearingScene(tearingToughness(10))), holds(tearingScene(""));
-  for (TearingHand* hand : {&tears, &holds}) hand->lift(0, kTorn);
+  TearingTool tears(tearingScene(tearingToughness(10))), holds(tearingScene(""));
+  for (TearingTool* tool : {&tears, &holds}) tool->lift(0, kTorn);
   EXPECT_GT(tears.springsCut(), 0u);
   EXPECT_EQ(holds.springsCut(), 0u);
   EXPECT_LT(tears.force_n(), 0.5 * holds.force_n());
@@ -105,17 +105,17 @@ TEST(Tearing, AGripThatPullsTooHardTearsTissueOff) {
 }
 
 TEST(Tearing, WhatIsPulledLessIsAsIfThereWereNoKey) {
-  TearingHand tough(tearingScene(tearingToughness(1000))), none(tearingScene(""));
-  for (TearingHand* hand : {&tough, &none}) hand->lift(0, 5);
+  TearingTool tough(tearingScene(tearingToughness(1000))), none(tearingScene(""));
+  for (TearingTool* tool : {&tough, &none}) tool->lift(0, 5);
   EXPECT_EQ(tough.springsCut(), 0u);
   EXPECT_EQ(tough.hash(), none.hash());
 }
 
 TEST(Tearing, TornSpringsAreCutInTheirMiddle) {
-  TearingHand hand(tearingScene(tearingToughness(10)));
-  hand.lift(0, kTorn);
-  const HostState state = hand.solver().readState();
-  const Lattice& lattice = hand.model().bodies[0].lattice;
+  TearingTool tool(tearingScene(tearingToughness(10)));
+  tool.lift(0, kTorn);
+  const HostState state = tool.solver().readState();
+  const Lattice& lattice = tool.model().bodies[0].lattice;
   size_t torn = 0;
   for (const uint32_t slot : lattice.active_slots) {
     for (uint32_t axis = 0; axis < 3; ++axis) {
@@ -128,7 +128,7 @@ TEST(Tearing, TornSpringsAreCutInTheirMiddle) {
 }
 
 TEST(Tearing, SavedStatesGoOnToTheBit) {
-  TearingHand first(tearingScene(tearingToughness(10))), second(tearingScene(tearingToughness(10)));
+  TearingTool first(tearingScene(tearingToughness(10))), second(tearingScene(tearingToughness(10)));
   first.lift(0, 30);
   second.lift(0, 3);
   Archive saved;
@@ -142,12 +142,12 @@ TEST(Tearing, SavedStatesGoOnToTheBit) {
 }
 
 TEST(Tearing, AResetMendsIt) {
-  TearingHand hand(tearingScene(tearingToughness(10)));
-  hand.lift(0, kTorn);
-  const uint64_t torn = hand.hash();
-  hand.solver().reset();
-  hand.lift(0, kTorn);
-  EXPECT_EQ(hand.hash(), torn);
+  TearingTool tool(tearingScene(tearingToughness(10)));
+  tool.lift(0, kTorn);
+  const uint64_t torn = tool.hash();
+  tool.solver().reset();
+  tool.lift(0, kTorn);
+  EXPECT_EQ(tool.hash(), torn);
 }
 
 TEST(Tearing, WhatItDoesNotGoWithIsRefused) {

@@ -40,8 +40,8 @@ std::array<double, 2> stopsAbove(double cells) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> inner(-0.3 * kWidth_m, 0.3 * kWidth_m);
   std::array<double, 2> out = {1e9, -1e9};
-  for (int place = 0; place < 400; ++place) {
-    const double side = place % 2 ? 1 : -1;
+  for (int position = 0; position < 400; ++position) {
+    const double side = position % 2 ? 1 : -1;
     const Vector3d x(inner(random), inner(random), side * 0.5 * cells * kTouchDepthsSpacing_m);
     double stops_m = -1;
     for (const uint32_t slot : model.bodies[0].lattice.active_slots) {

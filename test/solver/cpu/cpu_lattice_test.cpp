@@ -88,8 +88,8 @@ TEST(CpuLattice, HasTheStrengthsOfCellsOfPartsAndOfOtherBodies) {
 TEST(CpuLattice, HasNoBulkWithoutALawAndNoRoomForStylusesThatAreNot) {
   CpuLattice lattice = latticeOf(twoBodies());
   EXPECT_TRUE(lattice.strengths.bulk.empty());
-  EXPECT_TRUE(lattice.hands.grab_offsets.empty() && lattice.hands.impulses.empty() && lattice.hands.touched.empty());
-  EXPECT_EQ(latticeOf(twoBodies(), true).hands.impulses.size(), 2 * lattice.slotCount());
+  EXPECT_TRUE(lattice.tools.grab_offsets.empty() && lattice.tools.impulses.empty() && lattice.tools.touched.empty());
+  EXPECT_EQ(latticeOf(twoBodies(), true).tools.impulses.size(), 2 * lattice.slotCount());
 }
 
 TEST(CpuLattice, KnowsTheNodesOfEveryBrick) {
@@ -153,16 +153,16 @@ TEST(CpuLattice, IsAtRestAfterReset) {
   CpuLattice lattice = latticeOf(model, true);
   lattice.write(randomState(model, 1e-3, 0.5, 3));
   lattice.swap();
-  lattice.hands.impulses[5] = {1, 2, 3, 4};
-  lattice.hands.touched[0] = 1;
+  lattice.tools.impulses[5] = {1, 2, 3, 4};
+  lattice.tools.touched[0] = 1;
   lattice.reset();
   const HostState rest = restState(model), state = lattice.read();
   for (size_t slot = 0; slot < model.slots(); ++slot) {
     EXPECT_TRUE(sameBits(state.displacement_m[slot], {}) && sameBits(state.velocity_m_per_s[slot], {}));
     EXPECT_EQ(state.nodes[slot].lo, rest.nodes[slot].lo);
   }
-  EXPECT_EQ(lattice.hands.impulses[5].w, 0);
-  EXPECT_EQ(lattice.hands.touched[0], 0);
+  EXPECT_EQ(lattice.tools.impulses[5].w, 0);
+  EXPECT_EQ(lattice.tools.touched[0], 0);
 }
 
 TEST(CpuLattice, StoreAndStrengthsStandWithoutAState) {

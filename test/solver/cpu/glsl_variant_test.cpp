@@ -12,7 +12,7 @@
 namespace viscera::glsl {
 namespace {
 
-struct HandKernel : Kernel {
+struct ToolKernel : Kernel {
   using Kernel::Kernel;
   uint stylus = 0;
   vec4 tip = vec4(0), orientation = vec4(0);
@@ -21,7 +21,7 @@ struct HandKernel : Kernel {
 };
 
 #define VARIANT_NAME ReleaseFirst
-#define VARIANT_BASE HandKernel
+#define VARIANT_BASE ToolKernel
 #define VARIANT_TEXT "shaders/solver/tools/grab.comp"
 #define VARIANT_FEATURES WITH_RELEASE | WITH_TOOLS
 #define VARIANT_MEMBERS                    \
@@ -31,13 +31,13 @@ struct HandKernel : Kernel {
 #include "solver/cpu/kernels/glsl_variant.inc"
 
 #define VARIANT_NAME Hold
-#define VARIANT_BASE HandKernel
+#define VARIANT_BASE ToolKernel
 #define VARIANT_TEXT "shaders/solver/tools/grab.comp"
 #define VARIANT_FEATURES WITH_TOOLS
 #include "solver/cpu/kernels/glsl_variant.inc"
 
 #define VARIANT_NAME ReleaseAfterwards
-#define VARIANT_BASE HandKernel
+#define VARIANT_BASE ToolKernel
 #define VARIANT_TEXT "shaders/solver/tools/grab.comp"
 #define VARIANT_FEATURES WITH_TOOLS | WITH_RELEASE
 #include "solver/cpu/kernels/glsl_variant.inc"

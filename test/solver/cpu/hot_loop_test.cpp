@@ -49,12 +49,12 @@ class HotLoop : public ::testing::Test {
 
   /// Returns a stylus that moves back and forth over the block's top, as deep as its nodes.
   static ToolMotions motionsAt(int tick, ToolMode mode) {
-    const auto place = [](int t) { return Vector3d(0.018 + 0.004 * std::sin(0.05 * t), 0.018, 0.02); };
+    const auto position = [](int t) { return Vector3d(0.018 + 0.004 * std::sin(0.05 * t), 0.018, 0.02); };
     ToolMotions motions;
     motions[0].mode = mode;
     motions[0].present = true;
-    motions[0].from.position_m = place(tick - 1);
-    motions[0].to.position_m = place(tick);
+    motions[0].from.position_m = position(tick - 1);
+    motions[0].to.position_m = position(tick);
     motions[0].hold_begins = mode == ToolMode::kGrab && tick % 100 == 0;
     if (mode == ToolMode::kGrab && tick % 100 == 90) motions[0].hold_ended = mode;
     return motions;

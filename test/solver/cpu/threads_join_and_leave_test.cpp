@@ -42,12 +42,12 @@ Scene sceneOf(Integrator integrator) {
 
 /// Returns a probe that moves into the block's top and along it.
 ToolMotions motionsAt(int tick) {
-  const auto place = [](int t) { return Vector3d(0.02 + 0.0005 * t, 0.024, 0.034 - 0.0004 * t); };
+  const auto position = [](int t) { return Vector3d(0.02 + 0.0005 * t, 0.024, 0.034 - 0.0004 * t); };
   ToolMotions motions;
   motions[0].mode = ToolMode::kProbe;
   motions[0].present = true;
-  motions[0].from.position_m = place(tick);
-  motions[0].to.position_m = place(tick + 1);
+  motions[0].from.position_m = position(tick);
+  motions[0].to.position_m = position(tick + 1);
   return motions;
 }
 

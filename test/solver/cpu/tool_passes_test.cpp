@@ -283,7 +283,7 @@ TEST_F(CpuTools, ReactionsAreSummedOnceAndThenForgotten) {
   write(drifting(Vector3d::Zero(), Vector3d(0, 0, 1)));
   const Vector3d tip(0.03, 0.03, 0.07);
   expectSameSubstep({row(ToolMode::kProbe, at(tip), at(tip)), {}});
-  const std::vector<layout::vec4> given = lattice_.hands.impulses;
+  const std::vector<layout::vec4> given = lattice_.tools.impulses;
   const HostState state = lattice_.read();
   Vector3d impulse = Vector3d::Zero(), angular = Vector3d::Zero();
   for (uint32_t slot : lattice_.store.active) {

@@ -45,8 +45,8 @@ TEST_F(PaperErrors, ProbeThatPassesANodeWithinASubstepPutsItOutOfItsWay) {
   GpuSolver solver(model, probeScene(model, kRadius_m));
   const uint32_t slot = slotAt(model, {2, 2, 4});
   const Vector3d node = model.bodies[0].lattice.restPosition(slot);
-  const Vector3d beside = node + Vector3d(0.5 * kRadius_m, 0, 0), half_way(0, 0, 5 * kRadius_m);
-  tick(solver, motionOf(ToolMode::kProbe, beside + half_way, beside - half_way));
+  const Vector3d beside = node + Vector3d(0.5 * kRadius_m, 0, 0), halfway(0, 0, 5 * kRadius_m);
+  tick(solver, motionOf(ToolMode::kProbe, beside + halfway, beside - halfway));
   // At either end the sphere is five radii away; in between, its axis passes the node at half a radius.
   const Vector3d x = node + xyz(solver.readState().displacement_m[slot]);
   EXPECT_NEAR(x.x(), beside.x() - kRadius_m, 1e-8);  // m: a few roundings of positions below 0.03 m

@@ -35,10 +35,10 @@ Scene blockWith(const std::string& keys, const std::string& stylus) {
 }
 
 /// Makes the same ticks on both, and compares the resulting tissue.
-void makeTicks(CpuSolver& cpu, ReferenceTicks& reference, int ticks, const std::function<StylusMotion(int)>& hand) {
+void makeTicks(CpuSolver& cpu, ReferenceTicks& reference, int ticks, const std::function<StylusMotion(int)>& tool) {
   for (int t = 0; t < ticks; ++t) {
     ToolMotions motions{};
-    motions[0] = hand(t);
+    motions[0] = tool(t);
     cpu.step(motions);
     reference.step(motions);
   }

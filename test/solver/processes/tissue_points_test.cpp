@@ -14,9 +14,9 @@ namespace viscera {
 namespace {
 
 constexpr double kSpacing_m = 0.003, kDt_s = 5e-4;
-constexpr double kRounding = 1e-6;             // float32 of weights and positions, over their size
-constexpr double kTissuePointsPlace_m = 1e-7;  // the same of a position
-constexpr double kFound_m = 2e-6;              // find() stops within kArrived of a spacing
+constexpr double kRounding = 1e-6;                // float32 of weights and positions, over their size
+constexpr double kTissuePointsPosition_m = 1e-7;  // the same of a position
+constexpr double kFound_m = 2e-6;                 // find() stops within kArrived of a spacing
 
 /// A state of the tissue that tests set.
 class Nodes : public TissuePort {
@@ -94,7 +94,7 @@ TEST_P(OnStructures, PointsFollowTheTissueAndAreFoundAgainWhereItIs) {
     for (uint32_t c = 0; c < point->count; ++c) sum += point->weights[c];
     EXPECT_NEAR(sum, 1, kRounding);
     points.read(nodes, {&*point});
-    EXPECT_LT((points.place_m(*point) - mapped(rest)).norm(), kTissuePointsPlace_m);
+    EXPECT_LT((points.position_m(*point) - mapped(rest)).norm(), kTissuePointsPosition_m);
     const auto again = points.find(nodes, mapped(rest));
     ASSERT_TRUE(again) << rest.transpose();
     EXPECT_EQ(again->body, 1U);
@@ -112,12 +112,12 @@ TEST_P(OnStructures, ImpulsesMoveThemByTheirMobilityAndKeepMomentum) {
   const auto one = points.embed(1, middle), other = points.embed(1, middle + Vector3d(0.001, 0, 0));
   ASSERT_TRUE(one && other);
   points.read(nodes, {&*one, &*other});
-  const Vector3d before = points.place_m(*other);
+  const Vector3d before = points.position_m(*other);
   points.give(*one, impulse, kDt_s);
   const Vector3d dv = points.mobility(*one, *other) * impulse;
   EXPECT_GT(dv.norm(), 0);
   EXPECT_LT((points.velocity_m_per_s(*other) - dv).norm(), kRounding * dv.norm());
-  EXPECT_LT((points.place_m(*other) - before - kDt_s * dv).norm(), kRounding * kDt_s * dv.norm() + 1e-15);
+  EXPECT_LT((points.position_m(*other) - before - kDt_s * dv).norm(), kRounding * kDt_s * dv.norm() + 1e-15);
   points.write(nodes, layout::kMaxStyluses, kDt_s);
   EXPECT_EQ(nodes.by, layout::kMaxStyluses);
   const Body& body = model_.bodies[1];
@@ -154,7 +154,7 @@ TEST(TissuePoints, BesideACutAreCarriedByWholeCellsOfTheirSide) {
     ASSERT_TRUE(point) << x;
     points.read(nodes, {&*point});
     const Vector3d moved(x > 2.5 ? 0.01 : 0, 0, 0);
-    EXPECT_LT((points.place_m(*point) - rest - moved).norm(), kTissuePointsPlace_m) << x;
+    EXPECT_LT((points.position_m(*point) - rest - moved).norm(), kTissuePointsPosition_m) << x;
     const auto again = points.find(nodes, rest + moved);
     ASSERT_TRUE(again) << x;
     EXPECT_LT((again->rest_m - rest).norm(), kFound_m) << x;

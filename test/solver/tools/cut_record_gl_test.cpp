@@ -74,14 +74,14 @@ class CutRecords : public BesideReference {
   /// Expects a record for all cut springs and for nothing else, in the slots of a body.
   void expectOfCutSprings(const HostState& state) const {
     ASSERT_EQ(state.axial_cut.size(), 3 * model_.slots());
-    size_t noted = 0, cut = 0;
-    for (const float share : state.axial_cut) noted += share != 0;
+    size_t recorded = 0, cut = 0;
+    for (const float share : state.axial_cut) recorded += share != 0;
     forEachAxialSpring([&](size_t at, uint32_t slot, uint32_t) {
       const bool whole = springCount(state.nodes[slot], 2 * (at % 3)) != 0;
       EXPECT_EQ(state.axial_cut[at] == 0, whole) << at;
       cut += !whole;
     });
-    EXPECT_EQ(noted, cut);
+    EXPECT_EQ(recorded, cut);
   }
   void expectLikeTheReference() const {
     const std::vector<float> shares = record();

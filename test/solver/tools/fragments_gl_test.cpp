@@ -75,8 +75,8 @@ TEST_P(Fragments, ThatSlideOffAnObstacleLieWhereTheySleep) {
 
 namespace {
 
-constexpr double kStep_m = 0.002, kWay_m = 2 * kSleep_m;  ///< displacement of a stylus, per tick and in total
-constexpr double kFloat_m = 1e-7;                         ///< float32 of kWay_m, a few times
+constexpr double kStep_m = 0.002, kOffset_m = 2 * kSleep_m;  ///< displacement of a stylus, per tick and in total
+constexpr double kFloat_m = 1e-7;                            ///< float32 of kOffset_m, a few times
 
 /// Returns a block that a stylus holds by all its nodes and carries along x.
 Scene carryingScene(const Model& model, double sleep_m) {
@@ -88,7 +88,7 @@ Scene carryingScene(const Model& model, double sleep_m) {
 }
 template <class Step>
 void carry(const Step& step) {
-  for (int t = 0; t < std::lround(kWay_m / kStep_m); ++t) {
+  for (int t = 0; t < std::lround(kOffset_m / kStep_m); ++t) {
     ToolMotions motions = tool(ToolMode::kGrab, {kStep_m * t, 0, 0}, {kStep_m * (t + 1), 0, 0});
     motions[0].hold_begins = t == 0;
     step(motions);
@@ -122,20 +122,20 @@ INSTANTIATE_TEST_SUITE_P(Backends, HeldFragments,
 }  // namespace
 
 /// The sleep distance does not affect held fragments: neither their motion nor the force on the stylus.
-TEST_P(HeldFragments, GoWithTheHandBeyondWhereTheyWouldSleep) {
+TEST_P(HeldFragments, GoWithTheToolBeyondWhereTheyWouldSleep) {
   const Model model = modelOf({boxBody({2, 2, 2}, 0.01)});
   const Carried near = carried(model, 1e6), far = carried(model, kSleep_m);
   for (const uint32_t slot : model.bodies[0].lattice.active_slots)
-    EXPECT_LT((xyz(far.state.displacement_m[slot]) - Vector3d(kWay_m, 0, 0)).norm(), kFloat_m) << slot;
+    EXPECT_LT((xyz(far.state.displacement_m[slot]) - Vector3d(kOffset_m, 0, 0)).norm(), kFloat_m) << slot;
   EXPECT_EQ(stateHash(model, far.state), stateHash(model, near.state));
   EXPECT_EQ(far.given_n_s, near.given_n_s);
   EXPECT_GT(far.given_n_s.norm(), 0);
 }
 
-TEST(HeldFragmentsOfTheReference, GoWithTheHandBeyondWhereTheyWouldSleep) {
+TEST(HeldFragmentsOfTheReference, GoWithTheToolBeyondWhereTheyWouldSleep) {
   const Model model = modelOf({boxBody({2, 2, 2}, 0.01)});
   ReferenceTicks reference(model, carryingScene(model, kSleep_m));
   carry([&](const ToolMotions& motions) { reference.step(motions); });
   for (const uint32_t slot : model.bodies[0].lattice.active_slots)
-    EXPECT_LT((reference.solver().u_m[slot] - Vector3d(kWay_m, 0, 0)).norm(), kFloat_m) << slot;
+    EXPECT_LT((reference.solver().u_m[slot] - Vector3d(kOffset_m, 0, 0)).norm(), kFloat_m) << slot;
 }

@@ -29,9 +29,9 @@ class MovingCuts : public BesideReference {
     return body;
   }
   /// Returns a state in which the whole body moves by that displacement in a tick, without forces.
-  HostState drifting(const Vector3d& way_m) const {
+  HostState drifting(const Vector3d& offset_m) const {
     HostState state = restState(model_);
-    for (const uint32_t slot : lattice().active_slots) state.velocity_m_per_s[slot] = vec4(way_m / tick_s());
+    for (const uint32_t slot : lattice().active_slots) state.velocity_m_per_s[slot] = vec4(offset_m / tick_s());
     return state;
   }
   /// Expects that both ends of every spring agree with each other and with the reference, and that the positions of

@@ -150,11 +150,11 @@ TEST_P(ToolsOnNetwork, BladeCutsTheSpringsItCrossesFromBothEndsAndNotesWhere) {
 
 /// Where springs move, the sweeps of two substeps have a gap between them unless each is taken relative to its spring.
 TEST_P(ToolsOnNetwork, BladeMissesNoSpringThatComesTowardsIt) {
-  const double x_m = 0.0013, way_m = 0.01;  // offset of the blade's plane; displacement of the cloth in a substep, in
-                                            // which the blade moves 0.04
+  const double x_m = 0.0013, offset_m = 0.01;  // offset of the blade's plane; displacement of the cloth in a substep,
+                                               // in which the blade moves 0.04
   use(modelOf({undamped(clothBody(13, 13, 0.01))}));
   HostState state = restState(model_);
-  for (uint32_t slot : reference_->active) state.velocity_m_per_s[slot] = vec4({0, -way_m / solver_->dt_s(), 0});
+  for (uint32_t slot : reference_->active) state.velocity_m_per_s[slot] = vec4({0, -offset_m / solver_->dt_s(), 0});
   write(state);
   tick({sweep(x_m), {}});
   expectSameCuts();

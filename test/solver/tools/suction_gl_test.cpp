@@ -45,10 +45,10 @@ class Suction : public OnBackend {
   std::vector<double> forces() const {
     const Scene scene = sceneWith(1e3);
     ReferenceTicks reference(model_, scene);
-    Tools hands(scene.styluses);
+    Tools tools(scene.styluses);
     std::vector<double> out;
     for (int t = 0; t < kSuctionTicks; ++t) {
-      reference.step(hands.advance(pull(t)));
+      reference.step(tools.advance(pull(t)));
       out.push_back(reference.impulse(0).norm() * scene.solver.tick_hz);
     }
     return out;
@@ -82,9 +82,9 @@ TEST_P(Suction, HoldsBelowItsLimitAndLetsGoAboveItLikeTheReference) {
   ASSERT_LT(last, kSuctionTicks - 3);
   const auto solver = make(model_, scene);
   ReferenceTicks reference(model_, scene);
-  Tools hands(scene.styluses);
+  Tools tools(scene.styluses);
   for (int t = 0; t < kSuctionTicks; ++t) {
-    const ToolMotions motions = hands.advance(pull(t));
+    const ToolMotions motions = tools.advance(pull(t));
     solver->step(motions);
     reference.step(motions);
     EXPECT_EQ(held(reference.solver().nodes) > 0, t < last) << "tick " << t;
@@ -115,13 +115,13 @@ TEST_P(Suction, HoldsNothingAfterItLetGoUntilTheButtonIsPressedAgainEvenUnderThe
   Scene scene = sceneWith(limitThatGivesWayIn(last));
   scene.solver.stability_monitor = true;
   const auto solver = make(model_, scene);
-  Tools hands(scene.styluses);
-  for (int t = 0; t < kSuctionTicks; ++t) solver->step(hands.advance(pull(t)));
+  Tools tools(scene.styluses);
+  for (int t = 0; t < kSuctionTicks; ++t) solver->step(tools.advance(pull(t)));
   EXPECT_EQ(held(solver->readState().nodes), 0u);
-  solver->step(hands.advance(pull(0)));  // back at the tissue, the button still pressed
+  solver->step(tools.advance(pull(0)));  // back at the tissue, the button still pressed
   EXPECT_EQ(held(solver->readState().nodes), 0u);
-  solver->step(hands.advance(pull(0, false)));
-  solver->step(hands.advance(pull(0)));
+  solver->step(tools.advance(pull(0, false)));
+  solver->step(tools.advance(pull(0)));
   EXPECT_GT(held(solver->readState().nodes), 0u);
   EXPECT_EQ(solver->health().trips, 0u);
 }

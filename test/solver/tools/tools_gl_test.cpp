@@ -116,7 +116,7 @@ TEST_P(ToolsOnTissue, ProbeThatAppearsInsideTissuePushesNoFasterThanItsPushSpeed
   EXPECT_LT(moved, 1.001 * farthest);  // float32 rounding of a sum of ten steps
 }
 
-TEST_P(ToolsOnTissue, ProbeAtANodesPlaceHasADirectionAllTheSame) {
+TEST_P(ToolsOnTissue, ProbeAtANodesPositionHasADirectionAllTheSame) {
   ToolMotions motions;
   const Vector3d node(0.03, 0.03, 0.06);
   tickWith(motionOf(ToolMode::kProbe, node, node));
@@ -124,7 +124,7 @@ TEST_P(ToolsOnTissue, ProbeAtANodesPlaceHasADirectionAllTheSame) {
   EXPECT_GT(stats().touched[0], 0u);
 }
 
-TEST_P(ToolsOnTissue, SecondHandTakesNeitherWhatTheFirstHoldsNorWhatIsFixed) {
+TEST_P(ToolsOnTissue, SecondToolTakesNeitherWhatTheFirstHoldsNorWhatIsFixed) {
   ToolMotions motions;
   const Vector3d low(0.03, 0.03, 0.005);  // among fixed nodes (z = 0) and free ones
   for (uint32_t s = 0; s < 2; ++s) {

@@ -14,7 +14,7 @@ struct OrganFit {
   Eigen::AlignedBox3d from_m, to_m;  ///< bounding boxes of the organs, tissue frame [m]
   Vector3d stretch = Vector3d::Ones();
   double view_scale = 1;  ///< scale of cameras: the largest stretch and a margin, so that the whole organ is visible
-  double hand_scale = 1;  ///< scale of tools and strokes: the smaller stretch of the face that cameras see
+  double tool_scale = 1;  ///< scale of tools and strokes: the smaller stretch of the face that cameras see
 
   /// Returns the map between two boxes.
   /// @param sight  viewing direction, tissue frame: tools work on the face across the axis nearest to it

@@ -17,10 +17,10 @@ struct PlumbBob {
 
 /// Returns the image position at which the lens shows what a pinhole shows at `place`. Both are tangents, x / z and y /
 /// z of the optical frame.
-Eigen::Vector2d distorted(const PlumbBob& lens, const Eigen::Vector2d& place);
+Eigen::Vector2d distorted(const PlumbBob& lens, const Eigen::Vector2d& position);
 
 /// Returns the pinhole position that the lens shows at `place`, the inverse of distorted(). None where no position
 /// near the middle is shown there: the image folds over.
-std::optional<Eigen::Vector2d> undistorted(const PlumbBob& lens, const Eigen::Vector2d& place);
+std::optional<Eigen::Vector2d> undistorted(const PlumbBob& lens, const Eigen::Vector2d& position);
 
 }  // namespace viscera

@@ -45,7 +45,7 @@ struct PartFill {
 struct NodeDepth {
   Vector3i node;  ///< node (i,j,k) is the lowest corner of cell (i,j,k)
   float depth_m;
-  Eigen::Vector3f way_m;  ///< vector to the nearest point of the surface for a node outside; else 0
+  Eigen::Vector3f offset_m;  ///< vector to the nearest point of the surface for a node outside; else 0
 };
 
 /// Solid as labelled cubic cells on a regular grid, x fastest. Cell (i,j,k) spans origin + h*[i,i+1] x ...

@@ -53,7 +53,7 @@ class Search {
         // Plans of sweeps have whole paths as keys.
         const std::string whole = path.empty() || key.find('.') != std::string::npos ? key : path + '.' + key;
         const std::string renamed = withNewNames(whole);
-        if (lastKeys(renamed, key) != key) note(entry.first, whole, renamed);
+        if (lastKeys(renamed, key) != key) record(entry.first, whole, renamed);
         visit(entry.second, whole);
       }
     }
@@ -73,7 +73,7 @@ class Search {
       at = at == 0 ? std::string::npos : path.rfind('.', at - 1);
     return at == std::string::npos ? path : path.substr(at + 1);
   }
-  void note(const YAML::Node& key, const std::string& old_path, const std::string& new_path) {
+  void record(const YAML::Node& key, const std::string& old_path, const std::string& new_path) {
     const std::string& name = key.Scalar();
     const size_t at =
         text_.find(name, static_cast<size_t>(key.Mark().pos));  // behind a quotation mark, if there is one

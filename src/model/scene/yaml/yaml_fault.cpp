@@ -82,10 +82,10 @@ std::string indentFault(const std::string& text, int number) {
 }  // namespace
 
 std::string yamlFault(const std::string& file, const YAML::Exception& error, const std::string& text) {
-  const std::string place = error.mark.is_null() ? file : file + ":" + std::to_string(error.mark.line + 1);
-  if (error.msg == YAML::ErrorMsg::BAD_FILE) return place + ": lists and maps are nested too deep";
+  const std::string location = error.mark.is_null() ? file : file + ":" + std::to_string(error.mark.line + 1);
+  if (error.msg == YAML::ErrorMsg::BAD_FILE) return location + ": lists and maps are nested too deep";
   const std::string indent = error.mark.is_null() ? "" : indentFault(text, error.mark.line);
-  return place + ": " + (indent.empty() ? error.msg : indent);
+  return location + ": " + (indent.empty() ? error.msg : indent);
 }
 
 }  // namespace viscera

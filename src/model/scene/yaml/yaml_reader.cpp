@@ -41,7 +41,7 @@ std::string textOf(const std::string& path, const std::string& what) {
   constexpr size_t kMostMb = 100, kBytesPerMb = 1000000;  // some million keys of strokes
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) throw SceneError(path + ": is a folder, not a " + what + " file");
-  noteRead(path);
+  recordRead(path);
   std::ifstream file(path, std::ios::binary);
   if (!file) throw SceneError(path + ": cannot be read (does the file exist?)");
   return memoryFor<SceneError>(path, [&] {
@@ -97,8 +97,9 @@ YAML::Node YamlReader::keyNode(const std::string& key) const {
 }
 
 void YamlReader::fail(const std::string& key, const YAML::Node& node, const std::string& accepted) const {
-  const YAML::Node place = node.IsNull() ? keyNode(key) : node;  // an empty value has the line of the next token
-  throw SceneError(whereIs(source_, child(key), place) + "'" + child(key) + "' " + accepted + "; found " + shown(node));
+  const YAML::Node location = node.IsNull() ? keyNode(key) : node;  // an empty value has the line of the next token
+  throw SceneError(whereIs(source_, child(key), location) + "'" + child(key) + "' " + accepted + "; found " +
+                   shown(node));
 }
 
 void YamlReader::failIfRemoved(const std::string& key, const YAML::Node& node) const {

@@ -42,11 +42,11 @@ std::vector<uint32_t> alongCurve(const TriangleMesh& skin) {
 }
 
 /// Returns column and row of an index along a curve that fills a square.
-std::array<int, 2> inSquare(uint32_t place) {
+std::array<int, 2> inSquare(uint32_t position) {
   std::array<int, 2> out{};
   for (int bit = 0; bit < 16; ++bit) {
-    out[0] |= static_cast<int>(place >> (2 * bit) & 1U) << bit;
-    out[1] |= static_cast<int>(place >> (2 * bit + 1) & 1U) << bit;
+    out[0] |= static_cast<int>(position >> (2 * bit) & 1U) << bit;
+    out[1] |= static_cast<int>(position >> (2 * bit + 1) & 1U) << bit;
   }
   return out;
 }
@@ -59,9 +59,10 @@ DetailAtlas::DetailAtlas(const TriangleMesh& skin, int tile_px) : tile_(tile_px)
     order_.push_back({order[i], i + 1 < order.size() ? order[i + 1] : UINT32_MAX});
   const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(order_.size()))));
   side_ = columns * tile_px;
-  for (uint32_t place = 0; places_.size() < order_.size(); ++place) {  // the part of the curve within the columns
-    const std::array<int, 2> at = inSquare(place);
-    if (at[0] < columns && at[1] < columns) places_.push_back({at[0] * tile_px, at[1] * tile_px});
+  for (uint32_t position = 0; positions_.size() < order_.size();
+       ++position) {  // the part of the curve within the columns
+    const std::array<int, 2> at = inSquare(position);
+    if (at[0] < columns && at[1] < columns) positions_.push_back({at[0] * tile_px, at[1] * tile_px});
   }
 }
 
@@ -75,10 +76,10 @@ Eigen::Vector3d DetailAtlas::weightsOf(int x, int y, int half) const {
 }
 
 std::array<Eigen::Vector2d, 3> DetailAtlas::cornersOf(size_t tile, int half) const {
-  const Eigen::Vector2d low(places_[tile][0], places_[tile][1]);
-  const double near = half == 0 ? kBorder : tile_ - kBorder, way = half == 0 ? tile_ - kLeg : kLeg - tile_;
+  const Eigen::Vector2d low(positions_[tile][0], positions_[tile][1]);
+  const double near = half == 0 ? kBorder : tile_ - kBorder, step = half == 0 ? tile_ - kLeg : kLeg - tile_;
   const Eigen::Vector2d corner = low + Eigen::Vector2d(near, near);
-  return {corner / side_, (corner + Eigen::Vector2d(way, 0)) / side_, (corner + Eigen::Vector2d(0, way)) / side_};
+  return {corner / side_, (corner + Eigen::Vector2d(step, 0)) / side_, (corner + Eigen::Vector2d(0, step)) / side_};
 }
 
 namespace {

@@ -28,8 +28,8 @@ class DetailAtlas {
   int tile() const { return tile_; }
   size_t tiles() const { return order_.size(); }
   /// Returns the lowest texel of a tile.
-  std::array<int, 2> placeOf(size_t tile) const { return places_[tile]; }
-  /// Returns the triangles of a tile; the second may be MeshPlace::kNone.
+  std::array<int, 2> positionOf(size_t tile) const { return positions_[tile]; }
+  /// Returns the triangles of a tile; the second may be MeshPoint::kNone.
   const std::array<uint32_t, 2>& trianglesOf(size_t tile) const { return order_[tile]; }
   /// Returns which triangle of the tile contains a texel. weightsOf() returns the barycentric coordinates of its centre
   /// there: outside 0..1 on the border.
@@ -45,7 +45,7 @@ class DetailAtlas {
  private:
   int tile_ = 0, side_ = 0;
   std::vector<std::array<uint32_t, 2>> order_;
-  std::vector<std::array<int, 2>> places_;
+  std::vector<std::array<int, 2>> positions_;
 };
 
 }  // namespace viscera

@@ -55,11 +55,11 @@ class Baker {
     return out;
   }
   /// Returns the point of the detailed mesh that is visible there.
-  MeshPlace seenFrom(const Spot& spot) const {
-    const MeshPlace ahead = tree_.along(spot.position_m, spot.normal, reach_m_);
+  MeshPoint seenFrom(const Spot& spot) const {
+    const MeshPoint ahead = tree_.along(spot.position_m, spot.normal, reach_m_);
     return ahead.found() ? ahead : tree_.nearest(spot.position_m, reach_m_);
   }
-  Vector3f detailedNormal(const MeshPlace& at) const {
+  Vector3f detailedNormal(const MeshPoint& at) const {
     const auto& c = detailed_.triangles[at.triangle];
     return (at.weights[0] * detailed_normals_[c[0]] + at.weights[1] * detailed_normals_[c[1]] +
             at.weights[2] * detailed_normals_[c[2]])
@@ -78,8 +78,8 @@ class Baker {
   /// Returns the direction in which u grows and v does not: to the second corner, or in the tile's other half from it.
   Vector3f alongU(uint32_t triangle, int half) const {
     const auto& c = skin_.triangles[triangle];
-    const Vector3f way = skin_.positions_m[c[1]] - skin_.positions_m[c[0]];
-    return half == 0 ? way : Vector3f(-way);
+    const Vector3f edge = skin_.positions_m[c[1]] - skin_.positions_m[c[0]];
+    return half == 0 ? edge : Vector3f(-edge);
   }
 
   void bakeTile(size_t tile, TextureImage& relief, TextureImage& color, size_t& texels, size_t& uncovered) const {
@@ -87,15 +87,15 @@ class Baker {
       for (int x = 0; x < atlas_.tile(); ++x) {
         const int half = atlas_.halfOf(x, y);
         const uint32_t triangle = atlas_.trianglesOf(tile)[static_cast<size_t>(half)];
-        if (triangle == MeshPlace::kNone) continue;
+        if (triangle == MeshPoint::kNone) continue;
         const Eigen::Vector3d weights = atlas_.weightsOf(x, y);
         const Spot spot = spotOn(triangle, weights);
-        const MeshPlace at = seenFrom(spot);
+        const MeshPoint at = seenFrom(spot);
         const bool within = weights.minCoeff() >= 0;
         texels += within ? 1 : 0;
         uncovered += within && !at.found() ? 1 : 0;
         if (!at.found()) continue;
-        const auto [column, row] = atlas_.placeOf(tile);
+        const auto [column, row] = atlas_.positionOf(tile);
         const size_t texel = 4 * (static_cast<size_t>(row + y) * atlas_.side() + static_cast<size_t>(column + x));
         const Vector3f bent = frame(alongU(triangle, half), spot.normal).transpose() * detailedNormal(at);
         for (int i = 0; i < 3; ++i)
@@ -106,7 +106,7 @@ class Baker {
   }
 
   /// Writes the texel of a chart with a texture; else the part's colour, in sRGB.
-  void putColor(const MeshPlace& at, uint8_t* out) const;
+  void putColor(const MeshPoint& at, uint8_t* out) const;
 
   const DetailAtlas& atlas() const { return atlas_; }
   const TriangleMesh& skin() const { return skin_; }
@@ -127,7 +127,7 @@ int wrappedTexel(double coordinate, int count, TextureWrap wrap) {
   return std::clamp(static_cast<int>(std::floor(at * count)), 0, count - 1);
 }
 
-void Baker::putColor(const MeshPlace& at, uint8_t* out) const {
+void Baker::putColor(const MeshPoint& at, uint8_t* out) const {
   out[3] = 255;
   const SurfaceDetail& detail = *detailed_.detail;
   const uint32_t chart = detailed_.charts.empty() ? kNoChart : detailed_.charts[at.triangle];
@@ -141,11 +141,11 @@ void Baker::putColor(const MeshPlace& at, uint8_t* out) const {
   if (chart != kNoChart && material.color_texture.image >= 0) {
     const TextureImage& image = detail.images[static_cast<size_t>(material.color_texture.image)];
     const auto& c = detailed_.triangles[at.triangle];
-    const Vector3f place = at.weights[0] * detailed_.positions_m[c[0]] + at.weights[1] * detailed_.positions_m[c[1]] +
-                           at.weights[2] * detailed_.positions_m[c[2]];
+    const Vector3f position = at.weights[0] * detailed_.positions_m[c[0]] +
+                              at.weights[1] * detailed_.positions_m[c[1]] + at.weights[2] * detailed_.positions_m[c[2]];
     const TextureChart& of = detail.charts[chart];
-    const int x = wrappedTexel(of.u.head<3>().dot(place) + of.u[3], image.width_px, material.color_texture.wrap_u);
-    const int y = wrappedTexel(of.v.head<3>().dot(place) + of.v[3], image.height_px, material.color_texture.wrap_v);
+    const int x = wrappedTexel(of.u.head<3>().dot(position) + of.u[3], image.width_px, material.color_texture.wrap_u);
+    const int y = wrappedTexel(of.v.head<3>().dot(position) + of.v[3], image.height_px, material.color_texture.wrap_v);
     for (size_t i = 0; i < 3; ++i)
       color[i] *= linearFromSrgb(image.rgba[4 * (static_cast<size_t>(y) * image.width_px + x) + i] / 255.0);
   }
@@ -220,9 +220,9 @@ void measure(const Baker& baker, Baked& baked) {
       v = 1 - v;
       w = 1 - w;
     }
-    if (triangle == MeshPlace::kNone) continue;
+    if (triangle == MeshPoint::kNone) continue;
     const Baker::Spot spot = baker.spotOn(triangle, {1 - v - w, v, w});
-    const MeshPlace at = baker.seenFrom(spot);
+    const MeshPoint at = baker.seenFrom(spot);
     if (!at.found()) continue;
     const std::array<Eigen::Vector2d, 3> uv = atlas.cornersOf(tile, half);
     const Vector3f bent = sampled(baked.relief, (1 - v - w) * uv[0] + v * uv[1] + w * uv[2]);

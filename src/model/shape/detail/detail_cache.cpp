@@ -51,7 +51,7 @@ void addMesh(const TriangleMesh& mesh, Hash& hash) {
   hash.add(mesh.triangles);
 }
 
-void addLook(const TriangleMesh& mesh, Hash& hash) {
+void addAppearance(const TriangleMesh& mesh, Hash& hash) {
   if (!mesh.detail) return;
   hash.add(mesh.parts);
   hash.add(mesh.charts);
@@ -94,7 +94,7 @@ DetailCache::DetailCache(const std::string& folder, const BakeInput& input, int 
   hash.add(static_cast<uint64_t>(tile_px) << 1U | (input.with_colors ? 1U : 0U));
   addMesh(input.skin, hash);
   addMesh(input.detailed, hash);
-  if (input.with_colors) addLook(input.detailed, hash);
+  if (input.with_colors) addAppearance(input.detailed, hash);
   char name[40];
   std::snprintf(name, sizeof name, "/detail_%016llx.bin", static_cast<unsigned long long>(hash.value()));
   file_ = folder + name;

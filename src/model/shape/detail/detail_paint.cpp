@@ -47,7 +47,7 @@ struct Canvas {
   const TriangleMesh& skin;
   const PlacedPaint& on;
   const DetailAtlas& atlas;
-  std::vector<Vector3f> places, normals;  ///< of the surface's vertices, in the frame of the paint
+  std::vector<Vector3f> positions, normals;  ///< of the surface's vertices, in the frame of the paint
   TextureImage color, relief;
   SrgbTable srgb;
 };
@@ -59,7 +59,7 @@ class Half {
     const uint32_t triangle = canvas.atlas.trianglesOf(tile)[static_cast<size_t>(half)];
     if (triangle == UINT32_MAX) return;
     for (size_t i = 0; i < 3; ++i) {
-      at_[i] = canvas.places[canvas.skin.triangles[triangle][i]];
+      at_[i] = canvas.positions[canvas.skin.triangles[triangle][i]];
       normals_[i] = canvas.normals[canvas.skin.triangles[triangle][i]];
     }
     findNear();
@@ -85,7 +85,7 @@ class Half {
     std::array<Vector3f, 3> ends;
     Vector3f middle = Vector3f::Zero();
     for (size_t i = 0; i < 3; ++i) {
-      ends[i] = placeAt(i == 1 ? last - low : low, i == 2 ? last - low : low);
+      ends[i] = positionAt(i == 1 ? last - low : low, i == 2 ? last - low : low);
       middle += ends[i] / 3;
     }
     float radius = 0;
@@ -93,7 +93,7 @@ class Half {
     canvas_.on.paint->findNear(middle, radius + step(), near_);
   }
   float step() const { return kStep_m / static_cast<float>(canvas_.on.unit_m); }
-  Vector3f placeAt(int x, int y) const {
+  Vector3f positionAt(int x, int y) const {
     const Vector3d w = canvas_.atlas.weightsOf(x, y, half_);
     return mixed(at_, w.cast<float>());
   }
@@ -103,9 +103,9 @@ class Half {
 
   void add(int x, int y) {
     const Vector3f w = canvas_.atlas.weightsOf(x, y, half_).cast<float>();
-    const Vector3f place = mixed(at_, w), n = mixed(normals_, w).stableNormalized();
+    const Vector3f position = mixed(at_, w), n = mixed(normals_, w).stableNormalized();
     for (int i = 0; i < 3; ++i) {
-      row_.place[static_cast<size_t>(i)][row_.count] = place[i];
+      row_.position[static_cast<size_t>(i)][row_.count] = position[i];
       row_.normal[static_cast<size_t>(i)][row_.count] = n[i];
     }
     texels_[row_.count++] = {x, y};
@@ -113,7 +113,7 @@ class Half {
 
   void flush() {
     if (row_.count == 0) return;
-    const auto [middle, radius] = ballAround(row_.place, row_.count);
+    const auto [middle, radius] = ballAround(row_.position, row_.count);
     const auto [normal, spread] = ballAround(row_.normal, row_.count);
     canvas_.on.paint->narrow(near_, middle, radius + step(), normal, spread, nearer_);
     if (!nearer_.empty()) {
@@ -142,15 +142,15 @@ class Half {
     for (size_t l = 0; l < row_.count; ++l) {
       const Vector3f n(row_.normal[0][l], row_.normal[1][l], row_.normal[2][l]);
       const Vector3f t = (along_u - n * n.dot(along_u)).stableNormalized();
-      const Vector3f way = step() * (across == 0 ? t : n.cross(t));
-      for (int i = 0; i < 3; ++i) out.place[static_cast<size_t>(i)][l] += way[i];
+      const Vector3f offset = step() * (across == 0 ? t : n.cross(t));
+      for (int i = 0; i < 3; ++i) out.position[static_cast<size_t>(i)][l] += offset[i];
     }
     canvas_.on.paint->raise(nearer_, out);
     return out;
   }
 
   void put(size_t l, float along_t, float along_b) {
-    const auto [column, row] = canvas_.atlas.placeOf(tile_);
+    const auto [column, row] = canvas_.atlas.positionOf(tile_);
     const auto [x, y] = texels_[l];
     const size_t texel = 4 * (static_cast<size_t>(row + y) * canvas_.atlas.side() + static_cast<size_t>(column + x));
     if (row_.cover[l] > 0) {
@@ -199,7 +199,7 @@ TriangleMesh paintDetail(const TriangleMesh& skin, const PlacedPaint& on, int la
                           std::min(DetailAtlas::largestTile(skin.triangles.size(), largest_px), kLargestPaintTile_px));
   Canvas canvas{skin, on, atlas, {}, vertexNormals(skin), {atlas.side(), atlas.side(), {}}, {}, {}};
   for (const Vector3f& p : skin.positions_m)
-    canvas.places.push_back((on.turn * (p.cast<double>() / on.unit_m) + on.shift).cast<float>());
+    canvas.positions.push_back((on.turn * (p.cast<double>() / on.unit_m) + on.shift).cast<float>());
   for (Vector3f& n : canvas.normals) n = (on.turn * n.cast<double>()).cast<float>();
   canvas.color.rgba.resize(size_t{4} * atlas.side() * atlas.side());
   canvas.relief = canvas.color;

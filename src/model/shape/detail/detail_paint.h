@@ -17,12 +17,12 @@ namespace viscera {
 struct PaintRow {
   static constexpr size_t kMost = 32;
   using Lane = std::array<float, kMost>;
-  size_t count = 0;              ///< number of points; lanes beyond it are painted too, without meaning
-  std::array<Lane, 3> place{};   ///< position, x, y, z
-  std::array<Lane, 3> normal{};  ///< unit normal, outward
-  std::array<Lane, 3> color{};   ///< linear colour, where something covers
-  Lane cover{};                  ///< opacity over the body's own colour, 0..1
-  Lane height{};                 ///< height above the surface, for its shading normal
+  size_t count = 0;                ///< number of points; lanes beyond it are painted too, without meaning
+  std::array<Lane, 3> position{};  ///< position, x, y, z
+  std::array<Lane, 3> normal{};    ///< unit normal, outward
+  std::array<Lane, 3> color{};     ///< linear colour, where something covers
+  Lane cover{};                    ///< opacity over the body's own colour, 0..1
+  Lane height{};                   ///< height above the surface, for its shading normal
 };
 
 /// Paint on a surface, in a frame and a unit of length of its own. Several threads call it at once.

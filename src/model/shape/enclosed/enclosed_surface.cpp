@@ -50,13 +50,13 @@ class Flood {
     out[0] = 1;
     spread(out, front, [&](size_t, size_t, size_t to, int) { return grid_.distances_m[to] > radius_m; });
     // Continue to the triangles, but no farther than the radius into a gap.
-    const std::vector<float> way = distancesTo(out, grid_);
+    const std::vector<float> distance = distancesTo(out, grid_);
     const double most = radius_m / grid_.step_m + kBeyond;
     for (size_t i = 0; i < out.size(); ++i) {
       if (out[i]) front.push_back(i);
     }
     spread(out, front, [&](size_t from, size_t lower, size_t to, int axis) {
-      return way[to] <= most && way[to] >= way[from] + kOnward && !grid_.crossed(lower, axis);
+      return distance[to] <= most && distance[to] >= distance[from] + kOnward && !grid_.crossed(lower, axis);
     });
     return out;
   }

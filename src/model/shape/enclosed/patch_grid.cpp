@@ -56,8 +56,8 @@ class LineEnvelope {
     if (top < 0) return;
     for (int i = 0, k = 0; i < count; ++i) {
       while (borders_[k + 1] < i) ++k;
-      const double way = i - tops_[k];
-      first[i * stride] = static_cast<float>(values_[tops_[k]] + way * way);
+      const double offset = i - tops_[k];
+      first[i * stride] = static_cast<float>(values_[tops_[k]] + offset * offset);
     }
   }
 
@@ -121,17 +121,17 @@ void PatchGrid::addCrossings(const std::array<Vector3d, 3>& p, int axis) {
   for (int b = first_v; b <= last_v; ++b) {
     for (int a = first_u; a <= last_u; ++a) {
       const double at_u = a + kAside[u], at_v = b + kAside[v];
-      double weight[3], place = 0;
+      double weight[3], position = 0;
       for (int c = 0; c < 3; ++c) {
         const Vector3d &q = p[(c + 1) % 3], &r = p[(c + 2) % 3];
         weight[c] = cross(q[u] - at_u, q[v] - at_v, r[u] - at_u, r[v] - at_v) / area;
-        place += weight[c] * p[c][axis];
+        position += weight[c] * p[c][axis];
       }
       if (weight[0] < kOnEdge || weight[1] < kOnEdge || weight[2] < kOnEdge) continue;
-      const int i = static_cast<int>(std::floor(place - kAside[axis]));
+      const int i = static_cast<int>(std::floor(position - kAside[axis]));
       if (i < 0 || i + 1 >= size[axis]) continue;
       const size_t point = i * stride(axis) + a * stride(u) + b * stride(v);
-      const auto share = static_cast<float>(place - i);
+      const auto share = static_cast<float>(position - i);
       auto& [low, high] = where_.try_emplace(3 * point + axis, std::array<float, 2>{share, share}).first->second;
       low = std::min(low, share);
       high = std::max(high, share);

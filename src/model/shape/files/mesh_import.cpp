@@ -71,8 +71,8 @@ struct LessPosition {
 /// Collector of a file's triangles, part by part, which traverses its node tree.
 class Gatherer {
  public:
-  Gatherer(double unit_scale_m, std::string path, const ImportLimits& limits, bool with_look)
-      : unit_scale_m_(unit_scale_m), path_(std::move(path)), limits_(limits), with_look_(with_look) {}
+  Gatherer(double unit_scale_m, std::string path, const ImportLimits& limits, bool with_appearance)
+      : unit_scale_m_(unit_scale_m), path_(std::move(path)), limits_(limits), with_appearance_(with_appearance) {}
 
   /// Visits parents before children and children in order, without recursion at any depth.
   void visit(const aiScene& scene) {
@@ -80,8 +80,8 @@ class Gatherer {
       const aiNode* node;
       Eigen::Matrix4d parent;
     };
-    MeshAppearance look(path_, with_look_ ? &scene : nullptr, limits_);
-    look_ = &look;
+    MeshAppearance appearance(path_, with_appearance_ ? &scene : nullptr, limits_);
+    appearance_ = &appearance;
     std::vector<Waiting> waiting = {{scene.mRootNode, Eigen::Matrix4d::Identity()}};
     while (!waiting.empty()) {
       const aiNode& node = *waiting.back().node;
@@ -90,9 +90,9 @@ class Gatherer {
       for (unsigned i = 0; i < node.mNumMeshes; ++i) addPart(*scene.mMeshes[node.mMeshes[i]], node, pose);
       for (unsigned i = node.mNumChildren; i > 0; --i) waiting.push_back({node.mChildren[i - 1], pose});
     }
-    look.giveTo(mesh);
-    report.look_notes = look.notes();
-    look_ = nullptr;
+    appearance.giveTo(mesh);
+    report.appearance_notes = appearance.notes();
+    appearance_ = nullptr;
   }
 
   TriangleMesh mesh;
@@ -104,10 +104,10 @@ class Gatherer {
     const std::vector<uint32_t> vertices = weld(source, pose, name);
     const bool mirrored = pose.topLeftCorner<3, 3>().determinant() < 0;
     const size_t before = mesh.triangles.size();
-    look_->addPart(source, name);
+    appearance_->addPart(source, name);
     for (unsigned f = 0; f < source.mNumFaces; ++f) addFace(source, source.mFaces[f], vertices, mirrored);
     if (mesh.triangles.size() == before) {
-      look_->dropPart();
+      appearance_->dropPart();
       ++report.parts_dropped;
       return;
     }
@@ -165,7 +165,7 @@ class Gatherer {
     if (mirrored) std::swap(triangle[1], triangle[2]);
     if (hasArea(triangle)) {
       mesh.triangles.push_back(triangle);
-      look_->addTriangle(source, corners_m, {face.mIndices[0], face.mIndices[1], face.mIndices[2]});
+      appearance_->addTriangle(source, corners_m, {face.mIndices[0], face.mIndices[1], face.mIndices[2]});
     } else {
       ++report.degenerate_triangles;
     }
@@ -184,8 +184,8 @@ class Gatherer {
   double unit_scale_m_;
   std::string path_;
   ImportLimits limits_;
-  bool with_look_;
-  MeshAppearance* look_ = nullptr;  ///< while visit() runs
+  bool with_appearance_;
+  MeshAppearance* appearance_ = nullptr;  ///< while visit() runs
   std::set<std::string> names_;
   std::map<std::string, int> copies_;
 };
@@ -295,7 +295,7 @@ void gather(const std::string& path, double unit_scale_m, const ImportLimits& li
     std::string note;
     gatherer.mesh = readMsh(path, unit_scale_m, limits, note);
     gatherer.report.parts = static_cast<int>(gatherer.mesh.part_names.size());
-    return gatherer.report.look_notes.push_back(path + ": " + note);
+    return gatherer.report.appearance_notes.push_back(path + ": " + note);
   }
   const bool is_ply = isPly(path);
   if (!is_ply && !isStl(path)) {
@@ -311,7 +311,7 @@ void gather(const std::string& path, double unit_scale_m, const ImportLimits& li
   }
   requireScene(*scene, limits);
   gatherer.visit(*scene);
-  for (const std::string& note : notes) gatherer.report.look_notes.push_back(path + ": " + note);
+  for (const std::string& note : notes) gatherer.report.appearance_notes.push_back(path + ": " + note);
 }
 
 }  // namespace
@@ -325,13 +325,13 @@ std::string ImportReport::text() const {
 }
 
 TriangleMesh importMesh(const std::string& path, double unit_scale_m, ImportReport* report, const ImportLimits& limits,
-                        bool with_look) {
+                        bool with_appearance) {
   if (!std::isfinite(unit_scale_m) || unit_scale_m <= 0) {
     fail(path, "unit_scale_m must be a finite number > 0, not " + numberText(unit_scale_m));
   }
   requireWithinBounds(path);
   requireReadableFile(path);
-  Gatherer gatherer(unit_scale_m, path, limits, with_look);
+  Gatherer gatherer(unit_scale_m, path, limits, with_appearance);
   try {
     memoryFor<MeshError>("reading it", [&] { gather(path, unit_scale_m, limits, gatherer); });
   } catch (const std::exception& error) {  // assimp's own too

@@ -75,8 +75,8 @@ void TriangleTree::build(size_t first, size_t last) {
   build(half, last);
 }
 
-MeshPlace TriangleTree::nearest(const Vector3f& point_m, float within_m) const {
-  MeshPlace best;
+MeshPoint TriangleTree::nearest(const Vector3f& point_m, float within_m) const {
+  MeshPoint best;
   float best2 = within_m < 1e18F ? within_m * within_m : std::numeric_limits<float>::infinity();
   std::array<uint32_t, kDeepest> waiting;
   size_t count = nodes_.empty() ? 0 : 1;
@@ -105,20 +105,20 @@ MeshPlace TriangleTree::nearest(const Vector3f& point_m, float within_m) const {
   return best;
 }
 
-MeshPlace TriangleTree::along(const Vector3f& point_m, const Vector3f& direction, float within_m) const {
+MeshPoint TriangleTree::along(const Vector3f& point_m, const Vector3f& direction, float within_m) const {
   return onLine(point_m, direction, within_m, true);
 }
 
-MeshPlace TriangleTree::ahead(const Vector3f& point_m, const Vector3f& direction) const {
+MeshPoint TriangleTree::ahead(const Vector3f& point_m, const Vector3f& direction) const {
   return onLine(point_m, direction, std::numeric_limits<float>::infinity(), false);
 }
 
-MeshPlace TriangleTree::onLine(const Vector3f& point_m, const Vector3f& direction, float within_m,
-                               bool both_ways) const {
-  MeshPlace best;
+MeshPoint TriangleTree::onLine(const Vector3f& point_m, const Vector3f& direction, float within_m,
+                               bool both_directions) const {
+  MeshPoint best;
   best.distance_m = within_m;
   const auto meets = [&](const Node& node) {
-    float from = both_ways ? -best.distance_m : 0, to = best.distance_m;
+    float from = both_directions ? -best.distance_m : 0, to = best.distance_m;
     for (int axis = 0; axis < 3; ++axis) {
       const float low = node.low[axis] - point_m[axis], high = node.high[axis] - point_m[axis];
       if (std::abs(direction[axis]) < 1e-12F) {
@@ -150,11 +150,11 @@ MeshPlace TriangleTree::onLine(const Vector3f& point_m, const Vector3f& directio
       const float t = -c.ab.cross(c.ac).dot(ap) / facing;
       const Vector3f turned = direction.cross(ap);
       const float v = c.ac.dot(turned) / facing, w = -c.ab.dot(turned) / facing;
-      if (v < 0 || w < 0 || v + w > 1 || std::abs(t) >= best.distance_m || (t <= 0 && !both_ways)) continue;
+      if (v < 0 || w < 0 || v + w > 1 || std::abs(t) >= best.distance_m || (t <= 0 && !both_directions)) continue;
       best = {c.triangle, Vector3f(1 - v - w, v, w), std::abs(t)};
     }
   }
-  return best.found() ? best : MeshPlace();
+  return best.found() ? best : MeshPoint();
 }
 
 }  // namespace viscera

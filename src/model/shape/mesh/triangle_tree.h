@@ -11,7 +11,7 @@
 namespace viscera {
 
 /// Point on a mesh.
-struct MeshPlace {
+struct MeshPoint {
   uint32_t triangle = kNone;
   Vector3f weights = Vector3f::Zero();  ///< barycentric weights of the triangle's corners
   float distance_m = std::numeric_limits<float>::infinity();
@@ -27,13 +27,13 @@ class TriangleTree {
   explicit TriangleTree(const TriangleMesh& mesh);
 
   /// Returns the nearest point on the mesh, if one is nearer than `within_m`.
-  MeshPlace nearest(const Vector3f& point_m, float within_m = std::numeric_limits<float>::infinity()) const;
+  MeshPoint nearest(const Vector3f& point_m, float within_m = std::numeric_limits<float>::infinity()) const;
   /// Returns the nearest point on the line through a point, at most `within_m` away in either direction, on a triangle
   /// that faces along `direction`.
   /// @param direction  unit
-  MeshPlace along(const Vector3f& point_m, const Vector3f& direction, float within_m) const;
+  MeshPoint along(const Vector3f& point_m, const Vector3f& direction, float within_m) const;
   /// Returns the first point ahead on a triangle that faces along `direction`, if there is one.
-  MeshPlace ahead(const Vector3f& point_m, const Vector3f& direction) const;
+  MeshPoint ahead(const Vector3f& point_m, const Vector3f& direction) const;
 
  private:
   struct Node {
@@ -46,7 +46,7 @@ class TriangleTree {
     uint32_t triangle;
   };
   void build(size_t first, size_t last);
-  MeshPlace onLine(const Vector3f& point_m, const Vector3f& direction, float within_m, bool both_ways) const;
+  MeshPoint onLine(const Vector3f& point_m, const Vector3f& direction, float within_m, bool both_directions) const;
 
   std::vector<Node> nodes_;
   std::vector<Corners> corners_;

@@ -54,8 +54,8 @@ uint64_t cellOf(const Vector3i& at) {
   return bits(at.x()) | bits(at.y()) << 20U | bits(at.z()) << 40U;
 }
 
-Vector3i cellAt(const Vector3f& place) {
-  return (place / kCell).array().floor().cast<int>();
+Vector3i cellAt(const Vector3f& position) {
+  return (position / kCell).array().floor().cast<int>();
 }
 
 // By value, for loops over lanes: GCC makes branches of std::max's references.
@@ -80,21 +80,21 @@ inline float smoothStep(float from, float to, float x) {
 
 inline float lumps(const PaintRow& row, size_t l) {
   constexpr float kFiner = 2.3F;
-  return 1 + 0.25F * wavy(kFiner * row.place[0][l], kFiner * row.place[1][l], kFiner * row.place[2][l]);
+  return 1 + 0.25F * wavy(kFiner * row.position[0][l], kFiner * row.position[1][l], kFiner * row.position[2][l]);
 }
 
 }  // namespace
 
 /// Returns the outermost point of the tissue along a ray from the axis.
 Vector3d HeartVessels::outermost(double z, double turn, int halvings) const {
-  const Vector3d from = kApex + z * (kBase - kApex), way(std::cos(turn), std::sin(turn), 0);
+  const Vector3d from = kApex + z * (kBase - kApex), direction(std::cos(turn), std::sin(turn), 0);
   double outside = kFarthest, inside = 0;
   constexpr double kStep = 0.01;
   // The field is nowhere kSteepest times as steep as a distance: the skipped steps contain no tissue.
   constexpr double kSteepest = 4;
   int steps = 0;
   for (double r = kFarthest; r > 0; r -= kStep, --steps) {
-    const double distance = steps > 0 ? 0 : field_(from + r * way);
+    const double distance = steps > 0 ? 0 : field_(from + r * direction);
     if (distance < 0) {
       inside = r;
       break;
@@ -104,17 +104,17 @@ Vector3d HeartVessels::outermost(double z, double turn, int halvings) const {
   }
   for (int i = 0; i < halvings; ++i) {
     const double middle = (inside + outside) / 2;
-    (field_(from + middle * way) < 0 ? inside : outside) = middle;
+    (field_(from + middle * direction) < 0 ? inside : outside) = middle;
   }
-  return from + inside * way;
+  return from + inside * direction;
 }
 
-Vector3d HeartVessels::normalAt(const Vector3d& place) const {
+Vector3d HeartVessels::normalAt(const Vector3d& position) const {
   constexpr double kDifference = 1e-3;
   Vector3d out;
   for (int i = 0; i < 3; ++i) {
     const Vector3d d = kDifference * Vector3d::Unit(i);
-    out[i] = field_(place + d) - field_(place - d);
+    out[i] = field_(position + d) - field_(position - d);
   }
   out.stableNormalize();
   return out;
@@ -146,9 +146,9 @@ double HeartVessels::groove(double z, double from, double to) const {
 void HeartVessels::addPath(const std::vector<Point>& points, Kind kind) {
   for (size_t i = 1; i < points.size(); ++i) {
     const Point &a = points[i - 1], &b = points[i];
-    const Vector3d way = b.at - a.at;
-    pieces_.push_back({a.at.cast<float>(), way.cast<float>(), a.normal.cast<float>(),
-                       static_cast<float>(1 / std::max(way.squaredNorm(), 1e-12)), static_cast<float>(a.radius),
+    const Vector3d direction = b.at - a.at;
+    pieces_.push_back({a.at.cast<float>(), direction.cast<float>(), a.normal.cast<float>(),
+                       static_cast<float>(1 / std::max(direction.squaredNorm(), 1e-12)), static_cast<float>(a.radius),
                        static_cast<float>(b.radius - a.radius), static_cast<float>(a.fat),
                        static_cast<float>(b.fat - a.fat), kind == Kind::kVein ? 1.0F : 0.0F});
   }
@@ -158,8 +158,8 @@ void HeartVessels::addWithVein(const std::vector<Point>& points) {
   addPath(points, Kind::kArtery);
   std::vector<Point> vein = points;
   for (size_t i = 0; i < vein.size(); ++i) {
-    const Vector3d way = points[std::min(i + 1, points.size() - 1)].at - points[i == 0 ? 0 : i - 1].at;
-    vein[i].at += kVeinBeside * points[i].radius * points[i].normal.cross(way).stableNormalized();
+    const Vector3d direction = points[std::min(i + 1, points.size() - 1)].at - points[i == 0 ? 0 : i - 1].at;
+    vein[i].at += kVeinBeside * points[i].radius * points[i].normal.cross(direction).stableNormalized();
     vein[i].radius *= 0.85;
     vein[i].fat = 0;
   }
@@ -233,7 +233,7 @@ void HeartVessels::listCells() {
   for (uint32_t i = 0; i < pieces_.size(); ++i) {
     const Piece& piece = pieces_[i];
     const float reach = reachOf(piece.radius, piece.fat);
-    const Vector3f b = piece.a + piece.way;
+    const Vector3f b = piece.a + piece.direction;
     const Vector3i low = cellAt((piece.a.cwiseMin(b).array() - reach).matrix());
     const Vector3i high = cellAt((piece.a.cwiseMax(b).array() + reach).matrix());
     for (int z = low.z(); z <= high.z(); ++z) {
@@ -269,7 +269,7 @@ void HeartVessels::findNear(const Vector3f& middle, float radius, std::vector<ui
 bool HeartVessels::reaches(uint32_t index, const Vector3f& middle, float radius) const {
   const Piece& piece = pieces_[index];
   const Vector3f from = middle - piece.a;
-  const Vector3f apart = from - within(from.dot(piece.way) * piece.per_way2, 0, 1) * piece.way;
+  const Vector3f apart = from - within(from.dot(piece.direction) * piece.per_path2, 0, 1) * piece.direction;
   const float reach = radius + reachOf(piece.radius, piece.fat);
   return apart.squaredNorm() <= reach * reach;
 }
@@ -290,7 +290,7 @@ struct HeartVessels::Sums {
 };
 
 HeartVessels::Sums HeartVessels::sumsOf(const std::vector<uint32_t>& near, const PaintRow& row) const {
-  const auto& [px, py, pz] = row.place;
+  const auto& [px, py, pz] = row.position;
   const auto& [nx, ny, nz] = row.normal;
   Sums out;
   out.best.fill(1);
@@ -299,13 +299,14 @@ HeartVessels::Sums HeartVessels::sumsOf(const std::vector<uint32_t>& near, const
   for (size_t l = 0; l < PaintRow::kMost; ++l) per_edge[l] = 1 / (1 + kUneven * wavy(px[l], py[l], pz[l]));
   for (const uint32_t index : near) {
     const Piece& piece = pieces_[index];
-    const float ax = piece.a.x(), ay = piece.a.y(), az = piece.a.z(), wx = piece.way.x(), wy = piece.way.y(),
-                wz = piece.way.z(), mx = piece.normal.x(), my = piece.normal.y(), mz = piece.normal.z(),
-                per_way2 = piece.per_way2, radius = piece.radius, radius_change = piece.radius_change, fat = piece.fat,
-                fat_change = piece.fat_change, vein = piece.vein, has_fat = fat > 0 ? 1.F : 0.F;
+    const float ax = piece.a.x(), ay = piece.a.y(), az = piece.a.z(), wx = piece.direction.x(),
+                wy = piece.direction.y(), wz = piece.direction.z(), mx = piece.normal.x(), my = piece.normal.y(),
+                mz = piece.normal.z(), per_path2 = piece.per_path2, radius = piece.radius,
+                radius_change = piece.radius_change, fat = piece.fat, fat_change = piece.fat_change, vein = piece.vein,
+                has_fat = fat > 0 ? 1.F : 0.F;
     for (size_t l = 0; l < PaintRow::kMost; ++l) {
       const float x = px[l] - ax, y = py[l] - ay, z = pz[l] - az;
-      const float along = within((x * wx + y * wy + z * wz) * per_way2, 0, 1);
+      const float along = within((x * wx + y * wy + z * wz) * per_path2, 0, 1);
       const float u = x - along * wx, v = y - along * wy, w = z - along * wz;
       const float facing = nx[l] * mx + ny[l] * my + nz[l] * mz;
       distance[l] = std::sqrt(u * u + v * v + w * w) + (facing < kFacing ? kElsewhere : 0.F);

@@ -38,8 +38,8 @@ class HeartVessels : public SurfacePaint {
   };
   /// Straight piece of a vessel as it is painted, from `a` along `way`.
   struct Piece {
-    Vector3f a, way, normal;
-    float per_way2, radius, radius_change, fat, fat_change;
+    Vector3f a, direction, normal;
+    float per_path2, radius, radius_change, fat, fat_change;
     float vein;  ///< 1 for veins, else 0
   };
   /// Sums over all pieces at the points of a row.
@@ -47,7 +47,7 @@ class HeartVessels : public SurfacePaint {
   Sums sumsOf(const std::vector<uint32_t>& near, const PaintRow& row) const;
   bool reaches(uint32_t index, const Vector3f& middle, float radius) const;
   Vector3d outermost(double z, double turn, int halvings) const;
-  Vector3d normalAt(const Vector3d& place) const;
+  Vector3d normalAt(const Vector3d& position) const;
   Point onSurface(double z, double turn, double radius, double fat) const;
   double groove(double z, double from, double to) const;
   void addPath(const std::vector<Point>& points, Kind kind);

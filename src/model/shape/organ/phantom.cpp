@@ -225,18 +225,18 @@ Phantom heartPhantom(double length_m, double wall_scale) {
   requireRange("phantom_wall_scale", wall_scale, 0.1, 2);
   const auto [low, high] = extent(wall_scale);
   const Vector3d middle = 0.5 * (low + high);
-  const auto place = [length_m, middle](const Vector3d& p) -> Vector3d { return length_m * (tilt() * p - middle); };
+  const auto position = [length_m, middle](const Vector3d& p) -> Vector3d { return length_m * (tilt() * p - middle); };
   Phantom phantom;
   phantom.part_names = {"left_ventricle", "right_ventricle", "left_atrium",      "right_atrium",
                         "septum",         "aorta",           "pulmonary_artery", "vena_cava"};
   phantom.walls = wallsOf(phantom.part_names, wall_scale * length_m);
   phantom.min_m = length_m * (low - middle);
   phantom.max_m = length_m * (high - middle);
-  phantom.chamber_centers_m = {place({0.16, 0.05, 0.6}), place({-0.3, -0.25, 0.9}), place({0.22, 0.3, 1.2}),
-                               place({-0.3, 0.1, 1.22})};
+  phantom.chamber_centers_m = {position({0.16, 0.05, 0.6}), position({-0.3, -0.25, 0.9}), position({0.22, 0.3, 1.2}),
+                               position({-0.3, 0.1, 1.22})};
   const Tube& defect = septalDefect();
-  phantom.defect_from_m = place(defect.from());
-  phantom.defect_to_m = place(defect.to());
+  phantom.defect_from_m = position(defect.from());
+  phantom.defect_to_m = position(defect.to());
   phantom.defect_radius_m = length_m * defect.radius();
   phantom.field = [heart = Heart(wall_scale), upright = tilt().conjugate(), middle, length_m](const Vector3d& point_m) {
     LabelledDistance at = heart.at(upright * (point_m / length_m + middle));

@@ -83,7 +83,7 @@ class MeshTissue : public Tissue {
     ImportReport report;
     mesh_ = facingOutward(importMesh(path_, config.unit_scale_m, &report, config.import_limits, config.textures));
     notes.push_back(path_ + ": " + report.text());
-    notes.insert(notes.end(), report.look_notes.begin(), report.look_notes.end());
+    notes.insert(notes.end(), report.appearance_notes.begin(), report.appearance_notes.end());
   }
 
   std::string path_;

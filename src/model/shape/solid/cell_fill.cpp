@@ -47,21 +47,21 @@ CellFill movedBy(const CellFill& fill, const Vector3d& d) {
 /// Labelled neighbour of a cell across a face, and the step to it.
 struct Neighbor {
   size_t cell;
-  Vector3i way;
+  Vector3i offset;
 };
 
 /// Returns the neighbour across the face that a position within the cell is nearest to.
-std::optional<Neighbor> nearestNeighbor(const Solid& solid, size_t cell, const Vector3d& place) {
+std::optional<Neighbor> nearestNeighbor(const Solid& solid, size_t cell, const Vector3d& position) {
   const auto nx = static_cast<size_t>(solid.cells.x()), ny = static_cast<size_t>(solid.cells.y());
   const Vector3i at(static_cast<int>(cell % nx), static_cast<int>(cell / nx % ny), static_cast<int>(cell / nx / ny));
   std::optional<Neighbor> nearest;
   double farthest_out = -1;
   for (int face = 0; face < 6; ++face) {
-    const Vector3i way = (face % 2 ? 1 : -1) * Vector3i::Unit(face / 2), there = at + way;
-    const double out = place.dot(way.cast<double>());
+    const Vector3i offset = (face % 2 ? 1 : -1) * Vector3i::Unit(face / 2), there = at + offset;
+    const double out = position.dot(offset.cast<double>());
     if (out <= farthest_out || solid.label(there.x(), there.y(), there.z()) == 0) continue;
     farthest_out = out;
-    nearest = {solid.index(there.x(), there.y(), there.z()), way};
+    nearest = {solid.index(there.x(), there.y(), there.z()), offset};
   }
   return nearest;
 }
@@ -83,7 +83,7 @@ void giveSlivers(const std::vector<PartialCell>& slivers, Solid& solid) {
     if (!(sliver.fill.share > 0)) continue;
     const auto to = nearestNeighbor(solid, sliver.cell, sliver.fill.first / sliver.fill.share);
     if (!to) continue;
-    add(given.try_emplace(to->cell, noFill()).first->second, movedBy(sliver.fill, -to->way.cast<double>()));
+    add(given.try_emplace(to->cell, noFill()).first->second, movedBy(sliver.fill, -to->offset.cast<double>()));
   }
   for (PartialCell& p : solid.partial) {
     const auto found = given.find(p.cell);

@@ -272,9 +272,9 @@ void fillAll(const DistanceField& field, Solid& solid, const Progress& progress)
 
 Solid voxeliseByMoments(const DistanceField& field, const std::vector<std::string>& part_names, const Vector3d& min_m,
                         const Vector3d& max_m, double spacing_m, const NodePlanes& planes, const Progress& progress) {
-  const auto fill = [&](double h, const Progress& told) {
+  const auto fill = [&](double h, const Progress& reported) {
     Solid solid = emptySolid(min_m, max_m, h, part_names, planes);
-    fillAll(field, solid, told);
+    fillAll(field, solid, reported);
     return solid;
   };
   Solid solid = fill(spacing_m, progress);

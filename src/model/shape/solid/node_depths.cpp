@@ -35,7 +35,7 @@ std::vector<NodeDepth> nodesAtSurface(const Solid& solid) {
 }
 
 /// Returns the vector from p to the nearest point of a triangle.
-Vector3d wayTo(const std::array<Vector3d, 3>& t, const Vector3d& p) {
+Vector3d offsetTo(const std::array<Vector3d, 3>& t, const Vector3d& p) {
   const Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
   bool above = normal.squaredNorm() > 0;
   for (int e = 0; e < 3 && above; ++e) {
@@ -48,8 +48,8 @@ Vector3d wayTo(const std::array<Vector3d, 3>& t, const Vector3d& p) {
     const Vector3d &a = t[e], edge = t[(e + 1) % 3] - a;
     const double length2 = edge.squaredNorm();
     const double at = length2 > 0 ? std::clamp((p - a).dot(edge) / length2, 0.0, 1.0) : 0;
-    const Vector3d way = a + at * edge - p;
-    if (way.squaredNorm() < least.squaredNorm()) least = way;
+    const Vector3d offset = a + at * edge - p;
+    if (offset.squaredNorm() < least.squaredNorm()) least = offset;
   }
   return least;
 }
@@ -61,7 +61,7 @@ class NodeDistances {
       : solid_(solid),
         per_axis_(solid.cells.array() + 1),
         index_(static_cast<size_t>(per_axis_.cast<int64_t>().prod()), 0),
-        ways(nodes.size(), Vector3d(kReach, 0, 0)),
+        offsets(nodes.size(), Vector3d(kReach, 0, 0)),
         is_inside(nodes.size(), false) {
     for (size_t i = 0; i < nodes.size(); ++i) index_[flat(nodes[i].node)] = static_cast<uint32_t>(i + 1);
   }
@@ -106,12 +106,12 @@ class NodeDistances {
         for (int x = low.x(); x <= high.x(); ++x) {
           const uint32_t known = index_[flat({x, y, z})];
           if (known == 0) continue;
-          Vector3d& best = ways[known - 1];
+          Vector3d& best = offsets[known - 1];
           const Vector3d p(x, y, z);
           // Its plane is too far away.
           if (std::pow((p - t[0]).dot(normal), 2) >= best.squaredNorm() * length2) continue;
-          const Vector3d way = wayTo(t, p);
-          if (way.squaredNorm() < best.squaredNorm()) best = way;
+          const Vector3d offset = offsetTo(t, p);
+          if (offset.squaredNorm() < best.squaredNorm()) best = offset;
         }
       }
     }
@@ -122,26 +122,26 @@ class NodeDistances {
   std::vector<uint32_t> index_;  ///< [nodes of the grid] 0, or 1 + index into nodes
 
  public:
-  std::vector<Vector3d> ways;  ///< vectors to the nearest triangle
+  std::vector<Vector3d> offsets;  ///< vectors to the nearest triangle
   std::vector<bool> is_inside;
 };
 
 /// Returns the unit vector of steepest ascent of the distance; 0 where its gradient is zero.
-Vector3d outwards(const DistanceField& field, const Vector3d& place_m, double spacing_m) {
+Vector3d outwards(const DistanceField& field, const Vector3d& position_m, double spacing_m) {
   const double step_m = 1e-3 * spacing_m;
   Vector3d out;
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3d step = step_m * Vector3d::Unit(axis);
-    out[axis] = field(place_m + step).distance_m - field(place_m - step).distance_m;
+    out[axis] = field(position_m + step).distance_m - field(position_m - step).distance_m;
   }
   return out.norm() > 0 ? Vector3d(out.normalized()) : out;
 }
 
 void measureDepth(const DistanceField& field, const Solid& solid, NodeDepth& n) {
-  const Vector3d place_m = solid.origin_m + solid.spacing_m * n.node.cast<double>();
-  const double distance_m = field(place_m).distance_m;
+  const Vector3d position_m = solid.origin_m + solid.spacing_m * n.node.cast<double>();
+  const double distance_m = field(position_m).distance_m;
   n.depth_m = static_cast<float>(-distance_m);
-  if (distance_m > 0) n.way_m = (-distance_m * outwards(field, place_m, solid.spacing_m)).cast<float>();
+  if (distance_m > 0) n.offset_m = (-distance_m * outwards(field, position_m, solid.spacing_m)).cast<float>();
 }
 
 }  // namespace
@@ -151,9 +151,9 @@ void measureDepths(const std::vector<Volume>& volumes, Solid& solid) {
   NodeDistances distances(solid, solid.depths);
   for (const Volume& volume : volumes) distances.meet(volume.shell);
   for (size_t i = 0; i < solid.depths.size(); ++i) {
-    const Vector3d way_m = solid.spacing_m * distances.ways[i];
-    solid.depths[i].depth_m = static_cast<float>(distances.is_inside[i] ? way_m.norm() : -way_m.norm());
-    if (!distances.is_inside[i]) solid.depths[i].way_m = way_m.cast<float>();
+    const Vector3d offset_m = solid.spacing_m * distances.offsets[i];
+    solid.depths[i].depth_m = static_cast<float>(distances.is_inside[i] ? offset_m.norm() : -offset_m.norm());
+    if (!distances.is_inside[i]) solid.depths[i].offset_m = offset_m.cast<float>();
   }
 }
 

@@ -38,11 +38,11 @@ double Solid::volumeM3() const {
 
 Solid voxelise(const DistanceField& field, const std::vector<std::string>& part_names, const Vector3d& min_m,
                const Vector3d& max_m, double spacing_m, const Progress& progress) {
-  const auto fill = [&](double h, const Progress& told) {
+  const auto fill = [&](double h, const Progress& reported) {
     Solid solid = emptySolid(min_m, max_m, h, part_names);
     for (int z = 0; z < solid.cells.z(); ++z) {
       fillLayer(field, z, solid);
-      if (told) told("voxelise", (z + 1.0) / solid.cells.z());
+      if (reported) reported("voxelise", (z + 1.0) / solid.cells.z());
     }
     return solid;
   };

@@ -39,13 +39,13 @@ layout::vec4 rounded(const Vector3d& v, double w) {
 /// @param impulses  [givers * slots]
 /// @param place  position of the giver
 void addBrick(CpuLattice& lattice, std::vector<layout::vec4>& impulses, uint32_t brick, size_t giver,
-              const Vector3f& place_m, Sum& sum) {
-  glsl::Contact place(lattice);
+              const Vector3f& position_m, Sum& sum) {
+  glsl::Contact position(lattice);
   for (uint32_t i = lattice.store.first_active[brick]; i < lattice.store.first_active[brick + 1]; ++i) {
     const uint32_t slot = lattice.store.active[i];
     layout::vec4& given = impulses[giver * lattice.slotCount() + slot];
     if (given.w == 0) continue;
-    const Vector3f arm = toEigen(place.restPosition(slot) + glsl::xyz(place.displacement[slot])) - place_m;
+    const Vector3f arm = toEigen(position.restPosition(slot) + glsl::xyz(position.displacement[slot])) - position_m;
     const Vector3d impulse(given.x, given.y, given.z);
     sum.impulse += impulse;
     sum.angular += arm.cast<double>().cross(impulse);
@@ -134,11 +134,11 @@ void CpuEdges::run(CpuLattice& lattice, const Substep& step, const layout::ToolM
 void sumReactions(CpuLattice& lattice, const std::array<Vector3f, layout::kMaxStyluses>& tips,
                   layout::TickStats& stats) {
   std::array<Sum, layout::kMaxStyluses> sums;
-  for (uint32_t brick = 0; brick < lattice.hands.touched.size(); ++brick) {
-    if (!lattice.hands.touched[brick]) continue;
+  for (uint32_t brick = 0; brick < lattice.tools.touched.size(); ++brick) {
+    if (!lattice.tools.touched[brick]) continue;
     for (uint32_t s = 0; s < layout::kMaxStyluses; ++s)
-      addBrick(lattice, lattice.hands.impulses, brick, s, tips[s], sums[s]);
-    lattice.hands.touched[brick] = 0;
+      addBrick(lattice, lattice.tools.impulses, brick, s, tips[s], sums[s]);
+    lattice.tools.touched[brick] = 0;
   }
   for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) {
     stats.impulse[s] = rounded(sums[s].impulse, sums[s].touched);
@@ -147,16 +147,16 @@ void sumReactions(CpuLattice& lattice, const std::array<Vector3f, layout::kMaxSt
   }
 }
 
-void sumObstacles(CpuLattice& lattice, const std::vector<Vector3f>& places, layout::TickStats& stats) {
+void sumObstacles(CpuLattice& lattice, const std::vector<Vector3f>& positions, layout::TickStats& stats) {
   std::array<Sum, layout::kMaxObstacles> sums;
-  for (uint32_t brick = 0; brick < lattice.hands.met.size(); ++brick) {
-    if (!lattice.hands.met[brick]) continue;
-    for (size_t o = 0; o < places.size(); ++o) {
-      addBrick(lattice, lattice.hands.obstacle_impulses, brick, o, places[o], sums[o]);
+  for (uint32_t brick = 0; brick < lattice.tools.met.size(); ++brick) {
+    if (!lattice.tools.met[brick]) continue;
+    for (size_t o = 0; o < positions.size(); ++o) {
+      addBrick(lattice, lattice.tools.obstacle_impulses, brick, o, positions[o], sums[o]);
     }
-    lattice.hands.met[brick] = 0;
+    lattice.tools.met[brick] = 0;
   }
-  for (size_t o = 0; o < places.size(); ++o) {
+  for (size_t o = 0; o < positions.size(); ++o) {
     stats.obstacle_impulse[o] = rounded(sums[o].impulse, sums[o].touched);
     stats.obstacle_angular[o] = rounded(sums[o].angular, 0);
   }

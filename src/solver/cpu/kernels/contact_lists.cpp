@@ -54,7 +54,7 @@ void ContactLists::update(glsl::CollisionRules& rules, const Parallel& parallel)
     for (size_t i = 0; i < rest_.size(); ++i) rest_[i] = glsl::vec4(rules.restPosition(rules.active_nodes[i]), 0);
   }
   parallel(motions_.size(), [&](size_t job) { follow(rules, job); });
-  const bool others = noteCrowds(rules);
+  const bool others = recordCrowds(rules);
   if (others || !stillComplete()) search(rules, parallel);
 }
 
@@ -91,7 +91,7 @@ void ContactLists::moveTo(size_t node, uint32_t bucket, Motion& motion) {
 /// Finds the nodes that are crowded now, and clears what contacts did to them (collision_place.comp,
 /// collision_scatter.comp).
 /// @return whether others are crowded than at the last search
-bool ContactLists::noteCrowds(glsl::CollisionRules& rules) {
+bool ContactLists::recordCrowds(glsl::CollisionRules& rules) {
   const bool may_be = std::any_of(motions_.begin(), motions_.end(), [](const Motion& m) { return m.crowds; });
   if (crowded_ == 0 && !may_be) return false;
   crowded_ = 0;
@@ -172,9 +172,9 @@ void ContactLists::sortIntoCells() {
   uint32_t sum = 0;
   for (uint32_t& start : bucket_starts_) start = sum += start;  // end of the bucket, until its nodes are in it
   for (size_t e = count_; e-- > 0;) {
-    const uint32_t place = --bucket_starts_[bucketOf(cell_[e])];
-    in_bucket_[place] = static_cast<uint32_t>(e);
-    bucket_positions_[place] = position_[e];
+    const uint32_t rank = --bucket_starts_[bucketOf(cell_[e])];
+    in_bucket_[rank] = static_cast<uint32_t>(e);
+    bucket_positions_[rank] = position_[e];
   }
 }
 
@@ -247,15 +247,15 @@ void ContactLists::findContacts(size_t job) {
 
 /// Sorts contacts into the order in which the shader's search visits cells; within a cell they are in order already.
 void ContactLists::sortByCells(size_t entry, ListedContact* begin, ListedContact* end) const {
-  const auto placeOf = [&](const ListedContact& contact) {
+  const auto rankOf = [&](const ListedContact& contact) {
     const glsl::ivec3 away = shader_cell_[contact.other] - shader_cell_[entry];
     return away.x + 3 * away.y + 9 * away.z;
   };
   for (ListedContact* next = begin + 1; next < end; ++next) {  // few, and mostly in order
     const ListedContact contact = *next;
-    const int place = placeOf(contact);
+    const int rank = rankOf(contact);
     ListedContact* to = next;
-    for (; to > begin && placeOf(to[-1]) > place; --to) *to = to[-1];
+    for (; to > begin && rankOf(to[-1]) > rank; --to) *to = to[-1];
     *to = contact;
   }
 }

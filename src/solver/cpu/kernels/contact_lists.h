@@ -76,7 +76,7 @@ class ContactLists {
   void follow(glsl::CollisionRules& rules, size_t job);
   void moveTo(size_t node, uint32_t bucket, Motion& motion);
   bool isCrowded(size_t node) const { return in_shader_bucket_[shader_bucket_[node]] > most_in_bucket_; }
-  bool noteCrowds(glsl::CollisionRules& rules);
+  bool recordCrowds(glsl::CollisionRules& rules);
   bool stillComplete() const;
   void search(glsl::CollisionRules& rules, const Parallel& parallel);
   void enterAll(glsl::CollisionRules& rules);

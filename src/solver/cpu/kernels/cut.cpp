@@ -100,9 +100,9 @@ std::vector<float> tissueReaches(CpuLattice& lattice) {
   std::vector<float> out(lattice.slotCount());
   glsl::CutSprings kernel(lattice);
   for (const uint32_t slot : lattice.store.active) {
-    const uint32_t way = kernel.surfaceOffset(slot);
-    if (way == 0) continue;
-    const glsl::vec3 cells = kernel.wayInCells(way);
+    const uint32_t offset = kernel.surfaceOffset(slot);
+    if (offset == 0) continue;
+    const glsl::vec3 cells = kernel.offsetInCells(offset);
     const float along_axes = std::abs(cells.x) + std::abs(cells.y) + std::abs(cells.z);
     out[slot] = lattice.store.bodyOf(slot).origin_spacing.w * (glsl::length(cells) + along_axes);
   }

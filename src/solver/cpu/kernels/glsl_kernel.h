@@ -78,16 +78,16 @@ struct Kernel {
         velocity(lattice.state.velocity[lattice.state.current]),
         next_displacement(lattice.state.displacement[1 - lattice.state.current]),
         next_velocity(lattice.state.velocity[1 - lattice.state.current]),
-        grab_offsets(lattice.hands.grab_offsets),
-        impulses_(lattice.hands.impulses.data()),
-        touched_(lattice.hands.touched.data()),
-        obstacle_impulses_(lattice.hands.obstacle_impulses.data()),
-        met_(lattice.hands.met.data()),
+        grab_offsets(lattice.tools.grab_offsets),
+        impulses_(lattice.tools.impulses.data()),
+        touched_(lattice.tools.touched.data()),
+        obstacle_impulses_(lattice.tools.obstacle_impulses.data()),
+        met_(lattice.tools.met.data()),
         bricks_(lattice.store.bricks.data()),
         stiffness_(lattice.strengths.stiffness.data()),
         mass_(lattice.strengths.mass.data()),
         depth_(lattice.strengths.surface_depth.empty() ? nullptr : lattice.strengths.surface_depth.data()),
-        ways_(lattice.strengths.surface_offsets.empty() ? nullptr : lattice.strengths.surface_offsets.data()),
+        offsets_(lattice.strengths.surface_offsets.empty() ? nullptr : lattice.strengths.surface_offsets.data()),
         rest_(lattice.links.network.rest_m.data()),
         link_starts_(lattice.links.network.starts.data()),
         links_(lattice.links.network.links.data()) {}
@@ -131,7 +131,7 @@ struct Kernel {
   const Link& linkAt(uint link) const { return links_[link]; }
   float nodeMass(uint slot, const NodeBits&, const BodyParams&) const { return mass_[slot]; }
   float surfaceDepth(uint slot) const { return depth_ ? depth_[slot] : 0; }
-  uint surfaceOffset(uint slot) const { return ways_ ? ways_[slot] : 0; }
+  uint surfaceOffset(uint slot) const { return offsets_ ? offsets_[slot] : 0; }
   float springStiffness(uint slot, uint far, uint spring, uint, const BodyParams&) const {
     return stiffness_[stiffnessAt((spring & 1u) == 0u ? slot : far, spring >> 1)];
   }
@@ -153,7 +153,7 @@ struct Kernel {
   uint8_t* met_;
   const Brick* bricks_;
   const float *stiffness_, *mass_, *depth_;
-  const uint* ways_;
+  const uint* offsets_;
   const layout::vec4* rest_;
   const uint* link_starts_;
   const Link* links_;

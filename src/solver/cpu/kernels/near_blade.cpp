@@ -72,13 +72,13 @@ void box(const layout::ToolMotion& m, float grown_m, simd::Sweep& sweep) {
 }
 
 /// Returns the sides of the box beyond which all positions of a brick are, with their tissue.
-uint8_t sidesBeyond(const simd::Sweep& sweep, const simd::BrickPlaces& places, float reach_m) {
+uint8_t sidesBeyond(const simd::Sweep& sweep, const simd::BrickPositions& positions, float reach_m) {
   int sides = 0;  // positions that are not finite are beyond none
   for (int k = 0; k < 3; ++k) {
     float middle = 0, half = reach_m;
     for (int c = 0; c < 3; ++c) {
-      middle += sweep.axes[k][c] * 0.5f * (places.low_m[c] + places.high_m[c]);
-      half += std::abs(sweep.axes[k][c]) * 0.5f * (places.high_m[c] - places.low_m[c]);
+      middle += sweep.axes[k][c] * 0.5f * (positions.low_m[c] + positions.high_m[c]);
+      half += std::abs(sweep.axes[k][c]) * 0.5f * (positions.high_m[c] - positions.low_m[c]);
     }
     sides |= (middle + half < sweep.low_m[k]) << (2 * k) | (middle - half > sweep.high_m[k]) << (2 * k + 1);
   }
@@ -127,12 +127,12 @@ uint64_t rowThatMayLose(const ByteRows& rows, int y, int z) {
 NearBlade::NearBlade(const CpuLattice& lattice, std::vector<float> reach_m, const Parallel& parallel,
                      const simd::Kernels& kernels)
     : parallel_(parallel),
-      find_places_(kernels.sweep),
+      find_positions_(kernels.sweep),
       find_sides_(kernels.sides),
       reach_m_(std::move(reach_m)),
       farthest_m_(lattice.brickCount()),
       sweeps_(lattice.store.bodies.size()),
-      places_(lattice.brickCount()),
+      positions_(lattice.brickCount()),
       outside_(lattice.slotCount(), kNotNear),
       common_(lattice.brickCount(), kNotNear),
       nodes_(lattice.brickCount(), 0) {
@@ -178,24 +178,24 @@ void NearBlade::findBricks(const CpuLattice& lattice, const layout::ToolMotion& 
           reach_m_.data(),
           {motion.from.x, motion.from.y, motion.from.z},
           sweeps_.data(),
-          places_.data(),
+          positions_.data(),
           outside_.data()};
   const size_t count = lattice.brickCount();
   for (uint32_t b = 0; at_rest && b < count; ++b) {
-    places_[b].near = 0;
-    if (isNearAtRest(lattice, b)) find_places_(job_, b, b + 1);
+    positions_[b].near = 0;
+    if (isNearAtRest(lattice, b)) find_positions_(job_, b, b + 1);
   }
   parallel_(at_rest ? 0 : (count + kBricksPerJob - 1) / kBricksPerJob,
-            [&](size_t i) { find_places_(job_, i * kBricksPerJob, std::min(count, (i + 1) * kBricksPerJob)); });
+            [&](size_t i) { find_positions_(job_, i * kBricksPerJob, std::min(count, (i + 1) * kBricksPerJob)); });
   for (uint32_t b = 0; b < count; ++b) {
-    if (places_[b].near) near_.push_back(b);
+    if (positions_[b].near) near_.push_back(b);
   }
 }
 
 /// Returns the largest offset of the sweep's start, as springs of near bricks see it [m] (startOffset in blade.glsl).
 float NearBlade::farthestOffset(const layout::ToolMotion& motion) const {
   float most2 = 0;
-  for (uint32_t b : near_) most2 = std::max(most2, places_[b].speed2);
+  for (uint32_t b : near_) most2 = std::max(most2, positions_[b].speed2);
   const float overlap = layout::kOverlap * glsl::distance(glsl::xyz(motion.to), glsl::xyz(motion.from));
   return (1 + simd::kSweepMargin) * (motion.timing.x * std::sqrt(most2) + overlap);
 }
@@ -203,7 +203,7 @@ float NearBlade::farthestOffset(const layout::ToolMotion& motion) const {
 void NearBlade::placeBrick(uint32_t b) {
   const simd::Sweep& sweep = sweeps_[job_.bricks[b].body];
   uint8_t* const out = &outside_[b * layout::kBrickSlots];
-  common_[b] = sidesBeyond(sweep, places_[b], farthest_m_[b]);
+  common_[b] = sidesBeyond(sweep, positions_[b], farthest_m_[b]);
   if (common_[b] != 0)
     std::fill_n(out, layout::kBrickSlots, common_[b]);
   else

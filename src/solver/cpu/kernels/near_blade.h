@@ -49,17 +49,17 @@ class NearBlade {
   bool mayCross(const layout::Brick& brick) const;
 
   const Parallel& parallel_;
-  simd::BrickSweep find_places_;
+  simd::BrickSweep find_positions_;
   simd::BrickSides find_sides_;
   simd::SweepJob job_{};
-  std::vector<float> reach_m_;             ///< [slots] largest distance of a node's tissue from the node [m]
-  std::vector<float> farthest_m_;          ///< [bricks] largest of these [m]
-  std::vector<simd::Sweep> sweeps_;        ///< [bodies]
-  std::vector<simd::BrickPlaces> places_;  ///< [bricks]
-  std::vector<uint32_t> near_;             ///< near bricks, ascending
-  std::vector<uint8_t> outside_;           ///< [slots] of near bricks: sides of the box, a bit each; 255 elsewhere
-  std::vector<uint8_t> common_;  ///< [bricks] sides beyond which all positions of a near brick are; 255 elsewhere
-  std::vector<uint64_t> nodes_;  ///< [bricks] nodes of near bricks that may lose a spring
+  std::vector<float> reach_m_;                   ///< [slots] largest distance of a node's tissue from the node [m]
+  std::vector<float> farthest_m_;                ///< [bricks] largest of these [m]
+  std::vector<simd::Sweep> sweeps_;              ///< [bodies]
+  std::vector<simd::BrickPositions> positions_;  ///< [bricks]
+  std::vector<uint32_t> near_;                   ///< near bricks, ascending
+  std::vector<uint8_t> outside_;  ///< [slots] of near bricks: sides of the box, a bit each; 255 elsewhere
+  std::vector<uint8_t> common_;   ///< [bricks] sides beyond which all positions of a near brick are; 255 elsewhere
+  std::vector<uint64_t> nodes_;   ///< [bricks] nodes of near bricks that may lose a spring
 };
 
 /// Calls visit(brick) for all near bricks in parallel.
@@ -77,8 +77,8 @@ void NearBlade::keep(const CpuLattice& lattice, const Lose& lose) {
     uint64_t kept = 0;
     for (uint32_t i = lattice.store.first_active[brick]; nodes_[brick] && i < lattice.store.first_active[brick + 1];
          ++i) {
-      const uint32_t slot = lattice.store.active[i], place = slot % layout::kBrickSlots;
-      if (nodes_[brick] >> place & 1) kept |= lose(slot) << place;
+      const uint32_t slot = lattice.store.active[i], position = slot % layout::kBrickSlots;
+      if (nodes_[brick] >> position & 1) kept |= lose(slot) << position;
     }
     nodes_[brick] = kept;
   });

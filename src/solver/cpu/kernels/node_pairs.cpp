@@ -23,9 +23,9 @@ namespace {
 #define VARIANT_MEMBERS VISIT_LISTED
 #include "solver/cpu/kernels/glsl_variant.inc"
 
-#define VARIANT_NAME Note
+#define VARIANT_NAME Record
 #define VARIANT_BASE ListedKernel
-#define VARIANT_TEXT "shaders/solver/collision/collision_note.comp"
+#define VARIANT_TEXT "shaders/solver/collision/collision_record.comp"
 #define VARIANT_FEATURES WITH_AHEAD
 #define VARIANT_MEMBERS VISIT_LISTED
 #include "solver/cpu/kernels/glsl_variant.inc"
@@ -102,7 +102,7 @@ void CpuNodePairs::find(CpuLattice& lattice, const Substep& step, glsl::vec4* in
   // Sequential: the ends of pairs claim space in order.
   const auto meet = kernel<glsl::MeetAhead>(lattice, step, increments);
   for (size_t job = 0; job < lists_.jobs(); ++job) glsl::visitListed(meet, lists_, job);
-  const auto note = kernel<glsl::Note>(lattice, step, increments);
+  const auto note = kernel<glsl::Record>(lattice, step, increments);
   parallel_(lists_.jobs(), [&](size_t job) { glsl::visitListed(note, lists_, job); });
   for (size_t e = 0; e < lists_.count(); ++e) {
     const uint32_t slot = lists_.entries()[e].w;

@@ -91,6 +91,6 @@ void sumReactions(CpuLattice& lattice, const std::array<Vector3f, layout::kMaxSt
 
 /// Sums the impulses of obstacles in the same manner.
 /// @param places  [obstacles] positions at the end of the tick, tissue frame [m]
-void sumObstacles(CpuLattice& lattice, const std::vector<Vector3f>& places, layout::TickStats& stats);
+void sumObstacles(CpuLattice& lattice, const std::vector<Vector3f>& positions, layout::TickStats& stats);
 
 }  // namespace viscera

@@ -16,14 +16,14 @@ HWY_BEFORE_NAMESPACE();
 namespace viscera::simd::HWY_NAMESPACE {
 
 /// Positions of a brick's nodes, relative to the blade's first tip.
-struct Places {
+struct Positions {
   float first[3];  ///< rest position of the first node [m]
   float h;
   const float* u;
   HWY_INLINE Vec3 at(int i) const { return restOf(first, h, i) + loadPlanes(u + i); }
 };
 
-HWY_INLINE Places placesOf(const SweepJob& job, uint32_t b) {
+HWY_INLINE Positions positionsOf(const SweepJob& job, uint32_t b) {
   const layout::Brick& brick = job.bricks[b];
   const layout::vec4& origin = job.bodies[brick.body].origin_spacing;
   const float edge = 4 * origin.w;
@@ -41,13 +41,13 @@ HWY_INLINE float mostOf(V v) {
   return hn::GetLane(hn::MaxOfLanes(Tag(), v));
 }
 
-BrickPlaces boundsOf(const SweepJob& job, uint32_t b) {
+BrickPositions boundsOf(const SweepJob& job, uint32_t b) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   const Sweep& sweep = job.sweeps[job.bricks[b].body];
-  const Places places = placesOf(job, b);
+  const Positions positions = positionsOf(job, b);
   const Vec3 center = {set(sweep.center_m[0]), set(sweep.center_m[1]), set(sweep.center_m[2])};
   float size = sweep.radius_m;
-  for (int k = 0; k < 3; ++k) size += std::abs(places.first[k] - sweep.center_m[k]);
+  for (int k = 0; k < 3; ++k) size += std::abs(positions.first[k] - sweep.center_m[k]);
   const float radius = sweep.radius_m + kSweepMargin * size;
   const V radius2 = set(radius * radius);
   Vec3 low = {set(kInfinity), set(kInfinity), set(kInfinity)};
@@ -55,7 +55,7 @@ BrickPlaces boundsOf(const SweepJob& job, uint32_t b) {
   V speed2 = hn::Zero(Tag());
   bool near = false, finite = true;
   for (int i = 0; i < 64; i += static_cast<int>(hn::MaxLanes(Tag()))) {
-    const Vec3 x = places.at(i), away = x - center;
+    const Vec3 x = positions.at(i), away = x - center;
     const V away2 = dot(away, away);
     // Positions that are not finite count as near.
     near |= !hn::AllTrue(Tag(), hn::Gt(away2, radius2));
@@ -66,10 +66,10 @@ BrickPlaces boundsOf(const SweepJob& job, uint32_t b) {
     const V v2 = dot(v, v);
     speed2 = hn::Max(speed2, hn::IfThenElseZero(hn::Lt(v2, set(kInfinity)), v2));  // not finite: crosses nothing
   }
-  BrickPlaces out{{leastOf(low.x), leastOf(low.y), leastOf(low.z)},
-                  {mostOf(high.x), mostOf(high.y), mostOf(high.z)},
-                  mostOf(speed2),
-                  near};
+  BrickPositions out{{leastOf(low.x), leastOf(low.y), leastOf(low.z)},
+                     {mostOf(high.x), mostOf(high.y), mostOf(high.z)},
+                     mostOf(speed2),
+                     near};
   for (int k = 0; k < 3 && !finite; ++k) {
     out.low_m[k] = -kInfinity;
     out.high_m[k] = kInfinity;
@@ -77,8 +77,8 @@ BrickPlaces boundsOf(const SweepJob& job, uint32_t b) {
   return out;
 }
 
-void findPlaces(const SweepJob& job, size_t first, size_t last) {
-  for (size_t b = first; b < last; ++b) job.places[b] = boundsOf(job, static_cast<uint32_t>(b));
+void findPositions(const SweepJob& job, size_t first, size_t last) {
+  for (size_t b = first; b < last; ++b) job.positions[b] = boundsOf(job, static_cast<uint32_t>(b));
 }
 
 /// Returns 1 << bit in the lanes of a mask.
@@ -92,10 +92,10 @@ void findSides(const SweepJob& job, const uint32_t* bricks, size_t count) {
   const hn::Rebind<uint8_t, Tag> bytes;
   for (size_t n = 0; n < count; ++n) {
     const Sweep& sweep = job.sweeps[job.bricks[bricks[n]].body];
-    const Places places = placesOf(job, bricks[n]);
+    const Positions positions = positionsOf(job, bricks[n]);
     for (int i = 0; i < 64; i += static_cast<int>(hn::MaxLanes(Tag()))) {
       const size_t slot = size_t{bricks[n]} * 64 + static_cast<size_t>(i);
-      const Vec3 x = places.at(i);
+      const Vec3 x = positions.at(i);
       const V reach = load(job.reach_m + slot);
       auto sides = hn::Zero(ints);
       for (int k = 0; k < 3; ++k) {
@@ -116,11 +116,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace viscera::simd {
 
-HWY_EXPORT(findPlaces);
+HWY_EXPORT(findPositions);
 HWY_EXPORT(findSides);
 
-BrickSweep findPlacesFor(int64_t target) {
-  return VISCERA_KERNEL_FOR(findPlaces, target);
+BrickSweep findPositionsFor(int64_t target) {
+  return VISCERA_KERNEL_FOR(findPositions, target);
 }
 BrickSides findSidesFor(int64_t target) {
   return VISCERA_KERNEL_FOR(findSides, target);

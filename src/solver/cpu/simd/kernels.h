@@ -113,7 +113,7 @@ struct WallGroups {
   const float* numbers;    ///< [groups][kWallNumbers][kWallLanes]
   const float* strengths;  ///< [groups][2][kWallLanes] rigidity [J], 0 where there is no cell; bulk over rigidity
   const float* const* laminates;  ///< [groups] [kLaminateNumbers][kWallLanes]; null where no cell has two materials
-  const float* places;            ///< [nodes][4] displacements over 4 h: x, y, z
+  const float* positions;         ///< [nodes][4] displacements over 4 h: x, y, z
   float* forces;                  ///< [listed][4] N, sums of the forces of a group's cells on its nodes: x, y, z
   float* measured;                ///< [groups][2][kWallLanes] energy [J], and stiffness over that at rest
 };
@@ -171,7 +171,7 @@ struct Sweep {
 };
 
 /// Bounds of the 64 positions of a brick, relative to the blade's first tip; infinite if some are not finite.
-struct BrickPlaces {
+struct BrickPositions {
   float low_m[3], high_m[3];
   float speed2;  ///< largest |v|^2 [m2/s2]
   bool near;     ///< some positions are in the sphere
@@ -181,10 +181,10 @@ struct SweepJob {
   const layout::Brick* bricks;
   const layout::BodyParams* bodies;
   const float *displacement, *velocity;
-  const float* reach_m;  ///< [slots] largest distance of a node's tissue from the node
-  float from_m[3];       ///< the blade's first tip, tissue frame
-  const Sweep* sweeps;   ///< [bodies]
-  BrickPlaces* places;   ///< [bricks]
+  const float* reach_m;       ///< [slots] largest distance of a node's tissue from the node
+  float from_m[3];            ///< the blade's first tip, tissue frame
+  const Sweep* sweeps;        ///< [bodies]
+  BrickPositions* positions;  ///< [bricks]
   uint8_t* outside;  ///< [slots] sides of the box beyond which a node is, with its tissue: bit 2 k low, 2 k + 1 high
 };
 /// Kernel that writes `places` of bricks first..last - 1.

@@ -23,7 +23,7 @@ std::optional<Kernels> kernelsFor(const std::string& target) {
                      measureWallsFor(each),
                      spreadNetworkFor(each),
                      leapfrogNetworkFor(each),
-                     findPlacesFor(each),
+                     findPositionsFor(each),
                      findSidesFor(each)};
   }
   return std::nullopt;

@@ -19,7 +19,7 @@ namespace viscera::simd::HWY_NAMESPACE {
 /// Displacements over 4 h of the nodes of a group, and forces on them: x, y, z, 0 of each. Adding up the forces of its
 /// cells here takes half the time of writing the force of each cell on each of its nodes.
 struct alignas(64) GroupNodes {
-  float places[4 * kWallNodes * kWallLanes], forces[4 * kWallNodes * kWallLanes];
+  float positions[4 * kWallNodes * kWallLanes], forces[4 * kWallNodes * kWallLanes];
 };
 
 HWY_INLINE void readGroup(const WallJob& job, size_t group, GroupNodes& out) {
@@ -27,7 +27,7 @@ HWY_INLINE void readGroup(const WallJob& job, size_t group, GroupNodes& out) {
   const uint32_t* listed = job.walls.listed + job.walls.first[group];
   const uint32_t count = job.walls.first[group + 1] - job.walls.first[group];
   for (uint32_t n = 0; n < count; ++n) {
-    hn::Store(hn::Load(row, job.walls.places + listed[n]), row, out.places + 4 * n);
+    hn::Store(hn::Load(row, job.walls.positions + listed[n]), row, out.positions + 4 * n);
     hn::Store(hn::Zero(row), row, out.forces + 4 * n);
   }
 }
@@ -74,12 +74,12 @@ struct alignas(64) NodeVectors {
 HWY_INLINE void loadNodes(const WallVector& of, NodeVectors& out) {
   const Row row;
   const uint16_t* nodes = of.job.walls.nodes + of.group * kWallNodes * kWallLanes + of.lane;
-  const float* places = of.nodes.places;
+  const float* positions = of.nodes.positions;
   for (uint32_t node = 0; node < kWallNodes; ++node) {
     for (size_t lane = 0; lane < hn::MaxLanes(Tag()); lane += 4) {
       const uint16_t* at = nodes + node * kWallLanes + lane;
-      const auto a = hn::Load(row, places + at[0]), b = hn::Load(row, places + at[1]);
-      const auto c = hn::Load(row, places + at[2]), d = hn::Load(row, places + at[3]);
+      const auto a = hn::Load(row, positions + at[0]), b = hn::Load(row, positions + at[1]);
+      const auto c = hn::Load(row, positions + at[2]), d = hn::Load(row, positions + at[3]);
       const auto xy_ab = hn::InterleaveLower(row, a, b), xy_cd = hn::InterleaveLower(row, c, d);
       const auto z_ab = hn::InterleaveUpper(row, a, b), z_cd = hn::InterleaveUpper(row, c, d);
       hn::Store(hn::ConcatLowerLower(row, xy_cd, xy_ab), row, out.values[node][0] + lane);
@@ -113,10 +113,10 @@ HWY_INLINE void addForces(const WallVector& of, const NodeVectors& forces) {
 }
 
 HWY_INLINE WallMotion wallMotion(const WallVector& of) {
-  NodeVectors places;
-  loadNodes(of, places);
+  NodeVectors positions;
+  loadNodes(of, positions);
   Vec3 n[8];
-  for (uint32_t c = 0; c < 8; ++c) n[c] = places.at(c);
+  for (uint32_t c = 0; c < 8; ++c) n[c] = positions.at(c);
   WallMotion out;
   out.cell = motionOf4(faceOf(n[0], n[1], n[2], n[3]), faceOf(n[4], n[5], n[6], n[7]));
   const float* ends = of.at(of.job.walls.ends, kWallEnds);
@@ -126,8 +126,8 @@ HWY_INLINE WallMotion wallMotion(const WallVector& of) {
       for (int other = 0; other < 2; ++other) {
         const uint32_t a = lowerCorner(axis, side, other), b = upperCorner(axis, side, other);
         const float* weights = ends + endsAt(axis, side, other) * kWallLanes;
-        const Vec3 edge = n[b] - n[a], before = n[a] - places.at(nodeBeyond(a, axis)),
-                   after = places.at(nodeBeyond(b, axis)) - n[b];
+        const Vec3 edge = n[b] - n[a], before = n[a] - positions.at(nodeBeyond(a, axis)),
+                   after = positions.at(nodeBeyond(b, axis)) - n[b];
         edges[side][other] = mulAdd(load(weights), edge - before, load(weights + kWallLanes) * (after - edge));
       }
     }

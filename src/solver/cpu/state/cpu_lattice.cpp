@@ -44,7 +44,7 @@ CpuState::CpuState(size_t slots) {
   }
 }
 
-CpuHands::CpuHands(const CpuStore& store, const FeatureSet& features) {
+CpuToolState::CpuToolState(const CpuStore& store, const FeatureSet& features) {
   if (features.obstacles > 0) {
     obstacle_impulses.resize(store.slotCount() * features.obstacles);
     met.resize(store.brickCount());
@@ -73,7 +73,7 @@ CpuLattice::CpuLattice(const Model& model, const std::vector<layout::BodyParams>
       links(model),
       strengths(model, store, features, links.network.masses_kg),
       state(store.slotCount()),
-      hands(store, features),
+      tools(store, features),
       record(model, links.network, features),
       axial_cut(record.size()),
       cut_sides(record.size() / 3) {}

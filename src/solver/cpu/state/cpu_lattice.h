@@ -29,8 +29,8 @@ struct CpuState {
 };
 
 /// State of grips, and impulses of styluses and obstacles. Empty without any.
-struct CpuHands {
-  CpuHands(const CpuStore& store, const FeatureSet& features);
+struct CpuToolState {
+  CpuToolState(const CpuStore& store, const FeatureSet& features);
 
   std::vector<layout::vec4> grab_offsets;       ///< [slots] m, stylus frame
   std::vector<layout::vec4> impulses;           ///< [kMaxStyluses * slots] N s; w counts substeps of contact
@@ -75,12 +75,12 @@ struct CpuLattice {
     visit(fields::kAxialCut, axial_cut);
     visit(fields::kCutSides, cut_sides);
     visit(fields::kLeftByTearing, strengths.left);
-    visit(fields::kGrabOffsets, hands.grab_offsets);
-    visit(fields::kHeldBricks, hands.held);
-    visit(fields::kImpulses, hands.impulses);
-    visit(fields::kImpulses, hands.touched);
-    visit(fields::kImpulses, hands.obstacle_impulses);
-    visit(fields::kImpulses, hands.met);
+    visit(fields::kGrabOffsets, tools.grab_offsets);
+    visit(fields::kHeldBricks, tools.held);
+    visit(fields::kImpulses, tools.impulses);
+    visit(fields::kImpulses, tools.touched);
+    visit(fields::kImpulses, tools.obstacle_impulses);
+    visit(fields::kImpulses, tools.met);
   }
   void swap() { state.swap(); }
   HostState read() const;
@@ -97,7 +97,7 @@ struct CpuLattice {
   CpuLinks links;
   CpuStrengths strengths;
   CpuState state;
-  CpuHands hands;
+  CpuToolState tools;
   CutRecord record;
   std::vector<float> axial_cut;         ///< [record.size()] as in CutSprings, for implicit lattices
   std::vector<layout::vec4> cut_sides;  ///< [slots] if there is a record: see shaders/solver/tools/cut_sides.glsl

@@ -40,8 +40,8 @@ bool isAlone(const layout::NodeBits& bits) {
 /// Returns the strain of springs that carry a cell's prestress, along a direction: n.E.n with E = (S - tr S / 5) / 2
 /// over mu.
 /// @param s  xx, yy, zz; yz, zx, xy
-float strainOfStress(const layout::vec4* s, const std::array<int, 3>& way) {
-  const auto x = static_cast<float>(way[0]), y = static_cast<float>(way[1]), z = static_cast<float>(way[2]);
+float strainOfStress(const layout::vec4* s, const std::array<int, 3>& offset) {
+  const auto x = static_cast<float>(offset[0]), y = static_cast<float>(offset[1]), z = static_cast<float>(offset[2]);
   const float along =
       s[0].x * x * x + s[0].y * y * y + s[0].z * z * z + 2 * (s[1].x * y * z + s[1].y * z * x + s[1].z * x * y);
   return 0.5f * (along / (x * x + y * y + z * z) - (s[0].x + s[0].y + s[0].z) / 5);
@@ -301,11 +301,11 @@ void CpuStrengths::refreshAll(const CpuStore& store) {
   std::fill(broken.begin(), broken.end(), nullptr);
   broken_bricks_ = 0;
   for (uint32_t slot : store.active) refresh(store, slot);
-  noteIdleRows();
-  if (!rigidity.empty()) noteCells(store);
+  recordIdleRows();
+  if (!rigidity.empty()) recordCells(store);
 }
 
-void CpuStrengths::noteIdleRows() {
+void CpuStrengths::recordIdleRows() {
   for (size_t b = 0; b < idle_rows.size(); ++b) {
     idle_rows[b] = 0;
     for (size_t row = 0; row < 16; ++row) {
@@ -318,7 +318,7 @@ void CpuStrengths::noteIdleRows() {
 }
 
 /// Fills idle_cells.
-void CpuStrengths::noteCells(const CpuStore& store) {
+void CpuStrengths::recordCells(const CpuStore& store) {
   for (uint32_t b = 0; b < store.brickCount(); ++b) {
     idle_cells[b] = 0;
     for (uint32_t row = 0; row < 16; ++row) {

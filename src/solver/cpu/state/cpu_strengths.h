@@ -69,8 +69,8 @@ struct CpuStrengths {
   void breakCells(const CpuStore& store, uint32_t slot);
   float* newBrokenPlanes();
   void setBroken(const CpuStore& store, uint32_t cell);
-  void noteIdleRows();
-  void noteCells(const CpuStore& store);
+  void recordIdleRows();
+  void recordCells(const CpuStore& store);
   bool isIdleRow(const CpuStore& store, uint32_t first) const;
 
   AlignedVector<float> moment_planes_;              ///< storage of brick_moments

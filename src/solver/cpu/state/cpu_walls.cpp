@@ -78,7 +78,7 @@ std::vector<uint32_t> CpuWalls::listNodes(const CpuStore& store) {
   std::vector<uint32_t> out(cells_.size() * simd::kWallNodes);
   bricks_of_.resize(bodies_.size());
   for (size_t i = 0; i < cells_.size(); ++i) {
-    const auto note = [&](uint32_t node, uint32_t slot) {
+    const auto record = [&](uint32_t node, uint32_t slot) {
       out[numberAt(i, node, simd::kWallNodes)] = slot;
       slots_.push_back(slot);
       bricks_of_[i / kWallLanes].push_back(slot / layout::kBrickSlots);
@@ -86,17 +86,18 @@ std::vector<uint32_t> CpuWalls::listNodes(const CpuStore& store) {
     const uint32_t cell = cells_[i] == kNone ? cells_[i / kWallLanes * kWallLanes] : cells_[i];
     for (uint32_t corner = 0; corner < 8; ++corner) {
       const uint32_t slot = neighborSlot(store.bricks, cell, cornerOffset(corner));
-      note(corner, slot);
+      record(corner, slot);
       for (int axis = 0; axis < 3; ++axis) {
         const uint32_t spring = outward(corner, axis);
         const bool there = isBeyond(store.whole_nodes[slot], spring);
-        note(simd::nodeBeyond(corner, axis), there ? neighborSlot(store.bricks, slot, kNeighborOffsets[spring]) : slot);
+        record(simd::nodeBeyond(corner, axis),
+               there ? neighborSlot(store.bricks, slot, kNeighborOffsets[spring]) : slot);
       }
     }
   }
   for (std::vector<uint32_t>& bricks : bricks_of_) sortAndUnite(bricks);
   sortAndUnite(slots_);
-  places_.resize(4 * slots_.size());
+  positions_.resize(4 * slots_.size());
   in_wall_.assign(store.brickCount(), 0);
   first_node_.assign(store.brickCount() + 1, 0);
   std::vector<uint32_t> index(store.slotCount());
@@ -120,8 +121,8 @@ void CpuWalls::listGroups(const std::vector<uint32_t>& nodes) {
     std::vector<uint32_t> once(first, first + kGroup);
     sortAndUnite(once);
     for (size_t i = 0; i < kGroup; ++i) {
-      const auto place = std::lower_bound(once.begin(), once.end(), nodes[g * kGroup + i]) - once.begin();
-      nodes_.push_back(static_cast<uint16_t>(4 * place));
+      const auto position = std::lower_bound(once.begin(), once.end(), nodes[g * kGroup + i]) - once.begin();
+      nodes_.push_back(static_cast<uint16_t>(4 * position));
     }
     for (const uint32_t node : once) listed_.push_back(4 * node);
     first_listed_.push_back(static_cast<uint32_t>(listed_.size()));
@@ -198,8 +199,9 @@ void CpuWalls::refresh(const CpuStore& store, uint32_t cell, float rigidity_j, f
 }
 
 simd::WallGroups CpuWalls::groups() {
-  return {bodies_.data(),  first_listed_.data(), listed_.data(),    nodes_.data(),  ends_.data(),   moments_.data(),
-          numbers_.data(), strengths_.data(),    laminates_.data(), places_.data(), forces_.data(), measured_.data()};
+  return {bodies_.data(),    first_listed_.data(), listed_.data(),  nodes_.data(),
+          ends_.data(),      moments_.data(),      numbers_.data(), strengths_.data(),
+          laminates_.data(), positions_.data(),    forces_.data(),  measured_.data()};
 }
 
 std::vector<uint32_t> CpuWalls::acting(const std::vector<uint32_t>& bricks) const {
@@ -229,7 +231,7 @@ void CpuWalls::place(uint32_t brick, const layout::BodyParams& body, const float
     const size_t at = vectorAt(slots_[n]);
     for (size_t c = 0; c < 3; ++c) {
       const float u = scale * displacement[at + 64 * c];
-      places_[4 * n + c] = ahead_s == 0 ? u : u + ahead * velocity[at + 64 * c];
+      positions_[4 * n + c] = ahead_s == 0 ? u : u + ahead * velocity[at + 64 * c];
     }
   }
 }

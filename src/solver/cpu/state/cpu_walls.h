@@ -68,7 +68,7 @@ class CpuWalls {
   std::vector<uint32_t> slots_;         ///< [nodes] slots of the nodes of cells in walls, ascending
   std::vector<uint32_t> first_node_;    ///< [bricks + 1] where a brick's nodes begin
   std::vector<float> ghosts_kg_;        ///< [nodes] masses of ghosts; 0 for nodes
-  AlignedVector<float> places_;         ///< [nodes][4]
+  AlignedVector<float> positions_;      ///< [nodes][4]
   AlignedVector<float> ends_, moments_, numbers_, strengths_, laminate_numbers_, forces_, measured_;
   std::vector<const float*> laminates_;
   std::vector<float> rows_;                       ///< [kWallLanes * groups] WallCell::rows

@@ -31,7 +31,7 @@ bool isImplicit(const CpuLattice& lattice, uint32_t brick) {
 
 Sleep::Sleep(const CpuLattice& lattice, double speed_m_per_s)
     : speed2_(static_cast<float>(speed_m_per_s * speed_m_per_s)),
-      substeps_between_looks_(lattice.strengths.walls.empty() ? kSubsteps : kSubstepsWithWalls),
+      substeps_between_checks_(lattice.strengths.walls.empty() ? kSubsteps : kSubstepsWithWalls),
       quiet_s_(lattice.brickCount()),
       farthest_m_(lattice.brickCount()),
       moves_(lattice.brickCount()),
@@ -97,8 +97,8 @@ void Sleep::persist(Archive& archive) {
   archive.values(changed_);
   archive.list(awake_);
   archive.value(moving_bricks_);
-  archive.value(since_look_s_);
-  archive.value(substeps_since_look_);
+  archive.value(since_check_s_);
+  archive.value(substeps_since_check_);
   if (archive.reads()) requireListed(archive);
 }
 
@@ -112,29 +112,29 @@ void Sleep::requireListed(const Archive& archive) const {
     if (is_awake_[b]) listed.push_back(b);
   }
   archive.require(listed == awake_, "the list of awake bricks differs from the marked ones");
-  archive.require(substeps_since_look_ >= 0 && substeps_since_look_ < substeps_between_looks_,
-                  std::to_string(substeps_since_look_) + " substeps since the last check; 0 .. " +
-                      std::to_string(substeps_between_looks_ - 1) + " are accepted");
+  archive.require(substeps_since_check_ >= 0 && substeps_since_check_ < substeps_between_checks_,
+                  std::to_string(substeps_since_check_) + " substeps since the last check; 0 .. " +
+                      std::to_string(substeps_between_checks_ - 1) + " are accepted");
 }
 
 void Sleep::restart() {
-  since_look_s_ = 0;
-  substeps_since_look_ = 0;
+  since_check_s_ = 0;
+  substeps_since_check_ = 0;
 }
 
 void Sleep::passed(CpuLattice& lattice, float dt_s, const std::vector<float>& speed2) {
-  since_look_s_ += static_cast<double>(dt_s);
-  if (++substeps_since_look_ < substeps_between_looks_) return;
-  if (!awake_.empty()) look(lattice, speed2);
+  since_check_s_ += static_cast<double>(dt_s);
+  if (++substeps_since_check_ < substeps_between_checks_) return;
+  if (!awake_.empty()) check(lattice, speed2);
   restart();
 }
 
-void Sleep::look(CpuLattice& lattice, const std::vector<float>& speed2) {
+void Sleep::check(CpuLattice& lattice, const std::vector<float>& speed2) {
   if (speed2_ <= 0) return;
   size_t restless = 0;
   for (uint32_t b : awake_) {
     // The negation makes NaN count as fast.
-    quiet_s_[b] = !(speed2[b] <= speed2_) ? 0 : quiet_s_[b] + static_cast<float>(since_look_s_);
+    quiet_s_[b] = !(speed2[b] <= speed2_) ? 0 : quiet_s_[b] + static_cast<float>(since_check_s_);
     restless += quiet_s_[b] < kQuiet_s;
   }
   if (restless < moving_bricks_) list(lattice);

@@ -50,12 +50,12 @@ class Sleep {
 
  private:
   void requireListed(const Archive& archive) const;
-  void look(CpuLattice& lattice, const std::vector<float>& speed2);
+  void check(CpuLattice& lattice, const std::vector<float>& speed2);
   void list(CpuLattice& lattice);
   void freeze(CpuLattice& lattice, uint32_t brick);
 
   float speed2_;
-  int substeps_between_looks_;
+  int substeps_between_checks_;
   std::vector<float> quiet_s_;     ///< [bricks] time without fast nodes [s]
   std::vector<float> farthest_m_;  ///< [bricks] largest |u| when it fell asleep [m]
   std::vector<uint8_t> moves_;     ///< [bricks] 1: has nodes that may move
@@ -63,8 +63,8 @@ class Sleep {
   std::vector<uint8_t> changed_;  ///< [bricks] 1: may have changed since takeChanged()
   std::vector<uint32_t> awake_;
   size_t moving_bricks_ = 0;
-  double since_look_s_ = 0;
-  int substeps_since_look_ = 0;
+  double since_check_s_ = 0;
+  int substeps_since_check_ = 0;
 };
 
 }  // namespace viscera

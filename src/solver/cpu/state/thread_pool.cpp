@@ -25,9 +25,9 @@ constexpr uint64_t kTakenMask = 0xffffffffu;
 // Longer than the time between substeps or ticks: the processor of a sleeping thread may be taken by others.
 constexpr std::chrono::microseconds kWatch{300};
 constexpr std::chrono::microseconds kWatchEnd{50};  // longer than the last jobs of a round, if no thread is preempted
-constexpr int kLooksPerClock = 64;                  // the clock is read once in so many polls
+constexpr int kChecksPerClock = 64;                 // the clock is read once in so many polls
 constexpr size_t kPartsLeft = 4;                    // a thread takes one of so many parts of the rest of a run
-constexpr int kRoundsPerLook = 17;  // rounds between readings of the clock and of processor times (1 us)
+constexpr int kRoundsPerCheck = 17;  // rounds between readings of the clock and of processor times (1 us)
 
 void pause() {
 #if defined(__x86_64__) || defined(__i386__)
@@ -42,9 +42,9 @@ void pause() {
 template <class Condition>
 bool watch(std::chrono::microseconds patience, const Condition& condition) {
   const auto until = Clock::now() + patience;
-  for (int looks = 1;; ++looks) {
+  for (int rounds = 1;; ++rounds) {
     if (condition()) return true;
-    if (looks % kLooksPerClock == 0 && Clock::now() > until) return false;
+    if (rounds % kChecksPerClock == 0 && Clock::now() > until) return false;
     pause();
   }
 }
@@ -97,8 +97,8 @@ void ThreadPool::run(size_t count, Portions portions, Call call, const void* job
   const int limit = limit_.load(std::memory_order_relaxed);
   Round round{call, job, count, portions.least, portions.most, 1};
   round.sharing = static_cast<size_t>(std::clamp(helping_.now(), 1, std::max(1, limit)));
-  if (!timed_ && --until_look_ == 0) {
-    until_look_ = kRoundsPerLook;
+  if (!timed_ && --until_check_ == 0) {
+    until_check_ = kRoundsPerCheck;
     timed_ = limit >= helping_.now() && helping_.due(secondsNow());
   }
   timed_ ? shareTimed(round) : share(round);
@@ -106,7 +106,7 @@ void ThreadPool::run(size_t count, Portions portions, Call call, const void* job
 }
 
 void ThreadPool::shareTimed(const Round& round) const {
-  const bool watched = --until_look_ == 0;
+  const bool watched = --until_check_ == 0;
   const uint64_t before_ns = watched ? workDone() : 0;
   watched_.store(watched, std::memory_order_relaxed);
   const double begin_s = secondsNow();
@@ -115,11 +115,11 @@ void ThreadPool::shareTimed(const Round& round) const {
   if (watched) {
     watched_.store(false, std::memory_order_relaxed);
     helping_.worked(static_cast<double>(round.count), 1e-9 * static_cast<double>(workDone() - before_ns));
-    until_look_ = kRoundsPerLook;
+    until_check_ = kRoundsPerCheck;
   }
   helping_.took(end_s, end_s - begin_s, static_cast<double>(round.count));
   timed_ = helping_.due(end_s);
-  if (!timed_) until_look_ = kRoundsPerLook;
+  if (!timed_) until_check_ = kRoundsPerCheck;
 }
 
 /// Returns the processor time within jobs, over all threads and all watched rounds.

@@ -90,7 +90,7 @@ class ThreadPool : public Parallel {
   mutable std::atomic<size_t> sharing_;
   mutable ThreadCountTuner helping_;
   mutable bool timed_ = false;
-  mutable int until_look_ = 1;  ///< rounds until the pool checks whether to time rounds, or watches a timed one
+  mutable int until_check_ = 1;  ///< rounds until the pool checks whether to time rounds, or watches a timed one
   std::vector<std::thread> workers_;
 };
 

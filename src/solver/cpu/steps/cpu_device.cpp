@@ -58,11 +58,11 @@ CpuDevice::Run find(const std::string& name, int features) {
 
 CpuDevice::CpuDevice(CpuLattice& lattice, const Parallel& parallel, CpuNodePairs* contacts)
     : pairs(contacts), lattice_(lattice), parallel_(parallel), energies_(nodeJobs(lattice)) {
-  bound_.contact_rows = viscera::contactRows(!lattice.hands.impulses.empty(), lattice.hands.obstacle_count);
+  bound_.contact_rows = viscera::contactRows(!lattice.tools.impulses.empty(), lattice.tools.obstacle_count);
 }
 
-CpuDevice::Pass CpuDevice::pass(const char* name, uint32_t told) const {
-  const int features = told & kOfRates ? WITH_RATE : WITH_NOTHING;
+CpuDevice::Pass CpuDevice::pass(const char* name, uint32_t options) const {
+  const int features = options & kOfRates ? WITH_RATE : WITH_NOTHING;
   return {{find(name, features), find(name, features | WITH_EVERY_CONTACT)}};
 }
 

@@ -110,7 +110,7 @@ class CpuDevice {
   size_t sumSize() const { return lattice_.store.active.size(); }
   uint32_t contactRows() const { return bound_.contact_rows; }
 
-  Pass pass(const char* name, uint32_t told) const;
+  Pass pass(const char* name, uint32_t options) const;
   void bindLattice() {}
   void begin(const Stepper& stepper) { motions_ = stepper.motions; }
   void bind(uint32_t, Field<Word>& guard) { bound_.guard = guard.data(); }

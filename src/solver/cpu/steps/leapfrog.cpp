@@ -186,7 +186,7 @@ void CpuLeapfrog::stepBricks(CpuLattice& lattice, const Substep& step, const lay
   if (!step.tools) return;
   for (size_t i = first; i < end; ++i) {
     const uint32_t brick = awake[i];
-    if (!near_[brick] && !lattice.hands.held[brick]) continue;
+    if (!near_[brick] && !lattice.tools.held[brick]) continue;
     touch(lattice, step, motions, brick);
   }
 }

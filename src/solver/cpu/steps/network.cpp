@@ -15,7 +15,7 @@ namespace glsl {
 
 namespace {
 
-#define VARIANT_NAME Place
+#define VARIANT_NAME Position
 #define VARIANT_BASE Kernel
 #define VARIANT_TEXT "shaders/solver/tissue/lattice.glsl"
 #include "solver/cpu/kernels/glsl_variant.inc"
@@ -138,7 +138,7 @@ CpuNetwork::CpuNetwork(const CpuLattice& lattice, const Parallel& parallel, cons
   }
   touched_.reserve(slots_.size());
   rows_ = simd::LinkRows(lattice.links.network, groupsOf(slots_));
-  places_.resize(4 * lattice.slotCount());
+  positions_.resize(4 * lattice.slotCount());
   if (dashpot_) speeds_.resize(4 * lattice.slotCount());
 }
 
@@ -160,7 +160,7 @@ void CpuNetwork::step(CpuLattice& lattice, const Substep& step, AlignedVector<fl
   job.compensation = compensation.empty() ? nullptr : compensation.data();
   job.mobility = lattice.strengths.mobility.data();
   job.nodes = lattice.store.nodes.data();
-  job.places = places_.data();
+  job.positions = positions_.data();
   job.speeds = speeds_.data();
   const auto ofAll = [&](simd::NetworkGroups kernel, Portions portions) {
     parallel_.ranges(rows_.groups.size(), portions, [&](size_t first, size_t end) { kernel(job, first, end); });
@@ -171,12 +171,12 @@ void CpuNetwork::step(CpuLattice& lattice, const Substep& step, AlignedVector<fl
 
 const std::vector<uint32_t>& CpuNetwork::touched(CpuLattice& lattice, const std::vector<NodeReach>& reaches) {
   touched_.clear();
-  glsl::Place place(lattice);
+  glsl::Position position(lattice);
   for (uint32_t slot : slots_) {
     if (lattice.strengths.mobility[slot] == 0) continue;
     bool near = (lattice.store.nodes[slot].lo & layout::kGrabMask) != 0;
     if (!near) {
-      const glsl::vec3 x = place.restPosition(slot) + glsl::xyz(place.next_displacement[slot]);
+      const glsl::vec3 x = position.restPosition(slot) + glsl::xyz(position.next_displacement[slot]);
       for (const NodeReach& reach : reaches) {
         const glsl::vec3 away = x - reach.center_m;
         near |= glsl::dot(away, away) < reach.radius_m * reach.radius_m;

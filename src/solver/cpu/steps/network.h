@@ -48,7 +48,7 @@ class CpuNetwork {
   bool dashpot_;
   NearLinks near_;
   simd::LinkRows rows_;
-  AlignedVector<float> places_, speeds_;  ///< as in NetworkJob
+  AlignedVector<float> positions_, speeds_;  ///< as in NetworkJob
   std::vector<uint32_t> slots_, touched_;
 };
 

@@ -92,7 +92,7 @@ HWY_INLINE Vec3 anyPull(const Links& of, const Vec3& w, const Vec3& dv, V twice,
 template <bool kDashpot>
 HWY_INLINE void addRow(const NetworkJob& job, const Links& of, const int32_t* far, const Vec3& u, const Vec3& v,
                        V dashpot_s, Vec3& force) {
-  const Vec3 w = gathered(job.places, far) - u;
+  const Vec3 w = gathered(job.positions, far) - u;
   const Vec3 dv = kDashpot ? gathered(job.speeds, far) - v : v;
   const V twice = hn::Add(hn::MulAdd(set(2), dot(of.d, w), dot(w, w)), of.prestrain);
   const V q = hn::IfThenElseZero(of.live, hn::Mul(twice, of.per_length2));
@@ -150,7 +150,7 @@ void spreadNetworkOf(const NetworkJob& job, size_t first, size_t last) {
   for (size_t g = first; g < last; ++g) {
     for (size_t i = 0; i < kGroupNodes; i += hn::MaxLanes(Tag())) {
       const size_t slot = size_t{job.rows->groups[g]} * kGroupNodes + i;
-      spread(job.displacement, job.places, slot);
+      spread(job.displacement, job.positions, slot);
       if (job.dashpot) spread(job.velocity, job.speeds, slot);
     }
   }
@@ -202,9 +202,9 @@ LinkRows::LinkRows(const JoinedNetwork& network, const std::vector<uint32_t>& it
   }
   far.resize(link.size());
   for (size_t g = 0; g < groups.size(); ++g) {
-    for (size_t place = kGroupNodes * starts[g]; place < kGroupNodes * starts[g + 1]; ++place) {
-      const auto slot = static_cast<uint32_t>(groups[g] * kGroupNodes + place % kGroupNodes);
-      far[place] = static_cast<int32_t>(4 * (link[place] == kNone ? slot : network.links[link[place]].far));
+    for (size_t position = kGroupNodes * starts[g]; position < kGroupNodes * starts[g + 1]; ++position) {
+      const auto slot = static_cast<uint32_t>(groups[g] * kGroupNodes + position % kGroupNodes);
+      far[position] = static_cast<int32_t>(4 * (link[position] == kNone ? slot : network.links[link[position]].far));
     }
   }
   writeStiffness(network.links);
@@ -225,8 +225,8 @@ void LinkRows::addGroup(const JoinedNetwork& network, uint32_t group) {
   ofEach([&](size_t i, uint32_t l) {
     const auto [kind, is_new] = known.emplace(constantsOf(network.links[l]), kinds.size());
     if (is_new) kinds.emplace_back(kGroupNodes, kNone);
-    uint32_t& place = kinds[kind->second][i];
-    if (place == kNone) place = l;
+    uint32_t& position = kinds[kind->second][i];
+    if (position == kNone) position = l;
   });
   // Kinds that most nodes share come first. As many of them get rows of their own as minimize the total cost.
   std::vector<size_t> by_count(kinds.size());

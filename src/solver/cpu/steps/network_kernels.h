@@ -55,7 +55,7 @@ struct NetworkJob {
   const layout::BodyParams* bodies;
   const float* displacement;  ///< [3 * slots] m
   const float* velocity;      ///< [3 * slots] m/s
-  float* places;              ///< [4 * slots] copy of displacement, node by node, for lookup by far ends
+  float* positions;           ///< [4 * slots] copy of displacement, node by node, for lookup by far ends
   float* speeds;              ///< [4 * slots] velocity; null without dashpots
   float* next_displacement;
   float* next_velocity;

@@ -73,7 +73,7 @@ bool AwakeBricks::fits(const FeatureSet& features) {
 AwakeBricks::AwakeBricks(const Model& model, const FeatureSet& features, const LatticeBuffers& buffers,
                          double speed_m_per_s)
     : all_program_(compiled(features, "WAKE_ALL")),
-      look_program_(compiled(features, "LOOK")),
+      check_program_(compiled(features, "CHECK")),
       list_(compiled(features, "LIST")),
       bricks_(bricksOf(model, features, buffers.store.bricks.size()), "sleeping bricks"),
       nodes_(listBytes(buffers.store.active_count), "awake nodes"),
@@ -81,10 +81,10 @@ AwakeBricks::AwakeBricks(const Model& model, const FeatureSet& features, const L
       deepest_m_(deepest(model) + edgeReach(model)),
       beside_(features.law ? layout::kFarthestTissue : 0),
       group_size_(features.group_size),
-      substeps_between_looks_(features.walls ? Sleep::kSubstepsWithWalls : Sleep::kSubsteps) {
+      substeps_between_checks_(features.walls ? Sleep::kSubstepsWithWalls : Sleep::kSubsteps) {
   if (features.law) cells_ = gpu::RawBuffer(listBytes(buffers.store.cells.size()), "awake cells");
   if (!features.tools) return;
-  look_with_tools_ = compiled(features, "LOOK", true);
+  check_with_tools_ = compiled(features, "CHECK", true);
   near_ = compiled(features, "WAKE_NEAR");
   held_ = compiled(features, "WAKE_HELD");
   cut_ = compiled(features, "WAKE_CUT");
@@ -137,7 +137,7 @@ void AwakeBricks::list() {
   if (all_) run(all_program_);
   all_ = false;
   if (listed_) return;
-  list_.set("look", 0u);
+  list_.set("check", 0u);
   list_.set("group_size", group_size_);
   run(list_);
   listed_ = true;
@@ -151,22 +151,22 @@ void AwakeBricks::dispatchCells() const {
   gpu::Program::dispatchIndirect(cells_);
 }
 
-bool AwakeBricks::isLook(const Substep& step) {
-  since_look_s_ += static_cast<double>(step.dt_s);
-  return ++substeps_since_look_ >= substeps_between_looks_;
+bool AwakeBricks::isCheck(const Substep& step) {
+  since_check_s_ += static_cast<double>(step.dt_s);
+  return ++substeps_since_check_ >= substeps_between_checks_;
 }
 
 void AwakeBricks::passed(const Substep& step) {
-  if (!isLook(step)) return;
-  look_ = std::max(1u, look_ + 1);
-  const gpu::Program& program = step.tools ? look_with_tools_ : look_program_;
-  program.set("look", look_);
-  program.set("since_s", static_cast<float>(since_look_s_));
+  if (!isCheck(step)) return;
+  check_ = std::max(1u, check_ + 1);
+  const gpu::Program& program = step.tools ? check_with_tools_ : check_program_;
+  program.set("check", check_);
+  program.set("since_s", static_cast<float>(since_check_s_));
   program.set("slow2", slow2_);
   program.set("sleeps_after_s", static_cast<float>(Sleep::kQuiet_s));
   if (step.tools) program.set("deepest_m", deepest_m_);
   run(program);
-  list_.set("look", look_);
+  list_.set("check", check_);
   list_.set("sleeps_after_s", static_cast<float>(Sleep::kQuiet_s));
   list_.set("group_size", group_size_);
   run(list_);
@@ -175,7 +175,7 @@ void AwakeBricks::passed(const Substep& step) {
 }
 
 void AwakeBricks::slept(const Substep& step) {
-  if (isLook(step)) restart();
+  if (isCheck(step)) restart();
 }
 
 /// Checks the ranges of bricks in a saved state.
@@ -222,14 +222,14 @@ void AwakeBricks::persist(Archive& archive) {
   persistList(archive, cells_, slots);
   archive.value(all_);
   archive.value(listed_);
-  archive.value(since_look_s_);
-  archive.value(substeps_since_look_);
-  archive.value(look_);
+  archive.value(since_check_s_);
+  archive.value(substeps_since_check_);
+  archive.value(check_);
 }
 
 void AwakeBricks::restart() {
-  since_look_s_ = 0;
-  substeps_since_look_ = 0;
+  since_check_s_ = 0;
+  substeps_since_check_ = 0;
 }
 
 std::vector<uint8_t> AwakeBricks::awake() const {

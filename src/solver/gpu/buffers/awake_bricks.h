@@ -57,19 +57,19 @@ class AwakeBricks {
  private:
   void requireBricks(const Archive& archive, const std::vector<layout::SleepingBrick>& here) const;
   void persistList(Archive& archive, gpu::RawBuffer& list, size_t slots);
-  bool isLook(const Substep& step);
+  bool isCheck(const Substep& step);
   void run(const gpu::Program& program);
 
-  gpu::Program all_program_, near_, held_, cut_, marked_, look_program_, look_with_tools_, list_;
+  gpu::Program all_program_, near_, held_, cut_, marked_, check_program_, check_with_tools_, list_;
   gpu::Buffer<layout::SleepingBrick> bricks_;
   gpu::RawBuffer nodes_, cells_;
   float slow2_, deepest_m_, beside_;
   uint32_t group_size_;
-  const int substeps_between_looks_;
+  const int substeps_between_checks_;
   bool all_ = true, listed_ = false;
-  double since_look_s_ = 0;
-  int substeps_since_look_ = 0;
-  uint32_t look_ = 0;
+  double since_check_s_ = 0;
+  int substeps_since_check_ = 0;
+  uint32_t check_ = 0;
 };
 
 }  // namespace viscera

@@ -95,9 +95,9 @@ void StrengthBuffers::writeMoments(const Model& model, const FeatureSet& feature
   }
   cell_strengths = gpu::Buffer<layout::vec4>(cells, "cell strengths");
   cell_moments = gpu::Buffer<layout::vec4>(moments.vectors, "cell moments");
-  std::vector<uint32_t> ways = surfaceOffsets(model);
-  ways.resize(model.slots(), 0);
-  surface_offsets = gpu::Buffer<uint32_t>(ways, "ways to the surface");
+  std::vector<uint32_t> offsets = surfaceOffsets(model);
+  offsets.resize(model.slots(), 0);
+  surface_offsets = gpu::Buffer<uint32_t>(offsets, "ways to the surface");
   bulk_texels_ = gpu::TexelView(cell_strengths.raw(), gpu::TexelFormat::kRgba32f);
   moment_texels_ = gpu::TexelView(cell_moments.raw(), gpu::TexelFormat::kRgba32f);
   if (features.walls) walls = WallBuffers(model, moments);
@@ -149,7 +149,7 @@ void StateBuffers::swap() {
   bindBoth();
 }
 
-HandBuffers::HandBuffers(size_t slots, const FeatureSet& features) {
+ToolBuffers::ToolBuffers(size_t slots, const FeatureSet& features) {
   if (features.obstacles > 0) {
     obstacle_impulses = gpu::Buffer<layout::vec4>(slots * features.obstacles, "impulses of obstacles");
   }
@@ -158,7 +158,7 @@ HandBuffers::HandBuffers(size_t slots, const FeatureSet& features) {
   impulses = gpu::Buffer<layout::vec4>(slots * layout::kMaxStyluses, "impulses");
 }
 
-void HandBuffers::bind() const {
+void ToolBuffers::bind() const {
   if (grab_offsets.size()) grab_offsets.bindStorage(layout::kBindGrabOffsets);
   if (impulses.size()) impulses.bindStorage(layout::kBindImpulses);
   if (obstacle_impulses.size()) obstacle_impulses.bindStorage(layout::kBindObstacleImpulses);
@@ -170,7 +170,7 @@ LatticeBuffers::LatticeBuffers(const Model& model, const std::vector<layout::Bod
       links(model, features),
       strengths(model, features, links.network.masses_kg),
       state(store.slot_count, features),
-      hands(store.slot_count, features),
+      tools(store.slot_count, features),
       record(model, links.network, features),
       stats(1, "measurements") {
   if (features.lattice && record.size() > 0) {
@@ -196,7 +196,7 @@ void LatticeBuffers::bind() const {
   }
   strengths.bind();
   links.bind();
-  hands.bind();
+  tools.bind();
   if (!axial_cut.size()) return;
   axial_cut.bindStorage(layout::kBindAxialCut);
   cut_sides.bindStorage(layout::kBindCutSides);

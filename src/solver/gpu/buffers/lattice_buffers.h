@@ -77,8 +77,8 @@ struct StateBuffers {
 };
 
 /// State of grips and impulses of styluses, feature tools; and impulses of obstacles.
-struct HandBuffers {
-  HandBuffers(size_t slots, const FeatureSet& features);
+struct ToolBuffers {
+  ToolBuffers(size_t slots, const FeatureSet& features);
   void bind() const;
 
   gpu::Buffer<layout::vec4> grab_offsets;       ///< [slots] m, stylus frame
@@ -130,9 +130,9 @@ struct LatticeBuffers {
     there(fields::kRoundingErrors, state.compensation);
     there(fields::kAxialCut, axial_cut);
     there(fields::kCutSides, cut_sides);
-    there(fields::kGrabOffsets, hands.grab_offsets);
-    there(fields::kImpulses, hands.impulses);
-    there(fields::kImpulses, hands.obstacle_impulses);
+    there(fields::kGrabOffsets, tools.grab_offsets);
+    there(fields::kImpulses, tools.impulses);
+    there(fields::kImpulses, tools.obstacle_impulses);
   }
   /// Clears the fields that a roll-back clears.
   void clearRolledBack();
@@ -145,7 +145,7 @@ struct LatticeBuffers {
   LinkBuffers links;
   StrengthBuffers strengths;
   StateBuffers state;
-  HandBuffers hands;
+  ToolBuffers tools;
   CutRecord record;
   gpu::Buffer<layout::vec4> cut_sides;   ///< [slots] if there is axial_cut: see shaders/solver/tools/cut_sides.glsl
   gpu::Buffer<float> axial_cut;          ///< [record.size()] of implicit lattices; features cuts, lattice

@@ -32,7 +32,7 @@ CollisionPass::CollisionPass(const Model& model, const Scene& scene, const Featu
   };
   const size_t nodes = buffers.store.active_count;
   count_ = stage("collision_count.comp");
-  place_ = stage("collision_place.comp");
+  position_ = stage("collision_place.comp");
   scatter_ = stage("collision_scatter.comp");
   order_ = stage("collision_order.comp");
   bucket_count_ = bucketCount(nodes);
@@ -42,7 +42,7 @@ CollisionPass::CollisionPass(const Model& model, const Scene& scene, const Featu
   before_ = gpu::Buffer<layout::vec4>(nodes, "before");
   meet_ = stage("collision_meet.comp");
   if (ahead) {
-    note_ = stage("collision_note.comp");
+    record_ = stage("collision_record.comp");
   } else {
     push_ = stage("collision_push.comp");
     pairs_ = stage("collision_pairs.comp");
@@ -91,16 +91,16 @@ void CollisionPass::dispatch(size_t count) const {
 
 void CollisionPass::search(const LatticeBuffers& buffers, const Substep& step) const {
   buckets_.clear();
-  for (const gpu::Program* stage : {&count_, &place_, &scatter_, &order_}) {
+  for (const gpu::Program* stage : {&count_, &position_, &scatter_, &order_}) {
     tell(*stage, buffers, step);
-    dispatch(stage == &place_ ? bucket_count_ : buffers.store.active_count);
+    dispatch(stage == &position_ ? bucket_count_ : buffers.store.active_count);
   }
 }
 
-void CollisionPass::note(const LatticeBuffers& buffers, const Substep& step, const Tell& also) const {
+void CollisionPass::record(const LatticeBuffers& buffers, const Substep& step, const Tell& also) const {
   bind();
   search(buffers, step);
-  for (const gpu::Program* stage : {&meet_, &note_}) {
+  for (const gpu::Program* stage : {&meet_, &record_}) {
     tell(*stage, buffers, step);
     also(*stage);
     dispatch(buffers.store.active_count);
@@ -116,7 +116,7 @@ void CollisionPass::run(const LatticeBuffers& buffers, const Substep& step) cons
   }
 }
 
-void CollisionPass::noteCrowded(const gpu::Buffer<layout::TickStats>& stats) const {
+void CollisionPass::recordCrowded(const gpu::Buffer<layout::TickStats>& stats) const {
   glCopyNamedBufferSubData(buckets_.id(), stats.id(), static_cast<GLintptr>((buckets_.size() - 1) * sizeof(uint32_t)),
                            offsetof(layout::TickStats, crowded), sizeof(uint32_t));
 }

@@ -30,7 +30,7 @@ class CollisionPass {
   using Tell = std::function<void(const gpu::Program&)>;
   /// Finds the pairs at the positions after the increments, for shaders/solver/implicit/implicit_pairs.glsl.
   /// @param also  sets further uniforms of the kernels
-  void note(const LatticeBuffers& buffers, const Substep& step, const Tell& also) const;
+  void record(const LatticeBuffers& buffers, const Substep& step, const Tell& also) const;
   void bind() const;
   /// Clears the effects of contacts after an external write to the state; see CpuEnvironment::restart().
   void restart();
@@ -38,7 +38,7 @@ class CollisionPass {
 
   /// Copies the number of nodes that the last search skipped as crowded into `crowded` of the measurements; 0 if it
   /// skipped none. Does not wait.
-  void noteCrowded(const gpu::Buffer<layout::TickStats>& stats) const;
+  void recordCrowded(const gpu::Buffer<layout::TickStats>& stats) const;
 
   /// Returns the slots a < b of all pairs found in the current state, ascending, at most 64 per node. For tests. Waits.
   std::vector<CollisionPair> findPairs(const LatticeBuffers& buffers) const;
@@ -51,8 +51,8 @@ class CollisionPass {
   CollisionConfig config_;
   float widened_;  ///< factor of D_ij at which two nodes touch
   float cell_m_;
-  gpu::Program count_, place_, scatter_, order_;
-  gpu::Program meet_, push_, pairs_, note_;
+  gpu::Program count_, position_, scatter_, order_;
+  gpu::Program meet_, push_, pairs_, record_;
   gpu::Buffer<float> touch_depths_;        ///< touchDepths()
   mutable gpu::Buffer<uint32_t> buckets_;  ///< see layout::kBindBuckets and the bindings after it
   gpu::Buffer<uint32_t> unsorted_;

@@ -93,8 +93,8 @@ void EnvironmentPass::restart() {
   if (collisions_) collisions_->restart();
 }
 
-void EnvironmentPass::noteCrowded(const gpu::Buffer<layout::TickStats>& stats) const {
-  if (collisions_) collisions_->noteCrowded(stats);
+void EnvironmentPass::recordCrowded(const gpu::Buffer<layout::TickStats>& stats) const {
+  if (collisions_) collisions_->recordCrowded(stats);
 }
 
 std::vector<CollisionPair> EnvironmentPass::findPairs(const LatticeBuffers& buffers) const {

@@ -39,8 +39,8 @@ class EnvironmentPass {
   void persist(Archive& archive) {
     if (collisions_) collisions_->persist(archive);
   }
-  /// Copies the number of crowded nodes into the measurements at the end of a tick (CollisionPass::noteCrowded()).
-  void noteCrowded(const gpu::Buffer<layout::TickStats>& stats) const;
+  /// Copies the number of crowded nodes into the measurements at the end of a tick (CollisionPass::recordCrowded()).
+  void recordCrowded(const gpu::Buffer<layout::TickStats>& stats) const;
   /// Returns CollisionPass::findPairs(). For tests, only with collisions.
   std::vector<CollisionPair> findPairs(const LatticeBuffers& buffers) const;
 

@@ -31,7 +31,7 @@ void NodePairs::persist(Archive& archive) {
 void NodePairs::find(const LatticeBuffers& buffers, const Substep& step) const {
   bind();
   words_.clear();
-  search_.note(buffers, step, [&](const gpu::Program& program) { tell(program, step); });
+  search_.record(buffers, step, [&](const gpu::Program& program) { tell(program, step); });
 }
 
 void NodePairs::tell(const gpu::Program& program, const Substep& step) const {

@@ -12,7 +12,7 @@ NodeWindow::NodeWindow(const FeatureSet& features, size_t most, AwakeBricks* awa
     : awake_(awake),
       group_size_(features.group_size),
       slots_(most, "slots of a window"),
-      ways_(2 * most, "nodes of a window") {
+      moves_(2 * most, "nodes of a window") {
   std::vector<std::string> defines = features.defines();
   if (awake) defines.push_back("ASLEEP");
   scatter_ = gpu::Program::compute("node_window.comp", defines);
@@ -23,7 +23,7 @@ NodeWindow::NodeWindow(const FeatureSet& features, size_t most, AwakeBricks* awa
 /// Uploads slots only if they have changed.
 void NodeWindow::show(const std::vector<uint32_t>& slots) {
   slots_.bindStorage(layout::kBindWindowSlots);
-  ways_.bindStorage(layout::kBindWindow);
+  moves_.bindStorage(layout::kBindWindow);
   if (slots == shown_) return;
   slots_.write(slots);
   shown_ = slots;
@@ -43,7 +43,7 @@ void NodeWindow::read(const std::vector<uint32_t>& slots, std::vector<Vector3f>&
   show(slots);
   run(gather_, slots.size());
   host_.resize(2 * slots.size());
-  ways_.raw().read(0, host_.size() * sizeof(layout::vec4), host_.data());
+  moves_.raw().read(0, host_.size() * sizeof(layout::vec4), host_.data());
   wakes_ = false;
   for (size_t i = 0; i < slots.size(); ++i) {
     const layout::vec4 &u = host_[i], &v = host_[slots.size() + i];
@@ -59,7 +59,7 @@ void NodeWindow::push(const LatticeBuffers& buffers, uint32_t stylus, float dt_s
   show(slots);
   host_.resize(slots.size());
   for (size_t i = 0; i < slots.size(); ++i) host_[i] = {dv_m_per_s[i].x(), dv_m_per_s[i].y(), dv_m_per_s[i].z(), 0};
-  ways_.write(host_);
+  moves_.write(host_);
   scatter_.set("dt_s", dt_s);
   scatter_.set("giver", stylus);
   scatter_.set("slot_count", static_cast<uint32_t>(buffers.store.slot_count));

@@ -37,10 +37,10 @@ class NodeWindow {
   gpu::Program gather_, scatter_;
   AwakeBricks* awake_;
   uint32_t group_size_;
-  std::vector<uint32_t> shown_;     ///< content of slots_
-  bool wakes_ = true;               ///< some of these nodes may be asleep
-  gpu::Buffer<uint32_t> slots_;     ///< [most]
-  gpu::Buffer<layout::vec4> ways_;  ///< [2 * most]
+  std::vector<uint32_t> shown_;      ///< content of slots_
+  bool wakes_ = true;                ///< some of these nodes may be asleep
+  gpu::Buffer<uint32_t> slots_;      ///< [most]
+  gpu::Buffer<layout::vec4> moves_;  ///< [2 * most]
   std::vector<layout::vec4> host_;
 };
 

@@ -16,16 +16,17 @@ ReactionPass::ReactionPass(const FeatureSet& features, size_t active_count, bool
   leaves_ = gpu::Program::compute("sum_impulses.comp", defines);
 }
 
-void ReactionPass::runObstacles(const LatticeBuffers& buffers, const std::vector<Vector3f>& places) const {
-  for (size_t first = 0; first < places.size(); first += layout::kMaxStyluses) {
-    const bool both = first + 1 < places.size();
-    sum(buffers, {places[first], both ? places[first + 1] : Vector3f::Zero().eval()}, static_cast<uint32_t>(first));
+void ReactionPass::runObstacles(const LatticeBuffers& buffers, const std::vector<Vector3f>& positions) const {
+  for (size_t first = 0; first < positions.size(); first += layout::kMaxStyluses) {
+    const bool both = first + 1 < positions.size();
+    sum(buffers, {positions[first], both ? positions[first + 1] : Vector3f::Zero().eval()},
+        static_cast<uint32_t>(first));
   }
 }
 
 /// Sums the impulses of two givers at a time.
 /// @param giver  the first of the two
-void ReactionPass::sum(const LatticeBuffers& buffers, const Places& tips, uint32_t giver) const {
+void ReactionPass::sum(const LatticeBuffers& buffers, const Positions& tips, uint32_t giver) const {
   partials_.bindStorage(layout::kBindPartials);
   size_t inputs = buffers.store.active_count, input_first = 0, output_first = 0;
   for (bool first = true; first || inputs > 1; first = false) {

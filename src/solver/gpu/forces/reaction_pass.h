@@ -25,11 +25,11 @@ class ReactionPass {
 
   /// Writes obstacle_impulse and obstacle_angular into the stats.
   /// @param places  [obstacles] positions, tissue frame [m]
-  void runObstacles(const LatticeBuffers& buffers, const std::vector<Vector3f>& places) const;
+  void runObstacles(const LatticeBuffers& buffers, const std::vector<Vector3f>& positions) const;
 
  private:
-  using Places = std::array<Vector3f, layout::kMaxStyluses>;
-  void sum(const LatticeBuffers& buffers, const Places& places, uint32_t giver) const;
+  using Positions = std::array<Vector3f, layout::kMaxStyluses>;
+  void sum(const LatticeBuffers& buffers, const Positions& positions, uint32_t giver) const;
   gpu::Program leaves_, fold_;
   gpu::Buffer<std::array<layout::vec4, 2 * layout::kMaxStyluses>> partials_;
   uint32_t group_size_;

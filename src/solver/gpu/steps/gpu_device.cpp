@@ -19,18 +19,18 @@ size_t GpuDevice::sumSize() const {
   return lattice_.store.active_count + sumTreeSize(lattice_.store.active_count);
 }
 
-GpuDevice::Pass GpuDevice::pass(const char* name, uint32_t told) const {
-  const bool in_substep = told & kInSubstep;
+GpuDevice::Pass GpuDevice::pass(const char* name, uint32_t options) const {
+  const bool in_substep = options & kInSubstep;
   Pass out;
-  out.told = pairs ? told : told & ~kWithPairs;
+  out.options = pairs ? options : options & ~kWithPairs;
   for (int tools = 0; tools < (in_substep && features_.tools ? 2 : 1); ++tools) {
     std::vector<std::string> defines = features_.defines();
     defines.push_back("INCREMENT");
     if (tools) defines.push_back("TOOLS");
     if (in_substep && features_.obstacles > 0) defines.push_back("OBSTACLES");
     if (tools || (in_substep && features_.obstacles > 0)) defines.push_back("CONTACT");
-    if (out.told & kWithPairs) defines.push_back("PAIRS");
-    if (told & kOfRates) defines.push_back("RATE");
+    if (out.options & kWithPairs) defines.push_back("PAIRS");
+    if (options & kOfRates) defines.push_back("RATE");
     out.programs[tools] = gpu::Program::compute(name, defines);
   }
   return out;
@@ -41,18 +41,18 @@ void GpuDevice::run(const Pass& pass, const Substep& step, Over /*over*/,
   const gpu::Program& program = pass.programs[step.tools && pass.programs[1]];
   const size_t count = lattice_.store.active_count;
   program.use();
-  if (pass.told & kInSubstep) setSubstep(program, lattice_, step);
+  if (pass.options & kInSubstep) setSubstep(program, lattice_, step);
   program.set("active_count", static_cast<uint32_t>(count));
-  if (pass.told & kInSubstep && (step.tools || features_.obstacles > 0)) {
+  if (pass.options & kInSubstep && (step.tools || features_.obstacles > 0)) {
     program.set("slot_count", static_cast<uint32_t>(lattice_.store.slot_count));
     program.set("push_speed", step.push_speed_m_per_s);
     program.set("contact_rows", contactRows());
   }
-  if (pass.told & kInSubstep && features_.obstacles > 0) {
+  if (pass.options & kInSubstep && features_.obstacles > 0) {
     program.set("obstacle_count", step.obstacle_count);
     program.set("resting_speed", step.resting_speed_m_per_s);
   }
-  if (pass.told & kWithPairs) pairs->tell(program, step);
+  if (pass.options & kWithPairs) pairs->tell(program, step);
   for (const Uniform& uniform : uniforms) {
     uniform.is_float ? program.set(uniform.name, floatFromBits(uniform.word)) : program.set(uniform.name, uniform.word);
   }

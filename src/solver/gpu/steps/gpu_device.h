@@ -30,7 +30,7 @@ class GpuDevice {
   struct Pass {
     explicit operator bool() const { return static_cast<bool>(programs[0]); }
     gpu::Program programs[2];  ///< without and with tools
-    uint32_t told = 0;
+    uint32_t options = 0;
   };
 
   /// All arguments must outlive the device.
@@ -41,7 +41,7 @@ class GpuDevice {
   size_t sumSize() const;
   uint32_t contactRows() const { return viscera::contactRows(features_.tools, features_.obstacles); }
 
-  Pass pass(const char* name, uint32_t told) const;
+  Pass pass(const char* name, uint32_t options) const;
   void bindLattice() const { lattice_.bind(); }
   void begin(const Stepper&) const {}
   template <class T>

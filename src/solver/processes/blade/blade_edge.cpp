@@ -22,13 +22,14 @@ constexpr double kFlats = 3;       // times the limit: sideways force that the f
 constexpr int kSweeps = 8;         // largest number of sweeps over the samples, which share nodes
 constexpr double kSettled = 1e-4;  // of the largest impulse: sweeps stop when no impulse changes by more
 constexpr double kLeft = 2;        // of the spacing: a front that far ahead of the edge becomes free
-constexpr double kOffWay = 0.9;    // cosine to the tool's direction below which an impulse keeps its own direction
+constexpr double kOffMotion = 0.9;  // cosine to the tool's direction below which an impulse keeps its own direction
 constexpr double kOfTissue = 0.55;  // weight of the slicing ratio in the tissue, relative to that of the tool's motion
 constexpr double kMostStep = 0.5;   // of the spacing: largest step of a front in a substep
 constexpr double kAhead = 0.9;      // of the spacing: distance ahead of the search for wounds; beyond its own half cell
 constexpr double kAside = 0.5;      // of the spacing: sideways distance of that search, as a wound moves
 constexpr double kCutStep = 0.125;  // of the spacing: advance of fronts after which springs are cut
-constexpr double kWayMemory = 0.25;  // of the spacing: length over which a tool's direction is averaged, against tremor
+constexpr double kDirectionMemory =
+    0.25;  // of the spacing: length over which a tool's direction is averaged, against tremor
 
 constexpr double kHalfKernel = 0.27;  // of the kernel: distance of its mean from its centre, if tissue is on one side
 
@@ -54,7 +55,7 @@ void BladeEdge::act(TissuePort& target, uint32_t stylus, const layout::ToolMotio
   aim(blade, dt_s);
   renewKernels();
   if (!near_.runs.empty()) target.readRuns(near_.runs, near_.u, near_.v);
-  look(dt_s);
+  sense(dt_s);
   findLengths();
   solve(dt_s);
   if (!near_.runs.empty()) give(target, stylus, dt_s);
@@ -86,10 +87,10 @@ void BladeEdge::aim(const layout::ToolMotion& blade, double dt_s) {
   along_ = unit(span);
   const double last = static_cast<double>(fronts_.size() - 1);
   for (size_t i = 0; i < fronts_.size(); ++i) {
-    const Vector3d next = to + static_cast<double>(i) / last * span, way = next - fronts_[i].edge;
+    const Vector3d next = to + static_cast<double>(i) / last * span, travel = next - fronts_[i].edge;
     pushes_[i] = {};
-    pushes_[i].edge_velocity = way / dt_s;
-    fronts_[i].way = std::exp(-way.norm() / (kWayMemory * h_)) * fronts_[i].way + way;
+    pushes_[i].edge_velocity = travel / dt_s;
+    fronts_[i].travel = std::exp(-travel.norm() / (kDirectionMemory * h_)) * fronts_[i].travel + travel;
   }
 }
 
@@ -134,7 +135,7 @@ void BladeEdge::findMobilities() {
 }
 
 /// Finds the position and velocity of the tissue without the blade. The displacement of the last substep is subtracted.
-void BladeEdge::look(double dt_s) {
+void BladeEdge::sense(double dt_s) {
   for (size_t i = 0; i < fronts_.size(); ++i) {
     Push& push = pushes_[i];
     if (kernels_[i].is_new) fronts_[i].to_rest = kernels_[i].toRest(near_);
@@ -146,8 +147,8 @@ void BladeEdge::look(double dt_s) {
 }
 
 /// Returns 1 / sqrt(1 + xi^2), with xi the displacement along the edge over that across it.
-double BladeEdge::drawnBy(const Vector3d& way) const {
-  const double all2 = way.squaredNorm(), along = way.dot(along_);
+double BladeEdge::drawnBy(const Vector3d& travel) const {
+  const double all2 = travel.squaredNorm(), along = travel.dot(along_);
   return all2 > 0 ? std::sqrt(std::max(0.0, 1 - along * along / all2)) : 1;
 }
 
@@ -170,9 +171,9 @@ void BladeEdge::limit(size_t i) {
   const Front& front = fronts_[i];
   Push& push = pushes_[i];
   push.side = front.forward.cross(along_);
-  push.of_hand = unit(front.way - front.way.dot(push.side) * push.side);
-  const double of_hand = drawnBy(front.way), in_tissue = drawnBy(front.to_rest.inverse() * front.way);
-  push.gives_way_n_s = (of_hand + kOfTissue * (in_tissue - of_hand)) * push.cap_n_s;
+  push.of_tool = unit(front.travel - front.travel.dot(push.side) * push.side);
+  const double of_tool = drawnBy(front.travel), in_tissue = drawnBy(front.to_rest.inverse() * front.travel);
+  push.yield_n_s = (of_tool + kOfTissue * (in_tissue - of_tool)) * push.cap_n_s;
 }
 
 void BladeEdge::solve(double dt_s) {
@@ -183,7 +184,7 @@ void BladeEdge::solve(double dt_s) {
     push.cap_n_s = parts ? toughness(i) * partedPerSwept(i) * push.length_m * dt_s : 0;
     push.slips = parts && !(push.cap_n_s > 0);  // tissue without toughness
     if (parts) limit(i);
-    done_.limit_n += push.gives_way_n_s / dt_s + friction_n_per_m_ * push.length_m;
+    done_.limit_n += push.yield_n_s / dt_s + friction_n_per_m_ * push.length_m;
   }
   bool settled = false;
   for (int sweep = 0; sweep < kSweeps && !settled; ++sweep) {
@@ -217,17 +218,17 @@ Vector3d BladeEdge::limited(size_t i, const Vector3d& impulse) {
   if (!(impulse.dot(forward) > 0)) return Vector3d::Zero();
   const double sideways = impulse.dot(push.side), bears = kFlats * push.cap_n_s;
   const Vector3d in_plane = impulse - sideways * push.side;
-  push.slips = in_plane.norm() > push.gives_way_n_s;
+  push.slips = in_plane.norm() > push.yield_n_s;
   push.aside = std::abs(sideways) > bears;
-  const Vector3d held = push.slips ? Vector3d(push.gives_way_n_s * alongWay(push.of_hand, unit(in_plane))) : in_plane;
+  const Vector3d held = push.slips ? Vector3d(push.yield_n_s * alongMotion(push.of_tool, unit(in_plane))) : in_plane;
   return held + std::clamp(sideways, -bears, bears) * push.side;
 }
 
 /// Returns the direction of the resistance of tissue that is being cut: opposite to the tool's motion, unless the
 /// impulse is at a large angle to it.
-Vector3d BladeEdge::alongWay(const Vector3d& of_hand, const Vector3d& in_plane) {
-  const double near = std::clamp((of_hand.dot(in_plane) - kOffWay) / (1 - kOffWay), 0.0, 1.0);
-  return unit(in_plane + near * (of_hand - in_plane));
+Vector3d BladeEdge::alongMotion(const Vector3d& of_tool, const Vector3d& in_plane) {
+  const double near = std::clamp((of_tool.dot(in_plane) - kOffMotion) / (1 - kOffMotion), 0.0, 1.0);
+  return unit(in_plane + near * (of_tool - in_plane));
 }
 
 void BladeEdge::give(TissuePort& target, uint32_t stylus, double dt_s) {
@@ -338,7 +339,7 @@ void BladeEdge::stickAgain() {
   for (size_t i = 0; i < fronts_.size(); ++i) {
     Front& front = fronts_[i];
     if (front.stuck || !(pushes_[i].length_m > 0)) continue;
-    const Vector3d across = front.way - front.way.dot(along_) * along_;
+    const Vector3d across = front.travel - front.travel.dot(along_) * along_;
     const Vector3d forward = unit(across), side = forward.cross(along_);
     if (forward.isZero() || !(pushes_[i].edge_velocity.dot(forward) > 0)) continue;
     if (!goesIntoWhole(i, kAhead * h_ * forward, side)) continue;

@@ -46,7 +46,7 @@ class BladeEdge {
     Vector3d cut = Vector3d::Zero();                        ///< position up to which springs are cut
     Vector3d edge = Vector3d::Zero();                       ///< position of the sample
     Vector3d forward = Vector3d::Zero();                    ///< direction into the tissue ahead, across the edge
-    Vector3d way = Vector3d::Zero();                        ///< recent displacement of the sample
+    Vector3d travel = Vector3d::Zero();                     ///< recent displacement of the sample
     Eigen::Matrix3d to_rest = Eigen::Matrix3d::Identity();  ///< inverse of F at the last update of the kernel
     uint32_t stuck = 0;  ///< 1: in tissue that is whole ahead; 0: in air or in a wound
     uint32_t cuts = 0;   ///< was stuck at some time since springs were last cut
@@ -69,9 +69,9 @@ class BladeEdge {
     Vector3d impulse = Vector3d::Zero();   ///< impulse on the tissue [N s], including rub
     Vector3d rub = Vector3d::Zero();       ///< friction of the blade's sides
     Vector3d side = Vector3d::Zero();      ///< normal of the blade's plane
-    Vector3d of_hand = Vector3d::Zero();   ///< direction of the tool's motion in the plane
+    Vector3d of_tool = Vector3d::Zero();   ///< direction of the tool's motion in the plane
     double length_m = 0, cap_n_s = 0;
-    double gives_way_n_s = 0;            ///< limit in the plane, reduced for a drawn blade
+    double yield_n_s = 0;                ///< limit in the plane, reduced for a drawn blade
     RestToughness::Carried over_length;  ///< toughness times length [N]
     bool slips = false, aside = false;
     void stand(double all_m, const Share& share) {
@@ -86,7 +86,7 @@ class BladeEdge {
   void renewKernels();
   void gather();
   void findMobilities();
-  void look(double dt_s);
+  void sense(double dt_s);
   void findShares(size_t i);
   void findLengths();
   int stripsOf(double length_m) const;
@@ -97,7 +97,7 @@ class BladeEdge {
   void rubOne(size_t i, double dt_s);
   void give(size_t i, const Vector3d& impulse);
   Vector3d limited(size_t i, const Vector3d& impulse);
-  static Vector3d alongWay(const Vector3d& of_hand, const Vector3d& in_plane);
+  static Vector3d alongMotion(const Vector3d& of_tool, const Vector3d& in_plane);
   void giveBackAtMost();
   void give(TissuePort& target, uint32_t stylus, double dt_s);
   void advance(double dt_s);
@@ -112,7 +112,7 @@ class BladeEdge {
   bool goesIntoWhole(size_t i, const Vector3d& ahead, const Vector3d& side) const;
   bool isWhole(const Vector3d& ahead, const Vector3d& side) const;
   Vector3d toRest(size_t i, const Vector3d& gap) const;
-  double drawnBy(const Vector3d& way) const;
+  double drawnBy(const Vector3d& travel) const;
   double ahead(size_t i) const;
   double toughness(size_t i) const;
 

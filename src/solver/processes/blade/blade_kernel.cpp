@@ -62,12 +62,12 @@ void BladeNodes::gather(const RestTissue& tissue, const std::vector<Vector3d>& c
     while (runs[run] != node.slot / kLanes * kLanes) ++run;
     const size_t i = run * kLanes + node.slot % kLanes;
     const Vector3f rest = (node.rest_m - origin_m).cast<float>();
-    const float place_m = rest.dot(along.cast<float>());
+    const float position_m = rest.dot(along.cast<float>());
     share[i] = node.share;
     inverse_mass[i] = node.inverse_mass;
     for (int a = 0; a < 3; ++a) rest_m[static_cast<size_t>(a)][i] = rest[a];
-    low_m[run] = std::min(low_m[run], place_m);
-    high_m[run] = std::max(high_m[run], place_m);
+    low_m[run] = std::min(low_m[run], position_m);
+    high_m[run] = std::max(high_m[run], position_m);
   }
 }
 

@@ -87,9 +87,9 @@ void BladePoint::makeKernel() {
 /// Moves the front. @param gap  from the front to the point, in the current tissue
 void BladePoint::advance(const Vector3d& gap, const Vector3d& into, bool slips) {
   if (tip_.stuck && (gap.dot(into) < -kPointLeft * h_ || !isInTissue())) tip_.stuck = 0;
-  const Vector3d way = tip_.stuck ? Vector3d(gap.dot(into) * into) : gap;
+  const Vector3d offset = tip_.stuck ? Vector3d(gap.dot(into) * into) : gap;
   if (tip_.stuck && (!slips || gap.dot(into) <= 0)) return;
-  Vector3d step = isInTissue() ? Vector3d(tip_.to_rest * way) : way;
+  Vector3d step = isInTissue() ? Vector3d(tip_.to_rest * offset) : offset;
   if (isInTissue() && step.norm() > kMostPointStep * h_) step *= kMostPointStep * h_ / step.norm();
   const Vector3d before = tip_.at;
   tip_.at += step;
@@ -98,9 +98,9 @@ void BladePoint::advance(const Vector3d& gap, const Vector3d& into, bool slips) 
   const int parts = 1 + static_cast<int>(step.norm() / (kPart * h_));
   for (int i = 0; i < parts; ++i) {
     const Vector3d at = before + (i + 0.5) / parts * step;
-    const double way_m = fill(at) * step.norm() / parts;
-    done_.area_m2 += way_m * width_m_;
-    done_.parting_j += way_m * tissue_.toughness().ofPoint_n(at, width_m_, kernel_m_);
+    const double offset_m = fill(at) * step.norm() / parts;
+    done_.area_m2 += offset_m * width_m_;
+    done_.parting_j += offset_m * tissue_.toughness().ofPoint_n(at, width_m_, kernel_m_);
   }
 }
 

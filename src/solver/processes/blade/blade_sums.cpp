@@ -52,12 +52,12 @@ void BladeEdge::findLengths() {
 /// represents. Without tissue nothing is cut. @param ahead  from its front, at rest
 bool BladeEdge::goesIntoWhole(size_t i, const Vector3d& ahead, const Vector3d& side) const {
   const Vector3d& from = fronts_[i].at;
-  const Vector3d ways[2] = {fronts_[i > 0 ? i - 1 : i].at - from,
-                            fronts_[std::min(i + 1, fronts_.size() - 1)].at - from};
-  const int strips = stripsOf(std::max(ways[0].norm(), ways[1].norm()));
+  const Vector3d travels[2] = {fronts_[i > 0 ? i - 1 : i].at - from,
+                               fronts_[std::min(i + 1, fronts_.size() - 1)].at - from};
+  const int strips = stripsOf(std::max(travels[0].norm(), travels[1].norm()));
   for (int s = 0; s <= strips; ++s) {
-    for (const Vector3d& way : ways) {
-      const Vector3d at = from + ahead + static_cast<double>(s) / strips * way;
+    for (const Vector3d& travel : travels) {
+      const Vector3d at = from + ahead + static_cast<double>(s) / strips * travel;
       if (tissue_.isTissue(at)) return isWhole(at, side);
     }
   }
@@ -110,8 +110,8 @@ bool BladeEdge::isStraight(size_t first, size_t last) const {
 
 /// Returns the start of the next sweep that cuts behind a front.
 Vector3d BladeEdge::startOf(const Front& front) const {
-  const Vector3d way = front.at - front.cut;
-  return way.isZero(0) ? front.cut : Vector3d(front.cut - kOverlap * h_ * way.normalized());
+  const Vector3d travel = front.at - front.cut;
+  return travel.isZero(0) ? front.cut : Vector3d(front.cut - kOverlap * h_ * travel.normalized());
 }
 
 /// Counts the area of a step. @param step  of a front, at rest

@@ -65,7 +65,7 @@ double RestFill::at(const Vector3d& at_m) const {
 }
 
 void RestFill::addCells(const Lattice& lattice) {
-  shares_.assign(cells_.places(), 0);
+  shares_.assign(cells_.positions(), 0);
   for (const uint32_t slot : lattice.active_slots) {
     if (lattice.nodes[slot].lo & layout::kCellBit)
       shares_[cells_.at(lattice.nodeAt(slot))] = static_cast<float>(fillOf(lattice, slot).share);
@@ -82,7 +82,7 @@ void RestFill::addSheet(const SpringNetwork& network, double density_kg_per_m3) 
   for (const std::array<uint32_t, 3>& corners : network.triangles) {
     for (size_t i = 0; i < 3; ++i) ++sides[side(corners, i)];
   }
-  std::vector<std::vector<uint32_t>> near(cells_.places());
+  std::vector<std::vector<uint32_t>> near(cells_.positions());
   const Vector3d around = Vector3d::Constant(reach_m_ + 0.5 * cells_.spacing_m);
   for (const std::array<uint32_t, 3>& corners : network.triangles) {
     const auto triangle = static_cast<uint32_t>(triangles_.size());

@@ -34,7 +34,7 @@ RestGrid gridOf(const Body& body) {
 RestTissue::RestTissue(const Model& model, size_t body)
     : grid_(gridOf(model.bodies[body])), fill_(model.bodies[body], grid_), toughness_(model.bodies[body], grid_) {
   const Body& of = model.bodies[body];
-  parted_.assign(8 * grid_.places(), 0);
+  parted_.assign(8 * grid_.positions(), 0);
   nodes_.reserve(of.lattice.active_slots.size());
   if (of.hasCells()) {
     const Strengths strong = strengths(of);
@@ -62,13 +62,13 @@ void RestTissue::addNode(const Model& model, size_t body, uint32_t slot, double 
 }
 
 void RestTissue::sortIntoGrid() {
-  starts_.assign(grid_.places() + 1, 0);
-  const auto place = [this](const Node& node) { return grid_.at(grid_.nearest(node.rest_m)); };
-  for (const Node& node : nodes_) ++starts_[place(node) + 1];
+  starts_.assign(grid_.positions() + 1, 0);
+  const auto position = [this](const Node& node) { return grid_.at(grid_.nearest(node.rest_m)); };
+  for (const Node& node : nodes_) ++starts_[position(node) + 1];
   std::partial_sum(starts_.begin(), starts_.end(), starts_.begin());
   std::vector<uint32_t> next(starts_.begin(), starts_.end() - 1);
   sorted_.resize(nodes_.size());
-  for (size_t n = 0; n < nodes_.size(); ++n) sorted_[next[place(nodes_[n])]++] = static_cast<uint32_t>(n);
+  for (size_t n = 0; n < nodes_.size(); ++n) sorted_[next[position(nodes_[n])]++] = static_cast<uint32_t>(n);
 }
 
 Vector3i RestTissue::halfCell(const Vector3d& at_m) const {

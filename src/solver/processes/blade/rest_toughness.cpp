@@ -12,7 +12,7 @@ namespace {
 
 /// Calls visit in the order of RestGrid::at().
 template <class Visit>
-void forEachPlace(const RestGrid& grid, const Visit& visit) {
+void forEachLayer(const RestGrid& grid, const Visit& visit) {
   for (int z = 0; z < grid.count.z(); ++z) {
     for (int y = 0; y < grid.count.y(); ++y) {
       for (int x = 0; x < grid.count.x(); ++x) visit(Vector3i(x, y, z));
@@ -23,9 +23,9 @@ void forEachPlace(const RestGrid& grid, const Visit& visit) {
 }  // namespace
 
 RestToughness::RestToughness(const Body& body, const RestGrid& nodes)
-    : cells_(nodes), by_place_(toughnesses(body)), spacing_m_(toughnessOf(body).spacing_m) {
-  const double radius_m = kernelOf(by_place_);
-  for (const std::vector<Toughness>& of_label : by_place_) {
+    : cells_(nodes), by_layer_(toughnesses(body)), spacing_m_(toughnessOf(body).spacing_m) {
+  const double radius_m = kernelOf(by_layer_);
+  for (const std::vector<Toughness>& of_label : by_layer_) {
     carried_.emplace_back();
     for (const Toughness& t : of_label)
       carried_.back().push_back({t.carried_j_per_m2(), t.carriedAtSurface_j_per_m2(radius_m)});
@@ -42,11 +42,11 @@ RestToughness::RestToughness(const Body& body, const RestGrid& nodes)
 /// Finds the labels of cells. Cells without tissue get the label of a neighbour: an edge that leaves the tissue still
 /// has some tissue in them.
 void RestToughness::findLabels(const Lattice& lattice) {
-  labels_.assign(cells_.places(), 0);
+  labels_.assign(cells_.positions(), 0);
   for (const uint32_t slot : lattice.active_slots) labels_[cells_.at(lattice.nodeAt(slot))] = lattice.cell_labels[slot];
   for (const Vector3i& along : {Vector3i(1, 0, 0), Vector3i(0, 1, 0), Vector3i(0, 0, 1)}) {
     const std::vector<uint16_t> before = labels_;
-    forEachPlace(cells_, [&](const Vector3i& cell) {
+    forEachLayer(cells_, [&](const Vector3i& cell) {
       uint16_t& label = labels_[cells_.at(cell)];
       for (const Vector3i& beside : {Vector3i(cell - along), Vector3i(cell + along)}) {
         if (label == 0 && cells_.has(beside)) label = before[cells_.at(beside)];
@@ -57,10 +57,10 @@ void RestToughness::findLabels(const Lattice& lattice) {
 
 void RestToughness::findDepths(const Skin& skin) {
   const TriangleTree tree(skin.mesh);
-  depths_m_.reserve(cells_.places());
-  forEachPlace(cells_, [&](const Vector3i& place) {
-    const Vector3f node = (cells_.origin_m + cells_.spacing_m * place.cast<double>()).cast<float>();
-    const MeshPlace nearest = tree.nearest(node);
+  depths_m_.reserve(cells_.positions());
+  forEachLayer(cells_, [&](const Vector3i& position) {
+    const Vector3f node = (cells_.origin_m + cells_.spacing_m * position.cast<double>()).cast<float>();
+    const MeshPoint nearest = tree.nearest(node);
     const auto& c = skin.mesh.triangles[nearest.triangle];
     const Vector3f a = skin.mesh.positions_m[c[0]];
     const Vector3f front = (skin.mesh.positions_m[c[1]] - a).cross(skin.mesh.positions_m[c[2]] - a);
@@ -69,7 +69,7 @@ void RestToughness::findDepths(const Skin& skin) {
 }
 
 double RestToughness::carriedFriction_n_per_m(double friction_n_per_m) const {
-  for (const std::vector<Toughness>& of_label : by_place_) {
+  for (const std::vector<Toughness>& of_label : by_layer_) {
     for (Toughness toughness : of_label) {
       toughness.asked_j_per_m2 = friction_n_per_m;
       friction_n_per_m = toughness.carried_j_per_m2();
@@ -93,7 +93,7 @@ double RestToughness::depthAt(const Vector3d& at_m) const {
   return sum;
 }
 
-RestToughness::Place RestToughness::placeOf(const Vector3d& at_m) const {
+RestToughness::Layer RestToughness::layerOf(const Vector3d& at_m) const {
   size_t label = 0, layer = layers_m_.size();
   if (!labels_.empty()) {
     const Vector3i cell = ((at_m - cells_.origin_m) / cells_.spacing_m).array().floor().cast<int>();
@@ -109,18 +109,18 @@ RestToughness::Place RestToughness::placeOf(const Vector3d& at_m) const {
 }
 
 const RestToughness::Carried& RestToughness::at(const Vector3d& at_m) const {
-  const Place place = placeOf(at_m);
-  return carried_[place.label][place.layer];
+  const Layer position = layerOf(at_m);
+  return carried_[position.label][position.layer];
 }
 
 double RestToughness::ofPoint_n(const Vector3d& at_m, double width_m, double kernel_m) const {
-  const Place place = placeOf(at_m);
-  return by_place_[place.label][place.layer].ofPoint_n(width_m, kernel_m);
+  const Layer position = layerOf(at_m);
+  return by_layer_[position.label][position.layer].ofPoint_n(width_m, kernel_m);
 }
 
 double RestToughness::pointKernel_m(double width_m) const {
   double most_m = 0;
-  for (const std::vector<Toughness>& of_label : by_place_) {
+  for (const std::vector<Toughness>& of_label : by_layer_) {
     for (const Toughness& toughness : of_label) most_m = std::max(most_m, toughness.pointKernel_m(width_m));
   }
   return most_m;

@@ -22,7 +22,7 @@ class RestToughness {
   RestToughness(const Body& body, const RestGrid& nodes);
   const Carried& at(const Vector3d& at_m) const;
   /// Returns the radius within which nodes share the force of an edge, and its friction [m].
-  double kernel_m(double friction_n_per_m) const { return kernelOf(by_place_, friction_n_per_m); }
+  double kernel_m(double friction_n_per_m) const { return kernelOf(by_layer_, friction_n_per_m); }
   /// Returns the friction that is carried everywhere.
   double carriedFriction_n_per_m(double friction_n_per_m) const;
   /// Returns the largest radius of the kernel of a point.
@@ -35,14 +35,14 @@ class RestToughness {
   void findLabels(const Lattice& lattice);
   void findDepths(const Skin& skin);
   double depthAt(const Vector3d& at_m) const;
-  struct Place {
+  struct Layer {
     size_t label, layer;
   };
-  Place placeOf(const Vector3d& at_m) const;
+  Layer layerOf(const Vector3d& at_m) const;
 
   RestGrid cells_;                                ///< a node of it is the lowest corner of a cell
-  std::vector<std::vector<Toughness>> by_place_;  ///< toughnesses() of the body
-  std::vector<std::vector<Carried>> carried_;     ///< carried part of by_place_
+  std::vector<std::vector<Toughness>> by_layer_;  ///< toughnesses() of the body
+  std::vector<std::vector<Carried>> carried_;     ///< carried part of by_layer_
   std::vector<double> layers_m_;                  ///< depths at which layers end
   std::vector<uint16_t> labels_;                  ///< [cells]; empty: there are no parts
   std::vector<float> depths_m_;  ///< [nodes] depth below the surface, negative outside; empty: no layer matters

@@ -49,7 +49,7 @@ void Bleeding::cutsChanged(const CutSprings& cuts) {
   film_.setCuts(is_cut_);
 }
 
-void Bleeding::lookWhatCloses(const Clips* clips, const HeatField* heat) {
+void Bleeding::detectClosed(const Clips* clips, const HeatField* heat) {
   std::vector<std::array<Vector3d, 2>> squeezed_m;
   if (clips) squeezed_m = clips->squeezed_m();
   size_t coagulated = 0;
@@ -74,7 +74,7 @@ void Bleeding::lookWhatCloses(const Clips* clips, const HeatField* heat) {
 
 bool Bleeding::endTick(TissuePort&, const ProcessTick&, const TissueProcesses& all) {
   const Burns* const burns = findProcess<Burns>(all);
-  lookWhatCloses(findProcess<Clips>(all), burns ? &burns->heat() : nullptr);
+  detectClosed(findProcess<Clips>(all), burns ? &burns->heat() : nullptr);
   if (std::exchange(is_stale_, false)) leaks_ = vessels_.find(is_cut_, is_closed_);
   for (const Vessels::Leak& leak : leaks_.of_nodes) {
     film_.give(leak.slot, leak.m3_per_s * tick_s_);
@@ -82,11 +82,11 @@ bool Bleeding::endTick(TissuePort&, const ProcessTick&, const TissueProcesses& a
   }
   if (film_.wet().empty()) return false;
   film_.step(tick_s_);
-  noteLooks();
+  updateVisuals();
   return false;
 }
 
-void Bleeding::noteLooks() {
+void Bleeding::updateVisuals() {
   std::vector<float> shares(model_.slots(), 0);
   bool changed = !paint_;
   for (const uint32_t slot : film_.wet()) {
@@ -124,7 +124,7 @@ void Bleeding::persist(Archive& archive) {
   if (archive.reads()) reset();
   archive.value(bled_m3_);
   film_.persist(archive);
-  if (archive.reads() && !film_.wet().empty()) noteLooks();
+  if (archive.reads() && !film_.wet().empty()) updateVisuals();
 }
 
 bool Bleeding::addTo(StateHash& hash) const {
@@ -144,8 +144,8 @@ FactGroup Bleeding::facts() const {
   return out;
 }
 
-void Bleeding::draw(ProcessVisuals& look) const {
-  if (paint_) look.paints.push_back(paint_);
+void Bleeding::draw(ProcessVisuals& visuals) const {
+  if (paint_) visuals.paints.push_back(paint_);
 }
 
 }  // namespace viscera

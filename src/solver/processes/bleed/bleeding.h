@@ -33,13 +33,13 @@ class Bleeding : public TissueProcess {
   void persist(Archive& archive) override;
   bool addTo(StateHash& hash) const override;
   FactGroup facts() const override;
-  void draw(ProcessVisuals& look) const override;
+  void draw(ProcessVisuals& visuals) const override;
 
   BloodReport seen() const;
 
  private:
-  void lookWhatCloses(const Clips* clips, const HeatField* heat);
-  void noteLooks();
+  void detectClosed(const Clips* clips, const HeatField* heat);
+  void updateVisuals();
 
   const Model& model_;
   const double tick_s_;

@@ -130,21 +130,21 @@ void BloodFilm::run(uint32_t slot, double dt_s) {
     return;
   }
   const double flux_m2_per_s = speed_per_m2_s_ * thick_m * thick_m * thick_m;
-  ways_.clear();
+  flows_.clear();
   double all_m3 = 0;
   forEachLink(slot, [&](uint32_t link, uint32_t other, double length_m) {
     if (is_cut_[link] || surface_[other].area_m2 <= 0) return;
     const double slope = (height_m_[slot] + thick_m - height_m_[other] - thickness_m(other)) / length_m;
     if (slope <= 0) return;
     const double width_m = 0.5 * (it.width_m + surface_[other].width_m) / length_m;
-    ways_.emplace_back(other, flux_m2_per_s * std::min(1.0, slope) * width_m * dt_s);
-    all_m3 += ways_.back().second;
+    flows_.emplace_back(other, flux_m2_per_s * std::min(1.0, slope) * width_m * dt_s);
+    all_m3 += flows_.back().second;
   });
   const double drips_m3 = it.drips ? flux_m2_per_s * std::sqrt(it.area_m2) * dt_s : 0;
   all_m3 += drips_m3;
   if (all_m3 <= 0) return;
   const double scale = std::min(1.0, kMostLeaves * movable_m3 / all_m3);
-  for (const auto& [other, m3] : ways_) {
+  for (const auto& [other, m3] : flows_) {
     wetten(other);
     gain_m3_[other] += scale * m3;
   }

@@ -59,7 +59,7 @@ class BloodFilm {
   std::vector<double> volume_m3_, gain_m3_;  ///< [slots]
   std::vector<uint8_t> is_wet_;              ///< [slots]
   std::vector<uint32_t> wet_;
-  std::vector<std::pair<uint32_t, double>> ways_;  ///< flows from a node: target, amount
+  std::vector<std::pair<uint32_t, double>> flows_;  ///< flows from a node: target, amount
   double dripped_m3_ = 0;
 };
 

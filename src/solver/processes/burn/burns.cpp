@@ -61,7 +61,7 @@ bool Burns::act(TissuePort& port, const ProcessTick& tick, const ProcessSubstep&
     heat_.step(tick_s_);
     if (heat_.isWarm()) {
       cut = partWhatBoiled(port);
-      noteLooks();
+      updateVisuals();
       springs_.find(heat_, cuts_);
     }
   }
@@ -78,7 +78,7 @@ std::vector<TissuePoint> Burns::touchedBy(TissuePort& port, const StylusMotion& 
   struct Near {
     double distance_m;
     uint32_t slot;
-    Vector3d way_m;
+    Vector3d offset_m;
     bool operator<(const Near& other) const {
       return std::make_pair(distance_m, slot) < std::make_pair(other.distance_m, other.slot);
     }
@@ -87,27 +87,27 @@ std::vector<TissuePoint> Burns::touchedBy(TissuePort& port, const StylusMotion& 
   const double within_m = radius_m + kNearby * longestSpacing(model_);
   for (size_t i = 0; i < nodes_.size(); ++i) {
     if (is_parted_[nodes_[i]]) continue;
-    const Vector3d way_m = tissue_.rest_m(nodes_[i]) + u[i].cast<double>() - tip_m;
-    if (way_m.norm() < within_m) near.push_back({way_m.norm(), nodes_[i], way_m});
+    const Vector3d offset_m = tissue_.rest_m(nodes_[i]) + u[i].cast<double>() - tip_m;
+    if (offset_m.norm() < within_m) near.push_back({offset_m.norm(), nodes_[i], offset_m});
   }
   std::sort(near.begin(), near.end());
   if (near.size() > kLookedAt) near.resize(kLookedAt);
   const double reach_m = radius_m + kSpark_m;
   Vector3d mean = Vector3d::Zero();
   std::vector<TissuePoint> out;
-  const auto look = [&](const Vector3d& way) {
-    if (const auto point = tissue_.find(port, tip_m + reach_m * way.normalized())) out.push_back(*point);
+  const auto visuals = [&](const Vector3d& offset) {
+    if (const auto point = tissue_.find(port, tip_m + reach_m * offset.normalized())) out.push_back(*point);
   };
   for (const Near& node : near) {
-    mean += node.way_m;
+    mean += node.offset_m;
     if (node.distance_m > reach_m) {
-      look(node.way_m);
+      visuals(node.offset_m);
     } else {
       const uint32_t body = bodyOf(node.slot);
       out.push_back(nodePoint(model_, body, node.slot - model_.slotOffset(body)));
     }
   }
-  if (!near.empty()) look(mean);
+  if (!near.empty()) visuals(mean);
   return out;
 }
 
@@ -155,7 +155,7 @@ bool Burns::partWhatBoiled(TissuePort& port) {
   return any;
 }
 
-void Burns::noteLooks() {
+void Burns::updateVisuals() {
   std::vector<float> shares(model_.slots(), 0);
   bool changed = !paint_;
   for (const uint32_t slot : heat_.touched()) {
@@ -178,7 +178,7 @@ void Burns::reset() {
   parted_.clear();
   cuts_ = {};
   springs_.find(heat_, cuts_);
-  if (paint_) noteLooks();
+  if (paint_) updateVisuals();
 }
 
 void Burns::persist(Archive& archive) {
@@ -191,7 +191,7 @@ void Burns::persist(Archive& archive) {
     if (slot >= is_parted_.size()) throw Error("the saved state has a burn on a node that the scene does not have");
     is_parted_[slot] = 1;
   }
-  if (!heat_.touched().empty()) noteLooks();
+  if (!heat_.touched().empty()) updateVisuals();
 }
 
 bool Burns::addTo(StateHash& hash) const {
@@ -213,8 +213,8 @@ FactGroup Burns::facts() const {
   return out;
 }
 
-void Burns::draw(ProcessVisuals& look) const {
-  if (paint_) look.paints.push_back(paint_);
+void Burns::draw(ProcessVisuals& visuals) const {
+  if (paint_) visuals.paints.push_back(paint_);
 }
 
 }  // namespace viscera

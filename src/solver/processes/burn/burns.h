@@ -37,7 +37,7 @@ class Burns : public TissueProcess {
   void persist(Archive& archive) override;
   bool addTo(StateHash& hash) const override;
   FactGroup facts() const override;
-  void draw(ProcessVisuals& look) const override;
+  void draw(ProcessVisuals& visuals) const override;
 
   const HeatField& heat() const { return heat_; }
   BurnReport seen() const;
@@ -47,7 +47,7 @@ class Burns : public TissueProcess {
   void heatWhatTipsTouch(TissuePort& port, const ToolMotions& motions);
   bool partWhatBoiled(TissuePort& port);
   double boiledToPart(uint32_t body) const;
-  void noteLooks();
+  void updateVisuals();
   uint32_t bodyOf(uint32_t slot) const;
 
   const Model& model_;

@@ -12,7 +12,7 @@ namespace viscera {
 
 namespace {
 
-constexpr double kFelt = 0.01;          // smallest coagulated share of a spring that is handled
+constexpr double kLeastCoagulated = 0.01;  // smallest coagulated share of a spring that is handled
 constexpr int kMostSweeps = 12;         // of conjugate gradients: leave less than kLeftOfSpring in threefold stiffness
 constexpr double kLeftOfSpring = 1e-4;  // tolerance over the impulses, root mean square
 constexpr double kCollapsed = 1e-6;     // of a length: a shorter spring has no direction
@@ -20,7 +20,7 @@ constexpr double kCollapsed = 1e-6;     // of a length: a shorter spring has no 
 }  // namespace
 
 BurntSprings::BurntSprings(const Model& model)
-    : rest_m_(model.slots(), Vector3f::Zero()), inverse_mass_(model.slots(), 0), place_(model.slots(), 0) {
+    : rest_m_(model.slots(), Vector3f::Zero()), inverse_mass_(model.slots(), 0), position_(model.slots(), 0) {
   for (uint32_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     const uint32_t offset = model.slotOffset(b);
@@ -42,18 +42,18 @@ void BurntSprings::find(const HeatField& heat, const CutSprings& cuts) {
   const HeatGraph& graph = heat.graph();
   std::vector<uint32_t> all;
   for (const uint32_t slot : heat.touched()) {
-    if (heat.coagulated(slot) < kFelt) continue;
+    if (heat.coagulated(slot) < kLeastCoagulated) continue;
     all.insert(all.end(), graph.springs_of.begin() + graph.spring_starts[slot],
                graph.springs_of.begin() + graph.spring_starts[slot + 1]);
   }
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
-  const auto placeOf = [this](uint32_t slot) {
-    if (place_[slot] == 0) {
+  const auto positionOf = [this](uint32_t slot) {
+    if (position_[slot] == 0) {
       slots_.push_back(slot);
-      place_[slot] = static_cast<uint32_t>(slots_.size());
+      position_[slot] = static_cast<uint32_t>(slots_.size());
     }
-    return place_[slot] - 1;
+    return position_[slot] - 1;
   };
   for (const uint32_t s : all) {
     const BurntSpring& spring = graph.springs[s];
@@ -61,14 +61,14 @@ void BurntSprings::find(const HeatField& heat, const CutSprings& cuts) {
     const double share = 0.5 * (heat.coagulated(spring.a) + heat.coagulated(spring.b));
     const double stiffer = 1 + (kStiffened - 1) * share;
     Spring out;
-    out.a = placeOf(spring.a);
-    out.b = placeOf(spring.b);
+    out.a = positionOf(spring.a);
+    out.b = positionOf(spring.b);
     out.rest_length_m = spring.rest_length_m;
     out.more_n_per_m = spring.stiffness_n_per_m * (stiffer - 1);
     out.tension_n = spring.stiffness_n_per_m * spring.rest_length_m * kShrunk * share * (stiffer + spring.volume_ratio);
     springs_.push_back(out);
   }
-  for (const uint32_t slot : slots_) place_[slot] = 0;
+  for (const uint32_t slot : slots_) position_[slot] = 0;
 }
 
 /// Multiplies a velocity by (1 + dt^2 K / m), with K the stiffness along each spring and the effect of its tension
@@ -96,7 +96,7 @@ double BurntSprings::pull(TissuePort& port, double dt_s) {
   u_.resize(count);
   v_.resize(count);
   port.readNodes(slots_, u_, v_);
-  for (std::vector<Vector3d>* all : {&dv_, &residual_, &way_, &product_}) all->assign(count, Vector3d::Zero());
+  for (std::vector<Vector3d>* all : {&dv_, &residual_, &direction_, &product_}) all->assign(count, Vector3d::Zero());
   for (Spring& spring : springs_) {
     const Vector3d from = (rest_m_[slots_[spring.a]] + u_[spring.a]).cast<double>();
     const Vector3d apart = (rest_m_[slots_[spring.b]] + u_[spring.b]).cast<double>() - from;
@@ -115,21 +115,22 @@ double BurntSprings::pull(TissuePort& port, double dt_s) {
   };
   for (size_t i = 0; i < count; ++i) {
     if (inverse_mass_[slots_[i]] == 0) residual_[i].setZero();
-    way_[i] = inverse_mass_[slots_[i]] * residual_[i];
+    direction_[i] = inverse_mass_[slots_[i]] * residual_[i];
   }
   double now = dot(residual_, residual_);
   const double enough = kLeftOfSpring * kLeftOfSpring * now;
   for (int sweep = 0; sweep < kMostSweeps && now > enough; ++sweep) {
-    multiply(dt_s, way_, product_);
+    multiply(dt_s, direction_, product_);
     double along = 0;
-    for (size_t i = 0; i < count; ++i) along += way_[i].dot(product_[i]);
+    for (size_t i = 0; i < count; ++i) along += direction_[i].dot(product_[i]);
     const double step = now / along, before = now;
     for (size_t i = 0; i < count; ++i) {
-      dv_[i] += step * way_[i];
+      dv_[i] += step * direction_[i];
       residual_[i] -= step * product_[i];
     }
     now = dot(residual_, residual_);
-    for (size_t i = 0; i < count; ++i) way_[i] = inverse_mass_[slots_[i]] * residual_[i] + (now / before) * way_[i];
+    for (size_t i = 0; i < count; ++i)
+      direction_[i] = inverse_mass_[slots_[i]] * residual_[i] + (now / before) * direction_[i];
   }
   double work_j = 0;
   for (size_t i = 0; i < count; ++i) {

@@ -41,12 +41,12 @@ class BurntSprings {
 
   std::vector<Vector3f> rest_m_;      ///< [slots of the model]
   std::vector<double> inverse_mass_;  ///< [slots of the model] 1/kg; 0 if fixed
-  std::vector<uint32_t> place_;       ///< [slots of the model] index into slots_, valid for those in it
+  std::vector<uint32_t> position_;    ///< [slots of the model] index into slots_, valid for those in it
   std::vector<uint32_t> slots_;       ///< slots of the nodes at their ends
   std::vector<Spring> springs_;
   // data of the substep
   std::vector<Vector3f> u_, v_;
-  std::vector<Vector3d> dv_, residual_, way_, product_;
+  std::vector<Vector3d> dv_, residual_, direction_, product_;
 };
 
 }  // namespace viscera

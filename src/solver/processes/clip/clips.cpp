@@ -48,7 +48,7 @@ void Clips::beginTick(const ProcessTick& tick) {
     jaws_[s] = motion.from;
   }
   if (blades_.beginTick(tick.motions)) {
-    for (size_t c = 0; c < clips_.size(); ++c) blades_.keep(places_m(c));
+    for (size_t c = 0; c < clips_.size(); ++c) blades_.keep(positions_m(c));
   }
   work_j_ = 0;
 }
@@ -70,7 +70,7 @@ bool Clips::act(TissuePort& port, const ProcessTick&, const ProcessSubstep& subs
 /// Removes the clips that blades have met, of those that were there when the tick began.
 bool Clips::endTick(TissuePort&, const ProcessTick&, const TissueProcesses&) {
   for (size_t c = blades_.kept(); c-- > 0;) {
-    if (blades_.met(c, places_m(c)).empty()) continue;
+    if (blades_.met(c, positions_m(c)).empty()) continue;
     clips_.erase(clips_.begin() + static_cast<std::ptrdiff_t>(c));
     ++taken_off_;
   }
@@ -173,7 +173,7 @@ void Clips::hold(double dt_s) {
     for (int sweep = 0; sweep < kClipSweeps; ++sweep) {
       for (size_t i = 0; i < clip.pairs.size(); ++i) {
         const auto& [a, b] = clip.points[i];
-        const Vector3d between = points_.place_m(b) - points_.place_m(a);
+        const Vector3d between = points_.position_m(b) - points_.position_m(a);
         const double length_m = between.norm();
         const double mobility = points_.mobility(a, a) + points_.mobility(b, b);
         if (length_m < kNearest_m || !(mobility > 0)) continue;
@@ -191,15 +191,15 @@ void Clips::hold(double dt_s) {
     clip.force_n = 0;
     for (size_t i = 0; i < clip.pairs.size(); ++i) {
       clip.force_n += given_ns[i] / dt_s;
-      clip.pairs[i].now_a_m = points_.place_m(clip.points[i][0]);
-      clip.pairs[i].now_b_m = points_.place_m(clip.points[i][1]);
+      clip.pairs[i].now_a_m = points_.position_m(clip.points[i][0]);
+      clip.pairs[i].now_b_m = points_.position_m(clip.points[i][1]);
     }
   }
 }
 
 /// Returns both legs and the part that joins them, tissue frame. They move as a rigid body with the held nodes, with
 /// the legs as far apart as the sides.
-std::vector<Vector3d> Clips::places_m(size_t at) const {
+std::vector<Vector3d> Clips::positions_m(size_t at) const {
   const Clip& clip = clips_[at];
   const auto count = static_cast<Eigen::Index>(2 * clip.pairs.size());
   Eigen::Matrix3Xd set(3, count), now(3, count);
@@ -306,8 +306,8 @@ FactGroup Clips::facts() const {
   return out;
 }
 
-void Clips::draw(ProcessVisuals& look) const {
-  for (size_t c = 0; c < clips_.size(); ++c) look.sutures.push_back({0, TubeKind::kClip, places_m(c)});
+void Clips::draw(ProcessVisuals& visuals) const {
+  for (size_t c = 0; c < clips_.size(); ++c) visuals.sutures.push_back({0, TubeKind::kClip, positions_m(c)});
 }
 
 }  // namespace viscera

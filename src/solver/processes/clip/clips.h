@@ -34,7 +34,7 @@ class Clips : public TissueProcess {
   void persist(Archive& archive) override;
   bool addTo(StateHash& hash) const override;
   FactGroup facts() const override;
-  void draw(ProcessVisuals& look) const override;
+  void draw(ProcessVisuals& visuals) const override;
 
   /// Returns the vectors from side to side at rest, each in the rest frame of its body, of everything that clips hold
   /// together [m].
@@ -44,7 +44,7 @@ class Clips : public TissueProcess {
  private:
   void set(const TissuePort& port);
   void hold(double dt_s);
-  std::vector<Vector3d> places_m(size_t clip) const;
+  std::vector<Vector3d> positions_m(size_t clip) const;
   /// A node on each side.
   struct Pair {
     uint32_t body_a, a, body_b, b;  ///< slots in the bodies

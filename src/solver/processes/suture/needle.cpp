@@ -21,8 +21,8 @@ constexpr double kCrossingsApart_m = 1.5e-3;
 constexpr double kPassedApart_m = 2.2e-3;  // distance of the points that the suture gets
 constexpr double kSkinApart_m = 1.2e-3;    // and distance of surface points from those inside
 constexpr int kNeedleSweeps = 4;
-constexpr uint32_t kLooksApart = 16;       // substeps after which a tip outside searches for tissue again
-constexpr double kLooksApart_m = 1e-4;     // or displacement of the tip: the search is slow
+constexpr uint32_t kChecksApart = 16;      // substeps after which a tip outside searches for tissue again
+constexpr double kChecksApart_m = 1e-4;    // or displacement of the tip: the search is slow
 constexpr double kTipOff_m = 2e-4;         // a tip retracted that far from the surface has left it
 constexpr double kOffTip_m = 5e-4;         // tissue that far ahead of the tip has left the needle
 constexpr double kLipsApart_m = 3e-4;      // points farther from the tip than this are across a wound
@@ -31,7 +31,7 @@ constexpr double kSidelong = 0.5;          // of the puncture force, as an exces
 constexpr double kFastestLed_m_per_s = 3;  // if moved faster, as after a roll-back, it lags behind its stylus
 constexpr double kAirDrag_per_s = 4;
 
-constexpr double kNoPlace = std::numeric_limits<double>::infinity();
+constexpr double kNoPosition = std::numeric_limits<double>::infinity();
 
 std::vector<double> youngsOf(const Body& body) {
   const std::vector<std::string>& names = body.lattice.part_names;
@@ -68,7 +68,7 @@ Needle::Needle(const NeedleConfig& config, const Model& model, const Vector3d& t
 void Needle::reset() {
   tip_ = {};
   crossings_.clear();
-  last_passed_m_.setConstant(kNoPlace);
+  last_passed_m_.setConstant(kNoPosition);
   velocity_.setZero();
   turning_.setZero();
   from_ = end_ = start_;
@@ -128,9 +128,9 @@ void Needle::lead(const Pose& to, double dt_s) {
   dt_s_ = dt_s;
   led_ = true;
   const double turn = from_.orientation.angularDistance(to.orientation);
-  const double way_m = (to.position_m - from_.position_m).norm() + 2 * turn * shape_.radius_m();
+  const double offset_m = (to.position_m - from_.position_m).norm() + 2 * turn * shape_.radius_m();
   const double most_m = kFastestLed_m_per_s * dt_s;
-  end_ = way_m > most_m ? interpolate(from_, to, most_m / way_m) : to;
+  end_ = offset_m > most_m ? interpolate(from_, to, most_m / offset_m) : to;
 }
 
 void Needle::fall(const Vector3d& gravity_m_per_s2, double dt_s) {
@@ -160,20 +160,20 @@ void Needle::keepOut(const layout::ObstacleMotion* obstacles, uint32_t count) {
   turning_ = std::remainder(turn.angle(), 2 * EIGEN_PI) / dt_s_ * turn.axis();
 }
 
-Vector3d Needle::velocityAt(const Vector3d& place_m) const {
-  return velocity_ + turning_.cross(place_m - end_ * shape_.middle());
+Vector3d Needle::velocityAt(const Vector3d& position_m) const {
+  return velocity_ + turning_.cross(position_m - end_ * shape_.middle());
 }
 
 /// Returns an upper bound on the mobility in any direction.
-double Needle::mobilityAt(const Vector3d& place_m) const {
+double Needle::mobilityAt(const Vector3d& position_m) const {
   if (led_) return 0;
-  return 1 / shape_.mass_kg() + (place_m - end_ * shape_.middle()).squaredNorm() / shape_.inertia_kg_m2();
+  return 1 / shape_.mass_kg() + (position_m - end_ * shape_.middle()).squaredNorm() / shape_.inertia_kg_m2();
 }
 
-void Needle::push(const Vector3d& place_m, const Vector3d& impulse_ns) {
+void Needle::push(const Vector3d& position_m, const Vector3d& impulse_ns) {
   if (led_) return;
   velocity_ += impulse_ns / shape_.mass_kg();
-  turning_ += (place_m - end_ * shape_.middle()).cross(impulse_ns) / shape_.inertia_kg_m2();
+  turning_ += (position_m - end_ * shape_.middle()).cross(impulse_ns) / shape_.inertia_kg_m2();
   move();
 }
 
@@ -209,7 +209,7 @@ void Needle::act(TissuePort& target, TissuePoints& tissue, std::vector<NeedlePas
 void Needle::touch(TissuePort& target, const TissuePoints& tissue) {
   if (tip_.state > kBlocked || (tip_.state == kClear && !led_)) return;
   const Vector3d at = end_ * shape_.at(0);
-  if (++tip_.looked_ago < kLooksApart && (at - tip_.looked_m).norm() < kLooksApart_m) return;
+  if (++tip_.looked_ago < kChecksApart && (at - tip_.looked_m).norm() < kChecksApart_m) return;
   tip_.looked_ago = 0;
   tip_.looked_m = at;
   const std::optional<TissuePoint> point = around_.contains(at) ? tissue.find(target, at) : std::nullopt;
@@ -236,13 +236,13 @@ void Needle::read(TissuePort& target, TissuePoints& tissue) const {
 void Needle::sweep(TissuePoints& tissue) {
   const auto again = [&](const TissuePoint& point, const Vector3d& impulse_ns) {
     tissue.give(point, impulse_ns, dt_s_);
-    push(tissue.place_m(point), -impulse_ns);
+    push(tissue.position_m(point), -impulse_ns);
   };
   for (const Crossing& crossing : crossings_) again(crossing.point, crossing.impulse_ns);
   if (tip_.state >= kTouches) again(tip_.point, tip_.impulse_ns);
   for (int i = 0; i < kNeedleSweeps; ++i) {
     for (Crossing& crossing : crossings_) {
-      const Vector3d own = end_.inverse() * tissue.place_m(crossing.point);
+      const Vector3d own = end_.inverse() * tissue.position_m(crossing.point);
       const double behind_m = std::clamp(shape_.nearest_m(own), 0.0, shape_.length_m());
       const double limit_n = crossing.law.friction_n_per_m * crossing.length_m;
       solve(tissue, {&crossing.point, &crossing.impulse_ns, end_ * shape_.at(behind_m),
@@ -264,7 +264,7 @@ void Needle::solve(TissuePoints& tissue, const Row& row) {
   const double mobility = tissue.mobility(*row.point, *row.point);
   if (!(mobility > 0)) return;
   const double both = mobility + mobilityAt(row.at_m), soft = row.softness_per_kg;
-  const Vector3d gap = (row.at_m - tissue.place_m(*row.point)) / dt_s_;
+  const Vector3d gap = (row.at_m - tissue.position_m(*row.point)) / dt_s_;
   const Vector3d rate = velocityAt(row.at_m) - tissue.velocity_m_per_s(*row.point);
   const Vector3d before = *row.impulse_ns;
   const double before_along = before.dot(row.along);
@@ -282,13 +282,13 @@ void Needle::sum(const TissuePoints& tissue) {
   const auto add = [&](const TissuePoint& point, const Vector3d& impulse_ns) {
     force_n_ += impulse_ns / dt_s_;
     work_j_ += impulse_ns.dot(tissue.velocity_m_per_s(point));
-    torque_nm_ += tissue.place_m(point).cross(impulse_ns) / dt_s_;
+    torque_nm_ += tissue.position_m(point).cross(impulse_ns) / dt_s_;
   };
   for (const Crossing& crossing : crossings_) {
     add(crossing.point, crossing.impulse_ns);
-    const Vector3d place = tissue.place_m(crossing.point);
-    const double behind_m = std::clamp(shape_.nearest_m(end_.inverse() * place), 0.0, shape_.length_m());
-    farthest_m_ = std::max(farthest_m_, (place - end_ * shape_.at(behind_m)).norm());
+    const Vector3d position = tissue.position_m(crossing.point);
+    const double behind_m = std::clamp(shape_.nearest_m(end_.inverse() * position), 0.0, shape_.length_m());
+    farthest_m_ = std::max(farthest_m_, (position - end_ * shape_.at(behind_m)).norm());
     addToHold(crossing.point, crossing.law, crossing.length_m, behind_m);
     const double limit_n = crossing.law.friction_n_per_m * crossing.length_m;
     const double is_n = crossing.impulse_ns.dot(end_.orientation * shape_.forward(behind_m)) / dt_s_;
@@ -317,7 +317,7 @@ void Needle::addToHold(const TissuePoint& point, const NeedleLaw& law, double le
 void Needle::settle(TissuePort& target, const TissuePoints& tissue) {
   if (tip_.state < kTouches) return;
   const Vector3d along = end_.orientation * shape_.forward(0);
-  const double slip_m = (end_ * shape_.at(0) - tissue.place_m(tip_.point)).dot(along);
+  const double slip_m = (end_ * shape_.at(0) - tissue.position_m(tip_.point)).dot(along);
   if (tip_.state == kInside) {
     goOn(target, tissue, slip_m);
     return;
@@ -354,7 +354,7 @@ void Needle::goOn(TissuePort& target, const TissuePoints& tissue, double slip_m)
     else
       share = more;
   }
-  if (next && std::copysign(1, slip_m) * (tissue.placeIn(target, *next) - tip_m).dot(along) > kLipsApart_m) {
+  if (next && std::copysign(1, slip_m) * (tissue.positionIn(target, *next) - tip_m).dot(along) > kLipsApart_m) {
     next = tissue.find(target, tip_m);
     if (!next) return;
   }
@@ -362,7 +362,7 @@ void Needle::goOn(TissuePort& target, const TissuePoints& tissue, double slip_m)
   const Vector3d gone = tip_.point.rest_m - rest;
   tip_.path_m += std::copysign(gone.norm(), slip_m * gone.dot(step));
   if (out) tip_.state = slip_m > 0 ? kLeaves : kBlocked;
-  if (tip_.path_m >= kCrossingsApart_m + (crossings_.empty() ? -kNoPlace : crossings_.back().path_m))
+  if (tip_.path_m >= kCrossingsApart_m + (crossings_.empty() ? -kNoPosition : crossings_.back().path_m))
     leaveCrossing(false);
 }
 
@@ -380,7 +380,7 @@ void Needle::leaveCrossing(bool skin) {
 /// Removes points that are no longer on the shaft: the tip was retracted past them, or the tail has passed them.
 void Needle::sortOut(const TissuePoints& tissue, std::vector<NeedlePassed>& passed) {
   const auto gone = [&](const Crossing& crossing) {
-    const double behind_m = shape_.nearest_m(end_.inverse() * tissue.place_m(crossing.point));
+    const double behind_m = shape_.nearest_m(end_.inverse() * tissue.position_m(crossing.point));
     const double beyond_m = behind_m - shape_.length_m();
     if (behind_m < -kOffTip_m) return true;
     if (beyond_m <= 0) return false;

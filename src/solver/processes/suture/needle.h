@@ -50,7 +50,7 @@ class Needle {
   /// @}
 
   const NeedleShape& shape() const { return shape_; }
-  std::vector<Vector3d> places_m() const { return shape_.places(end_); }
+  std::vector<Vector3d> positions_m() const { return shape_.positions(end_); }
   const Pose& pose() const { return end_; }  ///< pose at the end of the substep
   Vector3d tail_m() const { return tailAt_m(1); }
   Vector3d tailAt_m(double share) const;  ///< tail at a share of its displacement in the substep
@@ -105,9 +105,9 @@ class Needle {
   };
   NeedleLaw lawAt(const TissuePoint& point) const;
   void move();
-  Vector3d velocityAt(const Vector3d& place_m) const;
-  double mobilityAt(const Vector3d& place_m) const;
-  void push(const Vector3d& place_m, const Vector3d& impulse_ns);
+  Vector3d velocityAt(const Vector3d& position_m) const;
+  double mobilityAt(const Vector3d& position_m) const;
+  void push(const Vector3d& position_m, const Vector3d& impulse_ns);
   void touch(TissuePort& target, const TissuePoints& tissue);
   void read(TissuePort& target, TissuePoints& tissue) const;
   void sweep(TissuePoints& tissue);

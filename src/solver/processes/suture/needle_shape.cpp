@@ -19,13 +19,13 @@ constexpr int kOuts = 8;              // corrections of a step, each by the deep
 constexpr double kInObstacle = 0.1;   // in wire radii: a step with a larger remaining depth is rejected
 
 /// Returns the shortest displacement that moves the deepest point out of its obstacle [m].
-Vector3d wayOut_m(const NeedleShape& shape, const Pose& pose, const layout::ObstacleMotion* obstacles, uint32_t count) {
+Vector3d exit_m(const NeedleShape& shape, const Pose& pose, const layout::ObstacleMotion* obstacles, uint32_t count) {
   Vector3d out = Vector3d::Zero();
   double deepest_m = 0;
   const auto probes = static_cast<size_t>(2 + shape.length_m() / (kProbed * shape.wireRadius_m()));
-  for (const Vector3d& place : shape.places(pose, probes)) {
+  for (const Vector3d& position : shape.positions(pose, probes)) {
     for (uint32_t o = 0; o < count; ++o) {
-      const ObstacleSide side = sideOf(obstacles[o], place);
+      const ObstacleSide side = sideOf(obstacles[o], position);
       const double depth_m = shape.wireRadius_m() - side.distance_m;
       if (depth_m <= deepest_m) continue;
       deepest_m = depth_m;
@@ -69,7 +69,7 @@ Pose NeedleShape::withTailAt(const Vector3d& tail_m, const Quaterniond& orientat
   return {tail_m - orientation * at(length_m()), orientation};
 }
 
-std::vector<Vector3d> NeedleShape::places(const Pose& pose, size_t count) const {
+std::vector<Vector3d> NeedleShape::positions(const Pose& pose, size_t count) const {
   std::vector<Vector3d> out;
   for (size_t i = 0; i < count; ++i)
     out.push_back(pose * at(length_m() * static_cast<double>(i) / static_cast<double>(count - 1)));
@@ -80,16 +80,16 @@ Pose keptOut(const NeedleShape& shape, const Pose& from, const Pose& to, const l
              uint32_t count) {
   if (count == 0) return to;
   const double turn = from.orientation.angularDistance(to.orientation);
-  const double way_m = (to.position_m - from.position_m).norm() + 2 * turn * shape.radius_m();
-  const int steps = std::max(1, static_cast<int>(std::ceil(way_m / shape.wireRadius_m())));
+  const double offset_m = (to.position_m - from.position_m).norm() + 2 * turn * shape.radius_m();
+  const int steps = std::max(1, static_cast<int>(std::ceil(offset_m / shape.wireRadius_m())));
   Pose at = from;
   for (int i = 1; i <= std::min(steps, kMostNeedleSteps); ++i) {
     const Pose before = at;
     at = interpolate(at, to, 1.0 / (steps - i + 1));
-    Vector3d out = wayOut_m(shape, at, obstacles, count);
+    Vector3d out = exit_m(shape, at, obstacles, count);
     for (int k = 0; k < kOuts && !out.isZero(0); ++k) {
       at.position_m += out;
-      out = wayOut_m(shape, at, obstacles, count);
+      out = exit_m(shape, at, obstacles, count);
     }
     if (out.norm() > kInObstacle * shape.wireRadius_m()) return before;
   }

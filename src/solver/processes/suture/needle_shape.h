@@ -36,7 +36,7 @@ class NeedleShape {
   Pose withTailAt(const Vector3d& tail_m, const Quaterniond& orientation) const;
   static constexpr size_t kShown = 33;  ///< number of points with which it is drawn
   /// Returns points along it, from the tip to the tail.
-  std::vector<Vector3d> places(const Pose& pose, size_t count = kShown) const;
+  std::vector<Vector3d> positions(const Pose& pose, size_t count = kShown) const;
 
  private:
   double radius_m_, angle_rad_, wire_radius_m_;

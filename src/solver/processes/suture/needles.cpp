@@ -13,10 +13,10 @@ namespace viscera {
 namespace {
 
 /// Returns the distance of a position from an arc.
-double distanceTo_m(const Needle& needle, const Vector3d& place_m) {
+double distanceTo_m(const Needle& needle, const Vector3d& position_m) {
   const NeedleShape& shape = needle.shape();
-  const double behind_m = shape.nearest_m(needle.pose().inverse() * place_m);
-  return (needle.pose() * shape.at(std::clamp(behind_m, 0.0, shape.length_m())) - place_m).norm();
+  const double behind_m = shape.nearest_m(needle.pose().inverse() * position_m);
+  return (needle.pose() * shape.at(std::clamp(behind_m, 0.0, shape.length_m())) - position_m).norm();
 }
 
 /// Adds a hold to the mean of the tick. @param share  of the tick
@@ -91,14 +91,14 @@ void Needles::act(TissuePort& target, TissuePoints& tissue, double at, double dt
     const uint32_t stylus = one.held.stylus;
     const bool led = stylus < layout::kMaxStyluses;
     if (led)
-      one.needle.lead(interpolate(motions_[stylus].from, motions_[stylus].to, at) * one.held.in_hand, dt_s);
+      one.needle.lead(interpolate(motions_[stylus].from, motions_[stylus].to, at) * one.held.in_grip, dt_s);
     else
       one.needle.fall(gravity_, dt_s);
     one.needle.keepOut(obstacles, count);
     passed_.clear();
     one.needle.act(target, tissue, passed_);
     for (const NeedlePassed& passed : passed_)
-      passes(one.suture, passed, channelLawOf(sutures_[one.suture], model_.bodies[passed.point.body]));
+      passes(one.suture, passed, trackLawOf(sutures_[one.suture], model_.bodies[passed.point.body]));
     work_j_ += one.needle.work_j();
     if (!led) continue;
     const Vector3d& tip = motions_[stylus].to.position_m;
@@ -141,7 +141,7 @@ void Needles::persist(Archive& archive) {
   for (OnThread& one : needles_) one.needle.persist(archive);
 }
 
-void Needles::persistHands(Archive& archive) {
+void Needles::persistTools(Archive& archive) {
   for (OnThread& one : needles_) archive.value(one.held);
   archive.value(takes_);
 }

@@ -8,8 +8,8 @@
 
 #include "solver/processes/suture/chain/chain.h"
 #include "solver/processes/suture/needle.h"
-#include "solver/processes/suture/suture_channels.h"
 #include "solver/processes/suture/suture_grips.h"
+#include "solver/processes/suture/suture_tracks.h"
 #include "viscera/math/state_hash.h"
 #include "viscera/model/scene/stylus_config.h"
 
@@ -22,7 +22,7 @@ class Needles {
  public:
   Needles(const Scene& scene, const Model& model);
 
-  using Passes = std::function<void(uint32_t suture, const NeedlePassed&, const ChannelLaw&)>;
+  using Passes = std::function<void(uint32_t suture, const NeedlePassed&, const TrackLaw&)>;
   bool empty() const { return needles_.empty(); }
   const Needle* find(size_t suture) const;
   /// Returns the stylus that holds the needle of a suture; kMaxStyluses: none.
@@ -45,13 +45,13 @@ class Needles {
 
   void reset();
   void persist(Archive& archive);       ///< state that roll-backs restore
-  void persistHands(Archive& archive);  ///< state that they do not
+  void persistTools(Archive& archive);  ///< state that they do not
   void addTo(StateHash& hash) const;
 
  private:
   struct Held {
     uint32_t stylus = layout::kMaxStyluses;  ///< kMaxStyluses: none
-    Pose in_hand;
+    Pose in_grip;
   };
   struct OnThread {
     uint32_t suture;

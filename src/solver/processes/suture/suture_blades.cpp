@@ -41,9 +41,9 @@ std::optional<MovedEdge> edgeOf(const StylusMotion& motion, const StylusConfig& 
 
 /// Tests by signed volumes; passing exactly through a border counts.
 bool pierces(const std::array<Vector3d, 2>& edge, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-  const Vector3d way = edge[1] - edge[0];
+  const Vector3d offset = edge[1] - edge[0];
   const auto side = [&](const Vector3d& from, const Vector3d& to) {
-    return way.cross(from - edge[0]).dot(to - edge[0]);
+    return offset.cross(from - edge[0]).dot(to - edge[0]);
   };
   const double ab = side(a, b), bc = side(b, c), ca = side(c, a);
   const bool through = (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
@@ -67,7 +67,7 @@ bool SutureBlades::beginTick(const ToolMotions& motions) {
   return any_;
 }
 
-std::vector<size_t> SutureBlades::met(size_t suture, const std::vector<Vector3d>& places_m) const {
+std::vector<size_t> SutureBlades::met(size_t suture, const std::vector<Vector3d>& positions_m) const {
   std::vector<size_t> out;
   if (!any_) return out;
   const std::vector<Vector3d>& before_m = before_m_[suture];
@@ -75,8 +75,9 @@ std::vector<size_t> SutureBlades::met(size_t suture, const std::vector<Vector3d>
     const std::optional<MovedEdge> edge = edgeOf(motions_[s], styluses_[s]);
     if (!edge) continue;
     const Pose from = edge->from.inverse(), to = edge->to.inverse();
-    for (size_t i = 0; i + 1 < places_m.size(); ++i) {
-      if (edgeMeets(edge->ends, {from * before_m[i], from * before_m[i + 1]}, {to * places_m[i], to * places_m[i + 1]}))
+    for (size_t i = 0; i + 1 < positions_m.size(); ++i) {
+      if (edgeMeets(edge->ends, {from * before_m[i], from * before_m[i + 1]},
+                    {to * positions_m[i], to * positions_m[i + 1]}))
         out.push_back(i);
     }
   }

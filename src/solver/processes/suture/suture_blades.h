@@ -23,10 +23,10 @@ class SutureBlades {
 
   /// Begins a tick. @returns whether there is any blade: then positions must be kept with keep(), suture by suture
   bool beginTick(const ToolMotions& motions);
-  void keep(const std::vector<Vector3d>& places_m) { before_m_.push_back(places_m); }
+  void keep(const std::vector<Vector3d>& positions_m) { before_m_.push_back(positions_m); }
   size_t kept() const { return before_m_.size(); }
-  /// Returns the links of a suture that blades met in the tick, ascending. @param places_m  positions at its end
-  std::vector<size_t> met(size_t suture, const std::vector<Vector3d>& places_m) const;
+  /// Returns the links of a suture that blades met in the tick, ascending. @param positions_m  positions at its end
+  std::vector<size_t> met(size_t suture, const std::vector<Vector3d>& positions_m) const;
 
  private:
   std::vector<StylusConfig> styluses_;

@@ -26,7 +26,7 @@ SutureBodies::SutureBodies(const Scene& scene, const Model* model)
       obstacles_(scene.obstacles),
       tick_s_(1 / scene.solver.tick_hz),
       can_cut_(suturesTear(scene)),
-      hands_(scene.styluses),
+      grips_(scene.styluses),
       blades_(scene.styluses) {
   const bool tied = std::any_of(scene.sutures.begin(), scene.sutures.end(),
                                 [](const SutureConfig& config) { return config.feelsTissue(); });
@@ -36,7 +36,7 @@ SutureBodies::SutureBodies(const Scene& scene, const Model* model)
     const auto suture = static_cast<uint32_t>(first_.size());
     SuturePiece& piece = first_.emplace_back(suture, config, needle(suture) != nullptr);
     piece.around.gravity_m_per_s2 = scene.environment.gravity_m_per_s2;
-    if (tissue_) piece.channels.lay(config, piece.chain, *model, *tissue_, piece.around.slides);
+    if (tissue_) piece.tracks.lay(config, piece.chain, *model, *tissue_, piece.around.slides);
     ties_.push_back(config.ties);
     names_.push_back(config.name);
   }
@@ -46,7 +46,7 @@ SutureBodies::SutureBodies(const Scene& scene, const Model* model)
 void SutureBodies::reset() {
   pieces_ = first_;
   for (SuturePiece& piece : pieces_) piece.chain.reset();
-  hands_.reset();
+  grips_.reset();
   if (needles_) needles_->reset();
   tick_ = 0;
   refused_.clear();
@@ -54,14 +54,14 @@ void SutureBodies::reset() {
 
 void SutureBodies::plan(Steps& steps, int count, const ObstacleMotions& obstacles) const {
   steps.count = count;
-  if (!obstacles_.empty()) interpolateObstacles(obstacles_, obstacles, count, tick_s_, steps.ways);
+  if (!obstacles_.empty()) interpolateObstacles(obstacles_, obstacles, count, tick_s_, steps.obstacle_motions);
 }
 
 void SutureBodies::cutsChanged(const CutSprings& cuts) {
   tissue_->setCuts(cuts);
   if (needles_) lips_.find(*model_, cuts);
   for (SuturePiece& piece : pieces_) {
-    piece.channels.embedAgain(*tissue_, piece.around.slides);
+    piece.tracks.embedAgain(*tissue_, piece.around.slides);
     piece.skin.clear();
   }
   if (needles_) needles_->embedAgain(*tissue_);
@@ -71,15 +71,15 @@ void SutureBodies::beginTick(const ProcessTick& tick) {
   std::vector<const Chain*> chains;
   for (const SuturePiece& piece : pieces_) chains.push_back(&piece.chain);
   tieWhatIsDue();
-  hands_.beginTick(tick.motions, chains);
+  grips_.beginTick(tick.motions, chains);
   if (blades_.beginTick(tick.motions)) {
-    for (const SuturePiece& piece : pieces_) blades_.keep(piece.chain.places_m());
+    for (const SuturePiece& piece : pieces_) blades_.keep(piece.chain.positions_m());
   }
   bool any = false;
   for (size_t t = 0; t < pieces_.size(); ++t)
-    any |= pieces_[t].tied = tissue_ && (!pieces_[t].channels.empty() || needle(t));
+    any |= pieces_[t].tied = tissue_ && (!pieces_[t].tracks.empty() || needle(t));
   for (SuturePiece& piece : pieces_) {
-    if (piece.tied) piece.skin.lay(*model_, *tissue_, piece.channels.outer());
+    if (piece.tied) piece.skin.lay(*model_, *tissue_, piece.tracks.outer());
   }
   if (any) {
     per_substep_ = static_cast<int>(std::ceil(tick_s_ / tick.substeps / kSutureSubstep_s));
@@ -98,7 +98,7 @@ std::vector<const TissuePoint*> SutureBodies::tiedPoints() const {
   std::vector<const TissuePoint*> out;
   for (const SuturePiece& piece : pieces_) {
     if (!piece.tied) continue;
-    piece.channels.addPoints(out);
+    piece.tracks.addPoints(out);
     piece.skin.addPoints(out);
   }
   lips_.addPoints(out);  // they are read even if sutures have no channels yet, as before a needle passes
@@ -112,10 +112,10 @@ void SutureBodies::moveNeedles(TissuePort& port, int index) {
   const double share = 1.0 / tied_.count, before_j = needles_->work_j();
   needles_->act(port, *tissue_, last * share, per_substep_ * share * tick_s_, obstaclesOf(tied_, last - 1),
                 static_cast<uint32_t>(obstacles_.size()),
-                [this](uint32_t t, const NeedlePassed& passed, const ChannelLaw& law) {
+                [this](uint32_t t, const NeedlePassed& passed, const TrackLaw& law) {
                   SuturePiece& piece = pieces_[t];
-                  piece.channels.take(passed.point, !passed.enters, law, passed.beyond_m / piece.chain.link_m(),
-                                      *tissue_, piece.around.slides);
+                  piece.tracks.take(passed.point, !passed.enters, law, passed.beyond_m / piece.chain.link_m(), *tissue_,
+                                    piece.around.slides);
                 });
   work_j_ += needles_->work_j() - before_j;
 }
@@ -140,7 +140,7 @@ bool SutureBodies::act(TissuePort& port, const ProcessTick&, const ProcessSubste
   work_j_ += tissue_->work_j();
   bool cut = false;
   for (SuturePiece& piece : pieces_) {
-    if (piece.tied) cut |= piece.channels.end(*tissue_, port, can_cut_, piece.chain.link_m(), piece.around.slides);
+    if (piece.tied) cut |= piece.tracks.end(*tissue_, port, can_cut_, piece.chain.link_m(), piece.around.slides);
   }
   return cut;
 }
@@ -158,7 +158,7 @@ void SutureBodies::stepLoose() {
     }
   }
   for (uint32_t t = 0; t < pieces_.size(); ++t) {
-    std::vector<uint32_t> held = hands_.nodesOf(t);
+    std::vector<uint32_t> held = grips_.nodesOf(t);
     if (held.empty()) continue;
     SuturePiece& piece = pieces_[t];
     for (size_t h = 0; h < piece.fixed_holds; ++h) held.push_back(piece.around.holds[h].node);
@@ -173,7 +173,7 @@ void SutureBodies::tie(size_t at, const SutureTie& tie) {
   SuturePiece& piece = pieces_[at];
   piece.knots.clean(piece.around);
   piece.knots.tie(
-      tie, piece.chain, [&](double s) { return piece.channels.hides(s, piece.around.slides); }, piece.around);
+      tie, piece.chain, [&](double s) { return piece.tracks.hides(s, piece.around.slides); }, piece.around);
 }
 
 void SutureBodies::tieWhatIsDue() {
@@ -192,7 +192,7 @@ void SutureBodies::tieWhatIsDue() {
 void SutureBodies::partWhatBladesMet() {
   const size_t count = pieces_.size();
   for (uint32_t t = 0; t < count; ++t) {
-    const std::vector<size_t> met = blades_.met(t, pieces_[t].chain.places_m());
+    const std::vector<size_t> met = blades_.met(t, pieces_[t].chain.positions_m());
     for (auto link = met.rbegin(); link != met.rend(); ++link) {  // from its end, so nodes before it keep their indices
       if (*link + 1 < pieces_[t].chain.nodes()) part(t, *link + 1);
     }
@@ -202,7 +202,7 @@ void SutureBodies::partWhatBladesMet() {
 bool SutureBodies::part(uint32_t at, size_t near) {
   const size_t node = pieces_[at].canPart(near);
   if (node == 0 || pieces_.size() >= first_.size() + kMostParted) return false;
-  hands_.parted(at, static_cast<uint32_t>(node), static_cast<uint32_t>(pieces_.size()));
+  grips_.parted(at, static_cast<uint32_t>(node), static_cast<uint32_t>(pieces_.size()));
   SuturePiece behind = pieces_[at].part(node);
   pieces_.push_back(std::move(behind));
   return true;
@@ -211,10 +211,10 @@ bool SutureBodies::part(uint32_t at, size_t near) {
 void SutureBodies::addPulls(StylusPulls& pulls) const {
   for (size_t s = 0; s < pulls.size(); ++s) {
     StylusPull& out = pulls[s];
-    const StylusPull& hand = hands_.pulls()[s];
-    out.impulse_ns += hand.impulse_ns;
-    out.moment_nms += hand.moment_nms;
-    out.nodes += hand.nodes;
+    const StylusPull& pull = grips_.pulls()[s];
+    out.impulse_ns += pull.impulse_ns;
+    out.moment_nms += pull.moment_nms;
+    out.nodes += pull.nodes;
     if (!needles_) continue;
     const StylusPull& needle = needles_->pulls()[s];
     out.impulse_ns += needle.impulse_ns;
@@ -226,7 +226,7 @@ void SutureBodies::addPulls(StylusPulls& pulls) const {
 }
 
 const layout::ObstacleMotion* SutureBodies::obstaclesOf(const Steps& steps, int index) const {
-  return obstacles_.empty() ? nullptr : &steps.ways[static_cast<size_t>(index) * layout::kMaxObstacles];
+  return obstacles_.empty() ? nullptr : &steps.obstacle_motions[static_cast<size_t>(index) * layout::kMaxObstacles];
 }
 
 void SutureBodies::step(const ToolMotions& motions, const ObstacleMotions& obstacles) {
@@ -243,8 +243,8 @@ void SutureBodies::substep(uint32_t t, const Steps& steps, int index) {
   std::vector<ChainHold>& holds = suture.around.holds;
   holds.resize(suture.fixed_holds);
   if (on_needle) needles_->lay(t, (index % per_substep_ + 1.0) / per_substep_, holds[0]);
-  hands_.addHolds(t, static_cast<double>(index + 1) / steps.count, holds);
-  BesideChannels beside;
+  grips_.addHolds(t, static_cast<double>(index + 1) / steps.count, holds);
+  NearTracks beside;
   if (suture.tied && !suture.around.slides.empty()) {
     suture.skin.begin(*tissue_);
     beside = {&suture.skin, suture.around.slides.front().s, suture.around.slides.back().s};
@@ -254,23 +254,23 @@ void SutureBodies::substep(uint32_t t, const Steps& steps, int index) {
     return suture.touches.catchUp(suture.chain, obstacles, count, dt_s, ends_m, touches);
   };
   if (suture.tied) {
-    suture.channels.begin(*tissue_, suture.around.slides);
-    suture.around.answer = [&](std::vector<ChainSlide>& slides) { suture.channels.answer(*tissue_, dt_s, slides); };
+    suture.tracks.begin(*tissue_, suture.around.slides);
+    suture.around.answer = [&](std::vector<ChainSlide>& slides) { suture.tracks.answer(*tissue_, dt_s, slides); };
   }
   suture.knots.beginSubstep(dt_s, suture.chain, suture.around);
   suture.chain.step(dt_s, suture.around);
-  noteLinks(suture.chain);
+  recordLinks(suture.chain);
   suture.around.entered = {};
   suture.around.answer = {};
   if (suture.tied) {
-    suture.channels.note(suture.around.slides);
+    suture.tracks.record(suture.around.slides);
     suture.skin.give(suture.around.touches, dt_s, *tissue_);
   }
-  hands_.takeOver(t, holds, suture.fixed_holds);
+  grips_.takeOver(t, holds, suture.fixed_holds);
   if (on_needle) needles_->takeOver(t, holds[0]);
 }
 
-void SutureBodies::noteLinks(const Chain& chain) {
+void SutureBodies::recordLinks(const Chain& chain) {
   ++links_.substeps;
   links_.off += chain.worstLink() > kOffLink;
   links_.worst = std::max(links_.worst, chain.worstLink());
@@ -281,9 +281,9 @@ void SutureBodies::noteLinks(const Chain& chain) {
 void SutureBodies::persist(Archive& archive) {
   archive.section("sutures");
   persistUndone(archive);
-  hands_.persist(archive);
+  grips_.persist(archive);
   archive.value(tick_);
-  if (needles_) needles_->persistHands(archive);
+  if (needles_) needles_->persistTools(archive);
 }
 
 void SutureBodies::persistUndone(Archive& archive) {
@@ -310,7 +310,7 @@ void SutureBodies::persistUndone(Archive& archive) {
 void SutureBodies::undone(bool at_rest) {
   std::vector<size_t> nodes;
   for (const SuturePiece& piece : pieces_) nodes.push_back(piece.chain.nodes());
-  hands_.letGoMissing(nodes);
+  grips_.letGoMissing(nodes);
   if (!at_rest) return;
   for (SuturePiece& piece : pieces_) piece.chain.stop();
 }
@@ -318,7 +318,7 @@ void SutureBodies::undone(bool at_rest) {
 bool SutureBodies::addTo(StateHash& hash) const {
   for (const SuturePiece& piece : pieces_) {
     for (size_t i = 0; i < piece.chain.nodes(); ++i) {
-      for (const Vector3d& vector : {piece.chain.places_m()[i], piece.chain.velocities_m_per_s()[i]}) {
+      for (const Vector3d& vector : {piece.chain.positions_m()[i], piece.chain.velocities_m_per_s()[i]}) {
         for (const double part : vector) hash.add(static_cast<float>(part));
       }
     }

@@ -57,7 +57,7 @@ class SutureBodies : public TissueProcess {
   void undone(bool at_rest) override;
   bool addTo(StateHash& hash) const override;
   FactGroup facts() const override;
-  void draw(ProcessVisuals& look) const override;
+  void draw(ProcessVisuals& visuals) const override;
 
   /// Brings the tails of a piece together and ties them. @param piece  < count()
   /// @throws Error  there is no such piece, or the reason why it cannot be tied
@@ -78,11 +78,11 @@ class SutureBodies : public TissueProcess {
   /// The substeps of a tick.
   struct Steps {
     int count = 1;
-    std::vector<layout::ObstacleMotion> ways;  ///< [count * kMaxObstacles]
+    std::vector<layout::ObstacleMotion> obstacle_motions;  ///< [count * kMaxObstacles]
   };
   void plan(Steps& steps, int count, const ObstacleMotions& obstacles) const;
   void substep(uint32_t suture, const Steps& steps, int index);
-  void noteLinks(const Chain& chain);
+  void recordLinks(const Chain& chain);
   const layout::ObstacleMotion* obstaclesOf(const Steps& steps, int index) const;
   bool anyTied() const;
   std::vector<const TissuePoint*> tiedPoints() const;
@@ -100,7 +100,7 @@ class SutureBodies : public TissueProcess {
   bool can_cut_;
   std::unique_ptr<TissuePoints> tissue_;  ///< null: no suture is in tissue
   WoundLips lips_;
-  SutureGrips hands_;
+  SutureGrips grips_;
   std::optional<Needles> needles_;  ///< only where sutures are in tissue
   SutureBlades blades_;
   std::vector<std::vector<SutureTie>> ties_;  ///< [sutures of the scene]

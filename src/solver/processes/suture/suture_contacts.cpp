@@ -64,28 +64,28 @@ bool earlier(const ChainTouch& touch, const std::pair<uint32_t, uint32_t>& numbe
 
 }  // namespace
 
-ObstacleSide sideOf(const layout::ObstacleMotion& obstacle, const Vector3d& place_m) {
+ObstacleSide sideOf(const layout::ObstacleMotion& obstacle, const Vector3d& position_m) {
   const layout::vec4& q = obstacle.to_orientation;
   const Quaterniond turn(q.w, q.x, q.y, q.z);
-  const ObstacleSide own = nearestOf(obstacle, turn.conjugate() * (place_m - xyz(obstacle.to)));
+  const ObstacleSide own = nearestOf(obstacle, turn.conjugate() * (position_m - xyz(obstacle.to)));
   return {own.distance_m, turn * own.normal};
 }
 
 void SutureContacts::find(const Chain& chain, const layout::ObstacleMotion* obstacles, uint32_t count,
-                          const BesideChannels& beside, double dt_s, std::vector<ChainTouch>& touches) {
+                          const NearTracks& beside, double dt_s, std::vector<ChainTouch>& touches) {
   laid_ = 0;
   before_.swap(touches);
   touches.clear();
   auto kept = before_.cbegin();
   for (uint32_t node = 0; node < chain.nodes(); ++node) {
-    const Vector3d way = dt_s * chain.velocities_m_per_s()[node], ahead = chain.places_m()[node] + way;
-    const double reach_m = chain.material().radius_m + chain.link_m() + kReachSteps * way.norm();
+    const Vector3d offset = dt_s * chain.velocities_m_per_s()[node], ahead = chain.positions_m()[node] + offset;
+    const double reach_m = chain.material().radius_m + chain.link_m() + kReachSteps * offset.norm();
     for (uint32_t thing = 0; thing < count; ++thing) {
       Vector3d at = ahead;
       ObstacleSide nearest = sideOf(obstacles[thing], at);
       if (nearest.distance_m > reach_m) continue;
       if (nearest.distance_m < -kDeep * chain.material().radius_m) {
-        at = chain.places_m()[node];
+        at = chain.positions_m()[node];
         nearest = sideOf(obstacles[thing], at);
       }
       touches.push_back(knownAs({node, thing}, kept));
@@ -120,8 +120,8 @@ bool SutureContacts::catchUp(const Chain& chain, const layout::ObstacleMotion* o
       const double distance_m = sideOf(obstacles[thing], ends_m[node]).distance_m;
       if (distance_m > chain.material().radius_m) continue;
       const Number number{node, thing};
-      const auto place = std::lower_bound(touches.begin(), touches.end(), number, earlier);
-      if (place != touches.end() && numberOf(*place) == number) {
+      const auto position = std::lower_bound(touches.begin(), touches.end(), number, earlier);
+      if (position != touches.end() && numberOf(*position) == number) {
         deep |= distance_m < kSunk * chain.material().radius_m;
         continue;
       }
@@ -129,9 +129,9 @@ bool SutureContacts::catchUp(const Chain& chain, const layout::ObstacleMotion* o
       touch.node = node;
       touch.thing = thing;
       touch.closed = true;
-      const Vector3d& from = chain.places_m()[node];
+      const Vector3d& from = chain.positions_m()[node];
       lay(touch, obstacles[thing], from, sideOf(obstacles[thing], from), dt_s);
-      touches.insert(place, touch);
+      touches.insert(position, touch);
       any = true;
     }
   }
@@ -148,7 +148,7 @@ bool SutureContacts::layAgain(const Chain& chain, const layout::ObstacleMotion* 
     Vector3d at = ends_m[touch.node];
     ObstacleSide nearest = sideOf(obstacles[touch.thing], at);
     if (nearest.distance_m < -kDeep * chain.material().radius_m) {
-      at = chain.places_m()[touch.node];
+      at = chain.positions_m()[touch.node];
       nearest = sideOf(obstacles[touch.thing], at);
     }
     lay(touch, obstacles[touch.thing], at, nearest, dt_s);

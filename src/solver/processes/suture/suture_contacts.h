@@ -18,10 +18,10 @@ struct ObstacleSide {
   Vector3d normal;
 };
 /// Returns the side at the end of a substep, tissue frame.
-ObstacleSide sideOf(const layout::ObstacleMotion& obstacle, const Vector3d& place_m);
+ObstacleSide sideOf(const layout::ObstacleMotion& obstacle, const Vector3d& position_m);
 
 /// The surface, for the nodes of a chain that are not in tissue.
-struct BesideChannels {
+struct NearTracks {
   const SutureSkin* skin = nullptr;
   double low = 0, high = 0;  ///< outer channels on the chain [links]; nodes between or within a link of them are exempt
 };
@@ -32,7 +32,7 @@ class SutureContacts {
  public:
   /// Finds the contacts of nearby nodes. Contacts that existed in the last substep keep their state.
   /// @param obstacles  over the next substep   @param touches  in: of the last substep; out: of this one
-  void find(const Chain& chain, const layout::ObstacleMotion* obstacles, uint32_t count, const BesideChannels& beside,
+  void find(const Chain& chain, const layout::ObstacleMotion* obstacles, uint32_t count, const NearTracks& beside,
             double dt_s, std::vector<ChainTouch>& touches);
   /// Adds contacts of nodes that jumped into an obstacle from farther away: they stay on the side from which they came.
   /// Where the chain is pressed into what it touches, all contacts are placed again.

@@ -37,11 +37,11 @@ FactGroup SutureBodies::facts() const {
   return out;
 }
 
-void SutureBodies::draw(ProcessVisuals& look) const {
+void SutureBodies::draw(ProcessVisuals& visuals) const {
   for (const SuturePiece& piece : pieces_)
-    look.sutures.push_back({piece.suture, TubeKind::kSuture, piece.chain.places_m()});
+    visuals.sutures.push_back({piece.suture, TubeKind::kSuture, piece.chain.positions_m()});
   for (size_t t = 0; t < first_.size(); ++t) {
-    if (const Needle* const one = needle(t)) look.sutures.push_back({t, TubeKind::kNeedle, one->places_m()});
+    if (const Needle* const one = needle(t)) visuals.sutures.push_back({t, TubeKind::kNeedle, one->positions_m()});
   }
 }
 

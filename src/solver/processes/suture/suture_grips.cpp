@@ -24,12 +24,13 @@ void SutureGrips::beginTick(const ToolMotions& motions, const std::vector<const 
 void SutureGrips::takeHold(Grip& grip, const Pose& tip, double reach_m, const std::vector<const Chain*>& sutures) {
   double nearest_m = reach_m;
   for (uint32_t t = 0; t < sutures.size(); ++t) {
-    const std::vector<Vector3d>& places = sutures[t]->places_m();
-    for (uint32_t i = 0; i + 1 < places.size(); ++i) {
-      const double distance_m = (places[i] - tip.position_m).norm();
+    const std::vector<Vector3d>& positions = sutures[t]->positions_m();
+    for (uint32_t i = 0; i + 1 < positions.size(); ++i) {
+      const double distance_m = (positions[i] - tip.position_m).norm();
       if (distance_m > nearest_m) continue;
       nearest_m = distance_m;
-      grip = {t, i, true, {tip.inverse() * places[i], tip.inverse() * places[i + 1]}, {kRigidMass_kg, kRigidMass_kg}};
+      grip = {
+          t, i, true, {tip.inverse() * positions[i], tip.inverse() * positions[i + 1]}, {kRigidMass_kg, kRigidMass_kg}};
     }
   }
 }
@@ -42,7 +43,7 @@ void SutureGrips::addHolds(uint32_t suture, double at, std::vector<ChainHold>& h
     for (uint32_t k = 0; k < 2; ++k) {
       ChainHold hold;
       hold.node = grip.node + k;
-      hold.to_m = tip * grip.places_m[k];
+      hold.to_m = tip * grip.positions_m[k];
       hold.most_n = styluses_[s].max_force_n / 2;
       hold.stiffness_kg = grip.stiffness_kg[k];
       holds.push_back(hold);

@@ -38,7 +38,7 @@ class SutureGrips {
   struct Grip {
     uint32_t suture = 0, node = 0;
     bool holds = false;
-    std::array<Vector3d, 2> places_m;  ///< positions in the stylus's frame
+    std::array<Vector3d, 2> positions_m;  ///< positions in the stylus's frame
     std::array<double, 2> stiffness_kg;
   };
   static void takeHold(Grip& grip, const Pose& tip, double reach_m, const std::vector<const Chain*>& sutures);

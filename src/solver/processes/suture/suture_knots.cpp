@@ -15,33 +15,33 @@ namespace viscera {
 
 namespace {
 
-constexpr double kStrength_pa = 2e8;      // 5.9 N of USP 4-0, 14 N of 2-0: 245 and 175 MPa of their cross-sections
-constexpr double kClose_m_per_s = 0.05;   // of tails that are brought together
-constexpr double kDraw_m_per_s = 0.02;    // of a loop that is drawn tight
-constexpr double kLook_s = 0.05;          // interval of the checks whether it still shrinks
-constexpr double kTight = 0.25;           // of that speed: a slower loop counts as tight
-constexpr double kLeastLoop = 2.5;        // links
-constexpr double kFromSkin = 0.5;         // of the distance of two channels: initial position of a knot behind each
-constexpr double kLeastReach = 1.5;       // links
-constexpr double kWithoutChannels = 0.4;  // share of the suture that is tail at either end
-constexpr double kPulled_n = 2e-3;        // of both tails, to pull a throw down: loops of some mm bend at that
-constexpr double kKnotAhead = 0.25;  // of two styluses' distance: nearer ahead of the tails' roots there is no axis
-constexpr double kNear_m = 1e-3;     // styluses nearer to each other, or to the roots, define no angle
-constexpr double kMoreThrows = 0.5;  // of the force that two throws hold, for each additional one
+constexpr double kStrength_pa = 2e8;     // 5.9 N of USP 4-0, 14 N of 2-0: 245 and 175 MPa of their cross-sections
+constexpr double kClose_m_per_s = 0.05;  // of tails that are brought together
+constexpr double kDraw_m_per_s = 0.02;   // of a loop that is drawn tight
+constexpr double kCheckEvery_s = 0.05;   // interval of the checks whether it still shrinks
+constexpr double kTight = 0.25;          // of that speed: a slower loop counts as tight
+constexpr double kLeastLoop = 2.5;       // links
+constexpr double kFromSkin = 0.5;        // of the distance of two channels: initial position of a knot behind each
+constexpr double kLeastReach = 1.5;      // links
+constexpr double kWithoutTracks = 0.4;   // share of the suture that is tail at either end
+constexpr double kPulled_n = 2e-3;       // of both tails, to pull a throw down: loops of some mm bend at that
+constexpr double kKnotAhead = 0.25;      // of two styluses' distance: nearer ahead of the tails' roots there is no axis
+constexpr double kNear_m = 1e-3;         // styluses nearer to each other, or to the roots, define no angle
+constexpr double kMoreThrows = 0.5;      // of the force that two throws hold, for each additional one
 
 struct Tails {
   double low, high;  // roots, on the chain
-  bool channels = false;
+  bool tracks = false;
 };
 
 Tails tailsOf(const Chain& chain, const ChainAround& around) {
   const auto links = static_cast<double>(chain.nodes() - 1);
-  Tails out{kWithoutChannels * links, (1 - kWithoutChannels) * links};
+  Tails out{kWithoutTracks * links, (1 - kWithoutTracks) * links};
   for (const ChainSlide& slide : around.slides) {
     if (slide.out) continue;
-    out.low = out.channels ? std::min(out.low, slide.s) : slide.s;
-    out.high = out.channels ? std::max(out.high, slide.s) : slide.s;
-    out.channels = true;
+    out.low = out.tracks ? std::min(out.low, slide.s) : slide.s;
+    out.high = out.tracks ? std::max(out.high, slide.s) : slide.s;
+    out.tracks = true;
   }
   for (const ChainKnot& knot : around.knots) {
     if (knot.out) continue;
@@ -57,7 +57,7 @@ struct Nearest {
 };
 
 Nearest nearestOf(const Chain& chain, const Tails& tails) {
-  const std::vector<Vector3d>& x = chain.places_m();
+  const std::vector<Vector3d>& x = chain.positions_m();
   Nearest out;
   for (auto i = static_cast<size_t>(std::ceil(tails.high)) + 1; i + 2 < x.size(); ++i) {
     for (size_t j = 2; j + 1 < static_cast<size_t>(tails.low); ++j) {
@@ -69,12 +69,12 @@ Nearest nearestOf(const Chain& chain, const Tails& tails) {
 }
 
 Vector3d apartOf(const Chain& chain, const ChainKnot& knot) {
-  const std::vector<Vector3d>& x = chain.places_m();
+  const std::vector<Vector3d>& x = chain.positions_m();
   return ChainPoint(knot.s2, x.size()).of(x) - ChainPoint(knot.s1, x.size()).of(x);
 }
 
 Vector3d rootOf(const Chain& chain, const Tails& tails) {
-  const std::vector<Vector3d>& x = chain.places_m();
+  const std::vector<Vector3d>& x = chain.positions_m();
   return 0.5 * (ChainPoint(tails.low, x.size()).of(x) + ChainPoint(tails.high, x.size()).of(x));
 }
 
@@ -90,7 +90,7 @@ void requireRoom(const ChainAround& around) {
 }
 
 double apart_m(const Chain& chain, double one, double other) {
-  const std::vector<Vector3d>& x = chain.places_m();
+  const std::vector<Vector3d>& x = chain.positions_m();
   return (ChainPoint(other, x.size()).of(x) - ChainPoint(one, x.size()).of(x)).norm();
 }
 
@@ -100,7 +100,7 @@ void requireTail(const char* which, double s, double has, double wanted, double 
               " mm long; at least " + numberText(1e3 * wanted * link_m) + " mm are needed");
 }
 
-ChainKnot aboveChannels(const Chain& chain, const ChainAround& around, const Tails& tails) {
+ChainKnot aboveTracks(const Chain& chain, const ChainAround& around, const Tails& tails) {
   const auto last = static_cast<double>(chain.nodes() - 1);
   const double across = apart_m(chain, tails.high, tails.low) / chain.link_m();
   const double reach = std::max(kLeastReach, around.knots.empty() ? kFromSkin * across : kLeastReach);
@@ -123,12 +123,12 @@ ChainKnot whereNearest(const Chain& chain, const Tails& tails) {
 }
 
 /// Returns the position on the strand between the outer channels, outside tissue, nearest to a point; 0: none.
-double strandNearest(const Vector3d& place_m, const Chain& chain, const ChainAround& around, const Tails& tails,
+double strandNearest(const Vector3d& position_m, const Chain& chain, const ChainAround& around, const Tails& tails,
                      const std::function<bool(double s)>& hidden) {
   double out = 0, least_m = std::numeric_limits<double>::infinity();
   for (auto i = static_cast<size_t>(std::ceil(tails.low)); static_cast<double>(i) < tails.high; ++i) {
     const auto s = static_cast<double>(i);
-    const double distance_m = (chain.places_m()[i] - place_m).norm();
+    const double distance_m = (chain.positions_m()[i] - position_m).norm();
     const bool taken = std::any_of(around.slides.begin(), around.slides.end(), [s](const ChainSlide& slide) {
       return !slide.out && std::abs(slide.s - s) < kKnotApart;
     });
@@ -140,10 +140,10 @@ double strandNearest(const Vector3d& place_m, const Chain& chain, const ChainAro
 }
 
 /// Returns a knot that brings the tail nearer along the chain to the strand.
-ChainKnot toStrand(const Vector3d& place_m, const Chain& chain, const ChainAround& around, const Tails& tails,
+ChainKnot toStrand(const Vector3d& position_m, const Chain& chain, const ChainAround& around, const Tails& tails,
                    const std::function<bool(double s)>& hidden) {
   ChainKnot out;
-  out.s1 = tails.channels ? strandNearest(place_m, chain, around, tails, hidden) : 0;
+  out.s1 = tails.tracks ? strandNearest(position_m, chain, around, tails, hidden) : 0;
   if (!(out.s1 > 0)) throw Error("it has no strand between two of its channels and outside of tissue");
   const bool start = out.s1 - tails.low < tails.high - out.s1;
   const double root = start ? tails.low : tails.high, last = static_cast<double>(chain.nodes() - 1);
@@ -175,7 +175,7 @@ void SutureKnots::tie(const SutureTie& tie, const Chain& chain, const std::funct
   if (tie.to == TieTo::kStrand)
     knot = toStrand(tie.strand_m, chain, around, tails, hidden);
   else
-    knot = tails.channels || !around.knots.empty() ? aboveChannels(chain, around, tails) : whereNearest(chain, tails);
+    knot = tails.tracks || !around.knots.empty() ? aboveTracks(chain, around, tails) : whereNearest(chain, tails);
   knot.apart_m = apartOf(chain, knot);
   knot.tied = true;
   knot.holds_n = tie.tension_n;
@@ -183,7 +183,7 @@ void SutureKnots::tie(const SutureTie& tie, const Chain& chain, const std::funct
   thrown.kind = tie.knot;
   thrown.drawn = true;
   thrown.holds_n = tie.holds_n > 0 ? tie.holds_n : knotHolds(tie.knot, 0, knotStrength(chain.material().radius_m));
-  thrown.looked_place = knot.s2;
+  thrown.checked_position = knot.s2;
   around.knots.push_back(knot);
   thrown_.push_back(thrown);
 }
@@ -206,19 +206,19 @@ void SutureKnots::beginSubstep(double dt_s, const Chain& chain, ChainAround& aro
 /// Moves s2 towards the loop, and lets it slip back when the loop reaches its tension.
 void SutureKnots::draw(ThrownKnot& thrown, ChainKnot& knot, double dt_s, double link_m,
                        const ChainAround& around) const {
-  const double way = knot.s1 > knot.s2 ? 1 : -1, step = kDraw_m_per_s * dt_s / link_m;
+  const double offset = knot.s1 > knot.s2 ? 1 : -1, step = kDraw_m_per_s * dt_s / link_m;
   double free = std::abs(knot.s1 - knot.s2) - kLeastLoop;
   for (const ChainSlide& slide : around.slides) {
-    const double ahead = way * (slide.s - knot.s2);
+    const double ahead = offset * (slide.s - knot.s2);
     if (!slide.out && ahead > 0) free = std::min(free, ahead - 2 * kKnotApart);
   }
-  knot.s2 += way * std::clamp(free, 0.0, step);
+  knot.s2 += offset * std::clamp(free, 0.0, step);
   thrown.looked_s += dt_s;
-  if (thrown.looked_s < kLook_s) return;
-  const double gone = way * (knot.s2 - thrown.looked_place) * link_m;
+  if (thrown.looked_s < kCheckEvery_s) return;
+  const double gone = offset * (knot.s2 - thrown.checked_position) * link_m;
   thrown.drawn = gone > kTight * kDraw_m_per_s * thrown.looked_s;
   thrown.looked_s = 0;
-  thrown.looked_place = knot.s2;
+  thrown.checked_position = knot.s2;
   if (!thrown.drawn) knot.holds_n = thrown.holds_n;
 }
 
@@ -227,9 +227,9 @@ void SutureKnots::countThrows(const Chain& chain, const std::vector<uint32_t>& h
   const Tails tails = tailsOf(chain, around);
   const Vector3d *first = nullptr, *second = nullptr;
   for (const uint32_t node : held) {
-    const Vector3d& place_m = chain.places_m()[node];
-    if (node < tails.low) first = &place_m;
-    if (node > tails.high) second = &place_m;
+    const Vector3d& position_m = chain.positions_m()[node];
+    if (node < tails.low) first = &position_m;
+    if (node > tails.high) second = &position_m;
   }
   if (!first || !second) {
     apart_m_.setZero();
@@ -241,11 +241,11 @@ void SutureKnots::countThrows(const Chain& chain, const std::vector<uint32_t>& h
     addThrow(turns, chain, around);
     turns_ -= turns;  // turns made while the tails are pulled belong to this throw, not to the next
   }
-  turnHands(rootOf(chain, tails), *first, *second);
+  turnGrips(rootOf(chain, tails), *first, *second);
 }
 
 /// Adds the rotation of the vector between styluses about the axis from the tails' roots to their midpoint.
-void SutureKnots::turnHands(const Vector3d& root_m, const Vector3d& first_m, const Vector3d& second_m) {
+void SutureKnots::turnGrips(const Vector3d& root_m, const Vector3d& first_m, const Vector3d& second_m) {
   const Vector3d ahead_m = 0.5 * (first_m + second_m) - root_m, apart_m = second_m - first_m;
   const double ahead = ahead_m.norm();
   if (ahead < kKnotAhead * apart_m.norm() || ahead < kNear_m) return;  // pulled apart: there is no axis
@@ -295,7 +295,7 @@ SutureKnots SutureKnots::part(double at, const ChainAround& around) {
     const ChainKnot& knot = around.knots[k];
     if ((knot.s1 > at) != (knot.s2 > at)) continue;  // its loop is open
     (knot.s1 > at ? behind.thrown_ : before).push_back(thrown_[k]);
-    if (knot.s1 > at) behind.thrown_.back().looked_place -= at;
+    if (knot.s1 > at) behind.thrown_.back().checked_position -= at;
   }
   thrown_ = std::move(before);
   return behind;

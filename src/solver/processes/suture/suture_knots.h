@@ -21,10 +21,10 @@ struct ThrownKnot {
   KnotKind kind = KnotKind::kNone;
   std::array<int8_t, kMostThrows> turns{};  ///< signed turns of each throw; none if not thrown by styluses
   uint32_t throws = 0;
-  bool drawn = false;       ///< the loop is being drawn tight
-  double holds_n = 0;       ///< force at which it slips when tied
-  double looked_s = 0;      ///< time of the last check, since its loop is being drawn
-  double looked_place = 0;  ///< value of s2 at that check
+  bool drawn = false;           ///< the loop is being drawn tight
+  double holds_n = 0;           ///< force at which it slips when tied
+  double looked_s = 0;          ///< time of the last check, since its loop is being drawn
+  double checked_position = 0;  ///< value of s2 at that check
 };
 
 /// Returns the force at which a knot slips [N]. @param strength_n  at which the suture breaks in a knot
@@ -58,7 +58,7 @@ class SutureKnots {
   void draw(ThrownKnot& thrown, ChainKnot& knot, double dt_s, double link_m, const ChainAround& around) const;
   void addThrow(int turns, const Chain& chain, ChainAround& around);
 
-  void turnHands(const Vector3d& root_m, const Vector3d& first_m, const Vector3d& second_m);
+  void turnGrips(const Vector3d& root_m, const Vector3d& first_m, const Vector3d& second_m);
 
   std::vector<ThrownKnot> thrown_;
   double turns_ = 0;

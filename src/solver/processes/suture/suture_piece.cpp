@@ -19,13 +19,13 @@ constexpr size_t kLeastPieceNodes = 3;  // nodes of a chain
 }  // namespace
 
 SuturePiece::SuturePiece(uint32_t of_suture, const SutureConfig& config, bool on_needle)
-    : suture(of_suture), chain(materialOf(config), placesOf(config)) {
+    : suture(of_suture), chain(materialOf(config), positionsOf(config)) {
   const auto last = static_cast<uint32_t>(chain.nodes() - 1);
   for (const uint32_t node : {0U, last}) {
     if (!(node == 0 && on_needle) && (node == 0 ? config.start : config.end) == SutureEnd::kFree) continue;
     around.holds.emplace_back();
     around.holds.back().node = node;
-    around.holds.back().to_m = chain.places_m()[node];
+    around.holds.back().to_m = chain.positions_m()[node];
   }
   fixed_holds = around.holds.size();
   around.swaged[0] = on_needle;
@@ -43,7 +43,7 @@ SuturePiece SuturePiece::part(size_t node) {
   behind.knots = knots.part(static_cast<double>(node), around);
   const auto before = std::count_if(around.slides.begin(), around.slides.end(),
                                     [&](const ChainSlide& slide) { return slide.s <= static_cast<double>(node); });
-  behind.channels = channels.part(static_cast<size_t>(before));
+  behind.tracks = tracks.part(static_cast<size_t>(before));
   behind.around = partAround(node, around);
   fixed_holds = around.holds.size();
   behind.fixed_holds = behind.around.holds.size();
@@ -75,7 +75,7 @@ void SuturePiece::persist(Archive& archive) {
   chain.persist(archive);
   archive.list(around.touches);
   archive.list(around.slides);
-  channels.persist(archive);
+  tracks.persist(archive);
   archive.list(around.knots);
   knots.persist(archive);
   std::vector<ChainHold> fixed(around.holds.begin(), around.holds.begin() + static_cast<std::ptrdiff_t>(fixed_holds));

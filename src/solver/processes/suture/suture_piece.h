@@ -3,9 +3,9 @@
 #pragma once
 
 #include "solver/processes/suture/chain/chain.h"
-#include "solver/processes/suture/suture_channels.h"
 #include "solver/processes/suture/suture_contacts.h"
 #include "solver/processes/suture/suture_knots.h"
+#include "solver/processes/suture/suture_tracks.h"
 #include "viscera/solver/suture_state.h"
 
 namespace viscera {
@@ -28,7 +28,7 @@ struct SuturePiece {
   ChainAround around;  ///< holds: those of fixed ends, then those of styluses
   size_t fixed_holds = 0;
   SutureContacts touches;
-  SutureChannels channels;
+  SutureTracks tracks;
   SutureKnots knots;
   SutureSkin skin;
   bool tied = false;  ///< tied to tissue in this tick

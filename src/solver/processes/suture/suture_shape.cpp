@@ -43,8 +43,8 @@ double orElse(double value, double otherwise) {
 class Walk {
  public:
   explicit Walk(const SutureConfig& config) : path_{config.position_m}, at_(config.position_m) {
-    for (const SuturePathPoint& place : config.path) {
-      if (place.position_m != path_.back()) path_.push_back(place.position_m);
+    for (const SuturePathPoint& position : config.path) {
+      if (position.position_m != path_.back()) path_.push_back(position.position_m);
     }
     if (path_.size() < 2)
       throw SceneError("suture '" + config.name + "': 'path' must contain a position that differs from 'position_m'");
@@ -58,12 +58,12 @@ class Walk {
   void go(double distance_m) {
     for (;; ++next_) {
       const Vector3d& from = path_[next_ - 1];
-      const Vector3d way = path_[next_] - from;
-      const double length2 = way.squaredNorm(), near = way.dot(at_ - from) / length2;
-      const double off2 = (from + near * way - at_).squaredNorm();
+      const Vector3d offset = path_[next_] - from;
+      const double length2 = offset.squaredNorm(), near = offset.dot(at_ - from) / length2;
+      const double off2 = (from + near * offset - at_).squaredNorm();
       const double share = near + std::sqrt(std::max(0.0, distance_m * distance_m - off2) / length2);
       if (share > 1 && next_ + 1 < path_.size()) continue;
-      at_ = from + share * way;
+      at_ = from + share * offset;
       return;
     }
   }
@@ -88,7 +88,7 @@ ChainMaterial materialOf(const SutureConfig& config) {
   return out;
 }
 
-std::vector<Vector3d> placesOf(const SutureConfig& config) {
+std::vector<Vector3d> positionsOf(const SutureConfig& config) {
   Walk walk(config);
   const double length_m = orElse(config.length_m, walk.length_m());
   const int links = static_cast<int>(std::lround(length_m / config.spacing_m));

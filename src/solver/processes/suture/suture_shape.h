@@ -13,6 +13,6 @@ namespace viscera {
 ChainMaterial materialOf(const SutureConfig& config);
 /// Returns the initial positions of its nodes: links of spacing_m along the path, and straight on where it is longer.
 /// @throws SceneError  there is no path
-std::vector<Vector3d> placesOf(const SutureConfig& config);
+std::vector<Vector3d> positionsOf(const SutureConfig& config);
 
 }  // namespace viscera

@@ -33,18 +33,18 @@ class SutureSkin {
   void give(const std::vector<ChainTouch>& touches, double dt_s, TissuePoints& points) const;
 
  private:
-  struct Place {
+  struct SurfacePoint {
     TissuePoint at, below;  ///< slightly below the surface, and below that
     double depth_m;         ///< depth of `at`
   };
   struct Now {
-    Vector3d place_m, normal, velocity_m_per_s;
+    Vector3d position_m, normal, velocity_m_per_s;
     double mass_kg;
   };
   std::optional<size_t> nearest(const Vector3d& to_m, double within_m) const;
 
   std::vector<Vector3d> laid_m_;  ///< outer channels at rest around which it is placed
-  std::vector<Place> places_;
+  std::vector<SurfacePoint> positions_;
   std::vector<Now> now_;
   std::vector<std::pair<double, size_t>> along_x_;  ///< x of these [m] and index, ascending
   Eigen::AlignedBox3d box_m_;                       ///< around them

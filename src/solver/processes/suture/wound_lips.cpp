@@ -75,7 +75,7 @@ void WoundLips::addPoints(std::vector<const TissuePoint*>& points) const {
 void WoundLips::part(TissuePoints& points, double dt_s) const {
   for (int sweep = 0; sweep < kLipSweeps; ++sweep) {
     for (const Pair& pair : pairs_) {
-      const Vector3d between = points.place_m(pair.b) - points.place_m(pair.a);
+      const Vector3d between = points.position_m(pair.b) - points.position_m(pair.a);
       const double length_m = between.norm(), near_m = pair.apart_m - length_m;
       if (!(near_m > 0) || length_m < kLipsMeet * pair.apart_m) continue;
       const Vector3d out = between / length_m;

@@ -25,9 +25,9 @@ namespace {
 constexpr double kBack_j = 1e-12;  // to the user, in a stroke: rounding of sums
 
 /// A block on a plate, and a blade in it.
-class Hand {
+class Tool {
  public:
-  explicit Hand(double toughness_j_per_m2) : scene_(sceneOf(toughness_j_per_m2)), model_(buildModel(scene_)) {
+  explicit Tool(double toughness_j_per_m2) : scene_(sceneOf(toughness_j_per_m2)), model_(buildModel(scene_)) {
     solver_ = std::make_unique<CpuSolver>(model_, scene_);
   }
   static Scene sceneOf(double toughness_j_per_m2) {
@@ -82,40 +82,41 @@ class Hand {
 constexpr double kStep_m = 0.001;  // per tick
 
 TEST(BladeEdge, FeelsNothingInItsOwnWoundAndIsNeverPulled) {
-  Hand hand(50);
+  Tool tool(50);
   double x = -0.03, most = 0;
-  for (; x < 0.006; x += kStep_m) most = std::max(most, hand.to({x, 0.001, 0.002}).x());
+  for (; x < 0.006; x += kStep_m) most = std::max(most, tool.to({x, 0.001, 0.002}).x());
   EXPECT_GT(most, 0.2);
-  for (; x > -0.012; x -= kStep_m) EXPECT_GE(hand.to({x, 0.001, 0.002}).x(), -1e-9);
-  const double area_m2 = bladeWork(hand.solver(), 0).area_m2;
-  for (; x < -0.002; x += kStep_m) EXPECT_LT(hand.to({x, 0.001, 0.002}).norm(), 0.02 * most);
-  EXPECT_NEAR(bladeWork(hand.solver(), 0).area_m2, area_m2, 0.02 * area_m2);
+  for (; x > -0.012; x -= kStep_m) EXPECT_GE(tool.to({x, 0.001, 0.002}).x(), -1e-9);
+  const double area_m2 = bladeWork(tool.solver(), 0).area_m2;
+  for (; x < -0.002; x += kStep_m) EXPECT_LT(tool.to({x, 0.001, 0.002}).norm(), 0.02 * most);
+  EXPECT_NEAR(bladeWork(tool.solver(), 0).area_m2, area_m2, 0.02 * area_m2);
 }
 
 TEST(BladeEdge, RandomStrokesStayFiniteAndGiveNothing) {
-  Hand hand(200);
+  Tool tool(200);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> any(-1, 1);
   for (int stroke = 0; stroke < 60; ++stroke) {
     Pose pose{{0.03 * any(random), 0.03 * any(random), 0.012 * any(random)}, Quaterniond::Identity()};
-    const Vector3d axis(any(random), any(random), 1.2 * any(random)), way(any(random), any(random), 0.5 * any(random));
+    const Vector3d axis(any(random), any(random), 1.2 * any(random)),
+        offset(any(random), any(random), 0.5 * any(random));
     pose.orientation = rotationBetween(Vector3d::UnitZ(), axis.normalized());
-    if (stroke % 20 == 19) hand.solver().reset();
-    const double before_j = bladeWork(hand.solver(), 0).work_j;
-    hand.appear(pose);
+    if (stroke % 20 == 19) tool.solver().reset();
+    const double before_j = bladeWork(tool.solver(), 0).work_j;
+    tool.appear(pose);
     for (int tick = 0; tick < 10; ++tick) {
-      pose.position_m += (tick < 7 ? 1 : -1) / 60.0 * way;
-      hand.to(pose);
+      pose.position_m += (tick < 7 ? 1 : -1) / 60.0 * offset;
+      tool.to(pose);
     }
     if (stroke % 20 == 19) continue;
-    EXPECT_GT(bladeWork(hand.solver(), 0).work_j - before_j, -kBack_j);
+    EXPECT_GT(bladeWork(tool.solver(), 0).work_j - before_j, -kBack_j);
   }
-  EXPECT_EQ(hand.bad(), 0u);
-  EXPECT_EQ(hand.solver().health().trips, 0u);
+  EXPECT_EQ(tool.bad(), 0u);
+  EXPECT_EQ(tool.solver().health().trips, 0u);
 }
 
 TEST(BladeEdge, SavedFrontsGoOnToTheBit) {
-  Hand first(100), second(100);
+  Tool first(100), second(100);
   for (int i = 0; i < 25; ++i) first.to({-0.03 + kStep_m * i, 0.001, 0.002});
   for (int i = 0; i < 3; ++i) second.to({-0.03 + kStep_m * i, 0.001, 0.002});
   Archive saved;
@@ -132,16 +133,16 @@ TEST(BladeEdge, SavedFrontsGoOnToTheBit) {
 }
 
 TEST(BladeEdge, WithoutToughnessBladesAreAsTheyWere) {
-  Scene scene = Hand::sceneOf(0);
+  Scene scene = Tool::sceneOf(0);
   EXPECT_FALSE(resistsBlades(scene));
-  Hand hand(0);
-  for (int i = 0; i < 40; ++i) EXPECT_EQ(hand.to({-0.03 + kStep_m * i, 0.001, 0.002}).norm(), 0);
-  EXPECT_EQ(bladeWork(hand.solver(), 0).area_m2, 0);
+  Tool tool(0);
+  for (int i = 0; i < 40; ++i) EXPECT_EQ(tool.to({-0.03 + kStep_m * i, 0.001, 0.002}).norm(), 0);
+  EXPECT_EQ(bladeWork(tool.solver(), 0).area_m2, 0);
 }
 
 TEST(BladeEdge, WhatItDoesNotGoWithIsRefused) {
   const auto refused = [](const std::function<void(Scene&)>& change) {
-    Scene scene = Hand::sceneOf(100);
+    Scene scene = Tool::sceneOf(100);
     change(scene);
     try {
       requireFeatures(scene);

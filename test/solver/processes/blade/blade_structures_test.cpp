@@ -28,7 +28,7 @@ constexpr double kFront_m = 0.003;     // the front bends at the surface, and th
 constexpr double kShare = 0.15;        // of a spring: a front stays in its plane
 constexpr double kCounted_m = 0.0006;  // area is counted in steps of up to an eighth of a spring
 constexpr double kPulled = 1e-3;       // of the plateau: tissue that moves into the blade as it returns
-constexpr double kFelt = 0.02;         // of the plateau: in its own wound a blade feels nothing
+constexpr double kOfPlateau = 0.02;    // of the plateau: in its own wound a blade feels nothing
 
 struct Kind {
   std::string name, keys;
@@ -59,9 +59,9 @@ Scene sceneOf(const std::string& bodies) {
 }
 
 /// A stylus that pushes an upright blade along x, one step per tick.
-class BladeStructuresHand {
+class BladeStructuresTool {
  public:
-  explicit BladeStructuresHand(const Scene& scene)
+  explicit BladeStructuresTool(const Scene& scene)
       : scene_(scene), model_(buildModel(scene_)), solver_(model_, scene_) {}
   /// Moves to x. @returns the force on the tissue
   Vector3d to(double x_m) {
@@ -76,14 +76,14 @@ class BladeStructuresHand {
     return Vector3d(stats_.impulse[0].x, stats_.impulse[0].y, stats_.impulse[0].z) * scene_.solver.tick_hz;
   }
   /// Makes a stroke of a blade at any angle, forward and back.
-  void stroke(Pose pose, const Vector3d& way_m) {
+  void stroke(Pose pose, const Vector3d& offset_m) {
     solver_.step(ToolMotions{});
     for (int tick = 0; tick < 10; ++tick) {
       ToolMotions motions;
       motions[0].mode = ToolMode::kCut;
       motions[0].present = true;
       motions[0].from = pose;
-      pose.position_m += (tick < 7 ? 0.1 : -0.1) * way_m;
+      pose.position_m += (tick < 7 ? 0.1 : -0.1) * offset_m;
       motions[0].to = pose;
       solver_.step(motions);
       while (solver_.pollStats(stats_, true)) bad_ += stats_.nonfinite;
@@ -115,47 +115,47 @@ class BladeStructures : public ::testing::TestWithParam<size_t> {
 };
 
 TEST_P(BladeStructures, ForceAreaAndWorkAreTheLaws) {
-  BladeStructuresHand hand(scene(50));
+  BladeStructuresTool tool(scene(50));
   const double law_n = 50 * kind().width_m;
   double sum = 0, low = 1e9, high = 0;
-  hand.push(0, 30);
-  const BladeWork before = bladeWork(hand.solver(), 0);
+  tool.push(0, 30);
+  const BladeWork before = bladeWork(tool.solver(), 0);
   for (int i = 30; i < 46; ++i) {
-    const double force = hand.to(kStart_m + kBladeStructuresStep_m * i).x();
+    const double force = tool.to(kStart_m + kBladeStructuresStep_m * i).x();
     sum += force / 16;
     low = std::min(low, force);
     high = std::max(high, force);
   }
-  const BladeWork work = bladeWork(hand.solver(), 0);
+  const BladeWork work = bladeWork(tool.solver(), 0);
   EXPECT_NEAR(sum / law_n, 1, kOfLaw);
   EXPECT_LT((high - low) / law_n, 0.1);
   EXPECT_NEAR((work.area_m2 - before.area_m2) / kind().width_m, 0.016, kOfLaw * 0.016 + kCounted_m);
   EXPECT_NEAR((work.work_j - before.work_j) / (0.016 * law_n), 1, kOfLaw);
   EXPECT_NEAR(work.parting_j, 50 * work.area_m2, 0.2 * work.parting_j);  // less of it where the edge entered
-  EXPECT_EQ(hand.bad(), 0u);
-  EXPECT_EQ(hand.solver().health().trips, 0u);
+  EXPECT_EQ(tool.bad(), 0u);
+  EXPECT_EQ(tool.solver().health().trips, 0u);
 }
 
 TEST_P(BladeStructures, FeelsNothingInItsOwnWound) {
-  BladeStructuresHand hand(scene(50));
+  BladeStructuresTool tool(scene(50));
   double x = kStart_m, most = 0;
-  for (; x < 0.014; x += kBladeStructuresStep_m) most = std::max(most, hand.to(x).x());
+  for (; x < 0.014; x += kBladeStructuresStep_m) most = std::max(most, tool.to(x).x());
   EXPECT_GT(most, 0.9 * 50 * kind().width_m);
-  for (; x > -0.012; x -= kBladeStructuresStep_m) EXPECT_GE(hand.to(x).x(), -kPulled * most);
-  const double area_m2 = bladeWork(hand.solver(), 0).area_m2;
-  for (; x < 0; x += kBladeStructuresStep_m) EXPECT_LT(hand.to(x).norm(), kFelt * most);
-  EXPECT_NEAR(bladeWork(hand.solver(), 0).area_m2, area_m2, kFelt * area_m2);
+  for (; x > -0.012; x -= kBladeStructuresStep_m) EXPECT_GE(tool.to(x).x(), -kPulled * most);
+  const double area_m2 = bladeWork(tool.solver(), 0).area_m2;
+  for (; x < 0; x += kBladeStructuresStep_m) EXPECT_LT(tool.to(x).norm(), kOfPlateau * most);
+  EXPECT_NEAR(bladeWork(tool.solver(), 0).area_m2, area_m2, kOfPlateau * area_m2);
 }
 
 /// The test needs the rest positions of the springs' ends, so it is for networks only.
 TEST_P(BladeStructures, SpringsGoWhereTheFrontHasPassed) {
-  BladeStructuresHand hand(scene(50));
-  hand.push(0, 40);
-  EXPECT_GT(hand.springsCut(), 0u);
-  const Body& body = hand.model().bodies[0];
+  BladeStructuresTool tool(scene(50));
+  tool.push(0, 40);
+  EXPECT_GT(tool.springsCut(), 0u);
+  const Body& body = tool.model().bodies[0];
   if (!body.network) return;
-  const double front_m = kStart_m + bladeWork(hand.solver(), 0).area_m2 / kind().width_m;
-  const HostState state = hand.solver().readState();
+  const double front_m = kStart_m + bladeWork(tool.solver(), 0).area_m2 / kind().width_m;
+  const HostState state = tool.solver().readState();
   for (size_t s = 0; s < body.network->springs.size(); ++s) {
     const Vector3d a = body.network->positions_m[body.network->springs[s].a],
                    b = body.network->positions_m[body.network->springs[s].b];
@@ -172,24 +172,24 @@ TEST_P(BladeStructures, SpringsGoWhereTheFrontHasPassed) {
 }
 
 TEST_P(BladeStructures, RandomStrokesStayFinite) {
-  BladeStructuresHand hand(scene(200));
+  BladeStructuresTool tool(scene(200));
   std::mt19937 random(1);
   std::uniform_real_distribution<double> any(-1, 1);
   for (int stroke = 0; stroke < 40; ++stroke) {
-    if (stroke % 20 == 19) hand.solver().reset();
+    if (stroke % 20 == 19) tool.solver().reset();
     Pose pose{{0.03 * any(random), 0.024 * any(random), 0.012 * any(random)}, Quaterniond::Identity()};
     const Vector3d axis(any(random), any(random), 1.2 * any(random));
     pose.orientation = rotationBetween(Vector3d::UnitZ(), axis.normalized());
     const double x = any(random), y = any(random), z = any(random);
-    hand.stroke(pose, Vector3d(0.1 * x, 0.1 * y, 0.05 * z));
+    tool.stroke(pose, Vector3d(0.1 * x, 0.1 * y, 0.05 * z));
   }
-  EXPECT_GT(bladeWork(hand.solver(), 0).area_m2, 0);
-  EXPECT_EQ(hand.bad(), 0u);
-  EXPECT_EQ(hand.solver().health().trips, 0u);
+  EXPECT_GT(bladeWork(tool.solver(), 0).area_m2, 0);
+  EXPECT_EQ(tool.bad(), 0u);
+  EXPECT_EQ(tool.solver().health().trips, 0u);
 }
 
 TEST_P(BladeStructures, SavedFrontsGoOnToTheBit) {
-  BladeStructuresHand first(scene(50)), second(scene(50));
+  BladeStructuresTool first(scene(50)), second(scene(50));
   first.push(0, 25);
   second.push(0, 3);
   Archive saved;
@@ -204,7 +204,7 @@ TEST_P(BladeStructures, SavedFrontsGoOnToTheBit) {
 }
 
 TEST_P(BladeStructures, ZeroIsAsIfThereWereNoKey) {
-  BladeStructuresHand zero(sceneOf(bodyText(kind(), toughness(0)))), none(sceneOf(bodyText(kind(), "")));
+  BladeStructuresTool zero(sceneOf(bodyText(kind(), toughness(0)))), none(sceneOf(bodyText(kind(), "")));
   zero.push(0, 40);
   none.push(0, 40);
   EXPECT_GT(zero.springsCut(), 0u);
@@ -215,8 +215,8 @@ TEST_P(BladeStructures, ZeroIsAsIfThereWereNoKey) {
 /// Two bodies one above the other, one of which resists: the blade passes through both.
 TEST_P(BladeStructures, OneResistsBesideOneThatDoesNot) {
   const std::string above = bodyText(kind(), "", 0.016), resists = bodyText(kind(), toughness(50));
-  BladeStructuresHand both(sceneOf(resists + above)), alone(sceneOf(resists)), free(sceneOf(above));
-  for (BladeStructuresHand* hand : {&both, &alone, &free}) hand->push(0, 40);
+  BladeStructuresTool both(sceneOf(resists + above)), alone(sceneOf(resists)), free(sceneOf(above));
+  for (BladeStructuresTool* tool : {&both, &alone, &free}) tool->push(0, 40);
   EXPECT_EQ(bladeWork(both.solver(), 0).area_m2, bladeWork(alone.solver(), 0).area_m2);
   EXPECT_EQ(bladeWork(both.solver(), 0).work_j, bladeWork(alone.solver(), 0).work_j);
   EXPECT_GT(free.springsCut(), 0u);

@@ -42,9 +42,9 @@ Scene blockOnAPlate() {
 }
 
 /// A stylus that moves straight through the block.
-class PushingHand {
+class PushingTool {
  public:
-  explicit PushingHand(const std::string& backend, const Scene& scene = blockOnAPlate())
+  explicit PushingTool(const std::string& backend, const Scene& scene = blockOnAPlate())
       : hz_(scene.solver.tick_hz), model_(buildModel(scene)), solver_(makeBackend(backend, model_, scene)) {}
   /// Moves by one tick. @returns the force on the tissue in it [N]
   Vector3d tick(int i) {
@@ -83,7 +83,7 @@ void expectSameDone(const BladeWork& gpu, const BladeWork& cpu, double share) {
 }
 
 void expectSameStroke(const Scene& scene, double share = kResistedBladeRounding) {
-  PushingHand cpu(backendKinds()[1], scene), gpu("gpu", scene);
+  PushingTool cpu(backendKinds()[1], scene), gpu("gpu", scene);
   double most_n = 0, apart_n = 0;
   for (int i = 0; i < kTicks; ++i) {
     const Vector3d on_cpu = cpu.tick(i), on_gpu = gpu.tick(i);
@@ -94,8 +94,8 @@ void expectSameStroke(const Scene& scene, double share = kResistedBladeRounding)
   EXPECT_LT(apart_n, share * most_n);
   expectSameDone(gpu.done(), cpu.done(), share);
   EXPECT_EQ(gpu.bad(), 0u);
-  const auto severed = [](PushingHand& hand) {
-    const HostState state = hand.solver().readState();
+  const auto severed = [](PushingTool& tool) {
+    const HostState state = tool.solver().readState();
     return std::count_if(state.nodes.begin(), state.nodes.end(),
                          [](const layout::NodeBits& bits) { return (bits.lo & layout::kSeveredBit) != 0; });
   };
@@ -122,15 +122,15 @@ TEST_F(ResistedBlade, CutsWhereSubstepsFollowTheTissue) {
 TEST_F(ResistedBlade, CutsTissueThatSleeps) {
   Scene scene = blockOnAPlate();
   scene.solver.stability_monitor = false;
-  PushingHand gpu("gpu", scene), cpu(backendKinds()[1], scene);
-  for (PushingHand* hand : {&gpu, &cpu}) {
-    hand->without(60);
-    hand->hover(5);
-    if (hand == &gpu) {
+  PushingTool gpu("gpu", scene), cpu(backendKinds()[1], scene);
+  for (PushingTool* tool : {&gpu, &cpu}) {
+    tool->without(60);
+    tool->hover(5);
+    if (tool == &gpu) {
       EXPECT_TRUE(static_cast<GpuSolver&>(gpu.solver()).resting());
     }
-    for (int i = 0; i < kTicks; ++i) hand->tick(i);
-    hand->without(10);  // the end of the cut follows when the blade is gone
+    for (int i = 0; i < kTicks; ++i) tool->tick(i);
+    tool->without(10);  // the end of the cut follows when the blade is gone
   }
   expectSameDone(gpu.done(), cpu.done(), kResistedBladeRounding);
 }
@@ -166,7 +166,7 @@ TEST_F(ResistedBlade, CutsBesideABodyThatResistsNothing) {
 }
 
 TEST_F(ResistedBlade, GoesOnToTheBitFromASavedState) {
-  PushingHand first("gpu"), second("gpu");
+  PushingTool first("gpu"), second("gpu");
   for (int i = 0; i < 25; ++i) first.tick(i);
   for (int i = 0; i < 3; ++i) second.tick(i);
   Archive saved;
@@ -182,7 +182,7 @@ TEST_F(ResistedBlade, GoesOnToTheBitFromASavedState) {
 }
 
 TEST_F(ResistedBlade, GoesOnAfterARollback) {
-  PushingHand gpu("gpu");
+  PushingTool gpu("gpu");
   for (int i = 0; i < 25; ++i) gpu.tick(i);
   const double before_m2 = gpu.done().area_m2;
   HostState broken = gpu.solver().readState();

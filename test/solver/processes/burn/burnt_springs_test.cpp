@@ -60,8 +60,8 @@ class Stepped : public TissuePort {
   std::vector<Vector3d> forces() const {
     std::vector<Vector3d> f = pulls_;
     for (const BurntSpring& s : graph_.springs) {
-      const Vector3d way = at(s.b) - at(s.a);
-      const Vector3d force = s.stiffness_n_per_m * (way.norm() - s.rest_length_m) * way.normalized();
+      const Vector3d direction = at(s.b) - at(s.a);
+      const Vector3d force = s.stiffness_n_per_m * (direction.norm() - s.rest_length_m) * direction.normalized();
       f[s.a] += force;
       f[s.b] -= force;
     }

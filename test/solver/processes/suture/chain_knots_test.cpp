@@ -23,7 +23,7 @@ ChainMaterial limp() {
 /// A tail of 15 mm, a loop of 4 x sqrt(2) x 5 mm that returns to its start, a tail of 15 mm. In the middle of the loop
 /// it rests on a peg.
 struct Loop {
-  explicit Loop(const ChainMaterial& material = limp()) : chain(material, places()) {
+  explicit Loop(const ChainMaterial& material = limp()) : chain(material, positions()) {
     ChainKnot knot;
     knot.s1 = 30;
     knot.s2 = 30 + 4 * std::sqrt(2) * 5e-3 / kLink_m;
@@ -33,11 +33,11 @@ struct Loop {
     for (const uint32_t node : {0U, peg}) {
       ChainHold hold;
       hold.node = node;
-      hold.to_m = chain.places_m()[node];
+      hold.to_m = chain.positions_m()[node];
       around.holds.push_back(hold);
     }
   }
-  static std::vector<Vector3d> places() {
+  static std::vector<Vector3d> positions() {
     const std::array<Vector3d, 7> corners = {Vector3d(-0.015, 0, 0), {0, 0, 0}, {0.005, 0, 0.005}, {0, 0, 0.01},
                                              {-0.005, 0, 0.005},     {0, 0, 0}, {0.015, 0, 0}};
     std::vector<Vector3d> out;
@@ -60,8 +60,8 @@ struct Loop {
   double loop() const { return around.knots[0].s2 - around.knots[0].s1; }
   double off_m() const {
     const ChainKnot& knot = around.knots[0];
-    return (ChainPoint(knot.s1, chain.nodes()).of(chain.places_m()) -
-            ChainPoint(knot.s2, chain.nodes()).of(chain.places_m()))
+    return (ChainPoint(knot.s1, chain.nodes()).of(chain.positions_m()) -
+            ChainPoint(knot.s2, chain.nodes()).of(chain.positions_m()))
         .norm();
   }
   Chain chain;
@@ -76,15 +76,15 @@ TEST(ChainKnots, ALoopIsDrawnTightUntilItIsTied) {
   loop.around.knots[0].friction_n = 0.002;
   const double before = loop.loop();
   loop.around.holds.push_back(loop.around.holds[0]);
-  ChainHold& hand = loop.around.holds.back();
-  hand.node = loop.last;
-  hand.to_m = loop.chain.places_m()[loop.last];
+  ChainHold& hold = loop.around.holds.back();
+  hold.node = loop.last;
+  hold.to_m = loop.chain.positions_m()[loop.last];
   for (int k = 0; k < 400; ++k) {
-    hand.to_m.x() += 0.05 * kSubstep_s;
+    hold.to_m.x() += 0.05 * kSubstep_s;
     loop.chain.step(kSubstep_s, loop.around);
     loop.worst_link = std::max(loop.worst_link, loop.chain.worstLink());
     if (k == 200) loop.around.knots[0].tied = true;
-    if (k == 210) hand.most_n = 0.5;
+    if (k == 210) hold.most_n = 0.5;
   }
   EXPECT_NEAR(loop.loop(), before - 200 * 0.05 * kSubstep_s / kLink_m, 1.5);  // tied, it stays
   EXPECT_LT(loop.off_m(), 1e-6);
@@ -95,10 +95,10 @@ TEST(ChainKnots, RubWhileTheyAreDrawn) {
   constexpr double kFriction_n = 0.03;
   Loop loop;
   loop.around.knots[0].friction_n = kFriction_n;
-  ChainHold hand = loop.around.holds[0];
-  hand.node = loop.last;
-  hand.to_m = loop.chain.places_m()[loop.last];
-  loop.around.holds[1] = hand;
+  ChainHold hold = loop.around.holds[0];
+  hold.node = loop.last;
+  hold.to_m = loop.chain.positions_m()[loop.last];
+  loop.around.holds[1] = hold;
   double tail_n = 0, loop_n = 0;
   for (int k = 0; k < 800; ++k) {
     loop.around.holds[1].to_m.x() += 0.01 * kSubstep_s;
@@ -125,7 +125,7 @@ TEST(ChainKnots, TiedTheyHoldWhatTheyHoldAndSlipAboveThat) {
   loop.around.loads.clear();
   loop.around.holds.push_back(loop.around.holds[0]);
   loop.around.holds[1].node = loop.last;
-  loop.around.holds[1].to_m = loop.chain.places_m()[loop.last];
+  loop.around.holds[1].to_m = loop.chain.positions_m()[loop.last];
   double tail_n = 0;
   for (int k = 0; k < 600; ++k) {
     loop.around.holds[1].to_m.x() += 0.01 * kSubstep_s;
@@ -178,8 +178,8 @@ TEST(ChainKnots, SeveralHoldAtOnceAndOneThatIsPulledOutDoesNothing) {
   loop.around.knots.push_back(second);
   loop.pull(0.1, 600);
   for (const ChainKnot& knot : loop.around.knots) {
-    EXPECT_LT((ChainPoint(knot.s1, loop.chain.nodes()).of(loop.chain.places_m()) -
-               ChainPoint(knot.s2, loop.chain.nodes()).of(loop.chain.places_m()))
+    EXPECT_LT((ChainPoint(knot.s1, loop.chain.nodes()).of(loop.chain.positions_m()) -
+               ChainPoint(knot.s2, loop.chain.nodes()).of(loop.chain.positions_m()))
                   .norm(),
               1e-6);
   }

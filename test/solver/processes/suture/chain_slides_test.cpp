@@ -29,7 +29,7 @@ std::vector<Vector3d> alongX(size_t nodes) {
   return out;
 }
 
-ChainSlide channelAt(double s) {
+ChainSlide trackAt(double s) {
   ChainSlide out;
   out.s = s;
   out.to_m = Vector3d(s * kChainSlidesLink_m, 0, 0);
@@ -39,7 +39,7 @@ ChainSlide channelAt(double s) {
 ChainHold held(const Chain& chain, uint32_t node) {
   ChainHold out;
   out.node = node;
-  out.to_m = chain.places_m()[node];
+  out.to_m = chain.positions_m()[node];
   return out;
 }
 
@@ -48,27 +48,27 @@ struct FreeMasses {
   FreeMasses(ChainAround& around, double mass_kg) : mass_kg(mass_kg) {
     for (ChainSlide& slide : around.slides) {
       slide.mass_kg = mass_kg;
-      places.push_back(slide.to_m);
+      positions.push_back(slide.to_m);
     }
-    speeds.assign(places.size(), Vector3d::Zero());
+    speeds.assign(positions.size(), Vector3d::Zero());
     given = speeds;
     around.answer = [this](std::vector<ChainSlide>& slides) {
       for (size_t k = 0; k < slides.size(); ++k) {
         speeds[k] += (slides[k].impulse_ns - given[k]) / this->mass_kg;
         given[k] = slides[k].impulse_ns;
-        slides[k].to_m = places[k] + kChainSlidesSubstep_s * speeds[k];
+        slides[k].to_m = positions[k] + kChainSlidesSubstep_s * speeds[k];
       }
     };
   }
   void begin(std::vector<ChainSlide>& slides) {
-    for (size_t k = 0; k < slides.size(); ++k) slides[k].to_m = places[k] + kChainSlidesSubstep_s * speeds[k];
+    for (size_t k = 0; k < slides.size(); ++k) slides[k].to_m = positions[k] + kChainSlidesSubstep_s * speeds[k];
     given.assign(given.size(), Vector3d::Zero());
   }
   void end() {
-    for (size_t k = 0; k < places.size(); ++k) places[k] += kChainSlidesSubstep_s * speeds[k];
+    for (size_t k = 0; k < positions.size(); ++k) positions[k] += kChainSlidesSubstep_s * speeds[k];
   }
   double mass_kg;
-  std::vector<Vector3d> places, speeds, given;
+  std::vector<Vector3d> positions, speeds, given;
 };
 
 TEST(ChainSlides, KeepTheMomentumOfSutureAndTissue) {
@@ -83,7 +83,7 @@ TEST(ChainSlides, KeepTheMomentumOfSutureAndTissue) {
   chain.setVelocities(speeds);
   ChainAround around;
   for (const double s : {20.3, 37.0, 55.8}) {
-    around.slides.push_back(channelAt(s));
+    around.slides.push_back(trackAt(s));
     around.slides.back().friction = 0.3;
     around.slides.back().through_n = 0.001;
     around.slides.back().most_n = 0.05;
@@ -105,8 +105,8 @@ TEST(ChainSlides, KeepTheMomentumOfSutureAndTissue) {
     for (size_t c = 0; c < 3; ++c) {
       tissue_speed = std::max(tissue_speed, tissue.speeds[c].norm());
       const ChainPoint point(around.slides[c].s, chain.nodes());
-      if (!around.slides[c].out) off_m = std::max(off_m, (point.of(chain.places_m()) - tissue.places[c]).norm());
-      tissue.places[c] += around.slides[c].torn_m;
+      if (!around.slides[c].out) off_m = std::max(off_m, (point.of(chain.positions_m()) - tissue.positions[c]).norm());
+      tissue.positions[c] += around.slides[c].torn_m;
       exchanged += around.slides[c].impulse_ns.norm();
     }
   }
@@ -117,29 +117,29 @@ TEST(ChainSlides, KeepTheMomentumOfSutureAndTissue) {
 
 /// Next to the tail of a needle the chain cannot yield: the tissue moves back, on a spring in this test.
 TEST(ChainSlides, LeaveTheTailOfANeedleThatGoesOn) {
-  constexpr double kSpring_n_per_m = 60, kDamping_per_s = 200, kWay_m_per_s = 0.05, kTissue_kg = 6.8e-5;
+  constexpr double kSpring_n_per_m = 60, kDamping_per_s = 200, kVelocity_m_per_s = 0.05, kTissue_kg = 6.8e-5;
   constexpr int kSubsteps = 400;
   Chain chain(soft(), alongX(80));
   ChainAround around;
   around.swaged[0] = true;
   around.holds.push_back(held(chain, 0));
-  around.slides.push_back(channelAt(0.0131));
+  around.slides.push_back(trackAt(0.0131));
   around.slides[0].friction = 0.1;
   around.slides[0].through_n = 0.001;
   around.slides[0].most_n = 0.27;
   FreeMasses tissue(around, kTissue_kg);
   around.slides[0].mass_kg = 0.7 * kTissue_kg;  // effective mass of the tissue below its actual one
-  const Vector3d home_m = tissue.places[0] + Vector3d(0, 0, -0.006);  // as if it had been dragged along so far
+  const Vector3d home_m = tissue.positions[0] + Vector3d(0, 0, -0.006);  // as if it had been dragged along so far
   for (int k = 0; k < kSubsteps; ++k) {
-    tissue.speeds[0] += kChainSlidesSubstep_s * (kSpring_n_per_m / kTissue_kg * (home_m - tissue.places[0]) -
+    tissue.speeds[0] += kChainSlidesSubstep_s * (kSpring_n_per_m / kTissue_kg * (home_m - tissue.positions[0]) -
                                                  kDamping_per_s * tissue.speeds[0]);
-    around.holds[0].to_m += kChainSlidesSubstep_s * kWay_m_per_s * Vector3d(-1, 0, 0.5);
+    around.holds[0].to_m += kChainSlidesSubstep_s * kVelocity_m_per_s * Vector3d(-1, 0, 0.5);
     tissue.begin(around.slides);
     chain.step(kChainSlidesSubstep_s, around);
     tissue.end();
   }
-  EXPECT_LT((tissue.places[0] - home_m).norm(), 2e-4);
-  EXPECT_GT(around.slides[0].s * kChainSlidesLink_m, 0.8 * kSubsteps * kChainSlidesSubstep_s * kWay_m_per_s);
+  EXPECT_LT((tissue.positions[0] - home_m).norm(), 2e-4);
+  EXPECT_GT(around.slides[0].s * kChainSlidesLink_m, 0.8 * kSubsteps * kChainSlidesSubstep_s * kVelocity_m_per_s);
   EXPECT_FALSE(around.slides[0].out);
 }
 
@@ -147,7 +147,7 @@ TEST(ChainSlides, HoldASutureThatIsPulledByLessThanTheirFriction) {
   for (const double pull_n : {0.045, 0.06}) {
     Chain chain(soft(), alongX(80));
     ChainAround around;
-    around.slides = {channelAt(30.4), channelAt(45.2)};
+    around.slides = {trackAt(30.4), trackAt(45.2)};
     for (ChainSlide& slide : around.slides) slide.through_n = 0.025;
     for (int k = 0; k < 140; ++k) {
       around.loads = {{79, Vector3d(pull_n * std::min(1.0, k / 100.0), 0, 0)}};
@@ -168,25 +168,25 @@ TEST(ChainSlides, TearAtWhatTheirTissueBearsAndSayByHowMuch) {
   Chain chain(soft(), alongX(80));
   ChainAround around;
   around.holds = {held(chain, 0), held(chain, 79)};
-  around.slides = {channelAt(40.5)};
+  around.slides = {trackAt(40.5)};
   around.slides[0].most_n = kMost_n;
-  const Vector3d way(0, 0, 0.05 * kChainSlidesSubstep_s);
+  const Vector3d offset(0, 0, 0.05 * kChainSlidesSubstep_s);
   Vector3d torn = Vector3d::Zero();
   for (int k = 0; k < 200; ++k) {
-    around.slides[0].to_m += way;  // the suture is straight: it cannot follow
+    around.slides[0].to_m += offset;  // the suture is straight: it cannot follow
     chain.step(kChainSlidesSubstep_s, around);
     torn += around.slides[0].torn_m;
     around.slides[0].to_m += around.slides[0].torn_m;
   }
   EXPECT_NEAR(around.slides[0].impulse_ns.norm() / kChainSlidesSubstep_s, kMost_n, (kLimit - 1) * kMost_n);
-  EXPECT_NEAR((torn + 200 * way).z(), 0, 2e-3);
+  EXPECT_NEAR((torn + 200 * offset).z(), 0, 2e-3);
   EXPECT_LT(torn.z(), -3e-3);
 }
 
 TEST(ChainSlides, LetAnEndPassOutAndThenDoNothing) {
   Chain chain(soft(), alongX(40));
   ChainAround around;
-  around.slides = {channelAt(2.5), channelAt(20.5)};
+  around.slides = {trackAt(2.5), trackAt(20.5)};
   around.slides[0].friction = around.slides[1].friction = 0.2;
   around.holds = {held(chain, 39)};
   int left = 0;
@@ -205,7 +205,7 @@ TEST(ChainSlides, LetAnEndPassOutAndThenDoNothing) {
 TEST(ChainSlides, LetNothingSlideOffAnEndThatIsSwaged) {
   Chain chain(soft(), alongX(40));
   ChainAround around;
-  around.slides = {channelAt(2.5)};
+  around.slides = {trackAt(2.5)};
   around.swaged = {true, false};
   around.holds = {held(chain, 39)};
   around.holds[0].most_n = 1;
@@ -222,7 +222,7 @@ TEST(ChainSlides, KeepTheirOrderAndDistance) {
   constexpr double kRest_m = 4e-3;
   Chain chain(soft(), alongX(80));
   ChainAround around;
-  around.slides = {channelAt(30), channelAt(38), channelAt(39.5)};
+  around.slides = {trackAt(30), trackAt(38), trackAt(39.5)};
   around.slides[0].between_rest_m = kRest_m;
   around.slides[1].through_n = around.slides[2].through_n = 1;
   around.loads = {{0, Vector3d(-0.01, 0, 0)}};
@@ -239,7 +239,7 @@ TEST(ChainSlides, NothingIsTornOrGivenWhereThereIsNoSolution) {
   Chain chain(soft(), alongX(80));
   ChainAround around;
   around.holds = {held(chain, 0), held(chain, 79)};
-  around.slides = {channelAt(40.5)};
+  around.slides = {trackAt(40.5)};
   around.slides[0].most_n = 0.5;
   Vector3d given = Vector3d::Zero();
   around.answer = [&given](std::vector<ChainSlide>& slides) { given = slides[0].impulse_ns; };
@@ -250,12 +250,12 @@ TEST(ChainSlides, NothingIsTornOrGivenWhereThereIsNoSolution) {
   ASSERT_FALSE(chain.waited());
   ASSERT_FALSE(around.slides[0].torn_m.isZero(0));
   ASSERT_FALSE(given.isZero(0));
-  const std::vector<Vector3d> places = chain.places_m();
+  const std::vector<Vector3d> positions = chain.positions_m();
   const double s = around.slides[0].s;
   around.holds[0].to_m.setConstant(std::numeric_limits<double>::quiet_NaN());
   chain.step(kChainSlidesSubstep_s, around);
   EXPECT_TRUE(chain.waited());
-  EXPECT_EQ(chain.places_m(), places);
+  EXPECT_EQ(chain.positions_m(), positions);
   EXPECT_EQ(around.slides[0].s, s);
   EXPECT_TRUE(around.slides[0].torn_m.isZero(0));
   EXPECT_TRUE(around.holds[0].impulse_ns.isZero(0));

@@ -23,16 +23,16 @@ ChainMaterial chainSoft() {
   return out;
 }
 
-std::vector<Vector3d> along(const Vector3d& from_m, const Vector3d& way, size_t nodes) {
+std::vector<Vector3d> along(const Vector3d& from_m, const Vector3d& direction, size_t nodes) {
   std::vector<Vector3d> out;
-  for (size_t i = 0; i < nodes; ++i) out.push_back(from_m + static_cast<double>(i) * kChainLink_m * way);
+  for (size_t i = 0; i < nodes; ++i) out.push_back(from_m + static_cast<double>(i) * kChainLink_m * direction);
   return out;
 }
 
 ChainHold chainHeld(const Chain& chain, uint32_t node) {
   ChainHold out;
   out.node = node;
-  out.to_m = chain.places_m()[node];
+  out.to_m = chain.positions_m()[node];
   return out;
 }
 
@@ -68,9 +68,9 @@ TEST(ChainMatrix, SolvesAsADenseOneDoes) {
     add(i + 1, i + 1, turned);
     add(i, i + 1, -turned);
   }
-  const Vector3d way = vector();
-  const Matrix3d chainHeld = 100 * Matrix3d::Identity() + way * way.transpose();
-  matrix.addPoint(4, 0.3, 100, way);
+  const Vector3d direction = vector();
+  const Matrix3d chainHeld = 100 * Matrix3d::Identity() + direction * direction.transpose();
+  matrix.addPoint(4, 0.3, 100, direction);
   add(4, 4, 0.49 * chainHeld);
   add(5, 5, 0.09 * chainHeld);
   add(4, 5, 0.21 * chainHeld);
@@ -79,19 +79,19 @@ TEST(ChainMatrix, SolvesAsADenseOneDoes) {
   Eigen::VectorXd known(4 * kNodes);
   for (size_t i = 0; i < kNodes; ++i) {
     right[i] = {vector(), i + 1 < kNodes ? number(random) : 0};
-    known.segment<3>(4 * i) = right[i].place;
+    known.segment<3>(4 * i) = right[i].position;
     known[4 * i + 3] = right[i].tension;
   }
   const Eigen::VectorXd exact = dense.fullPivLu().solve(known);
   matrix.factor();
   matrix.solve(right);
   for (size_t i = 0; i < kNodes; ++i) {
-    EXPECT_LT((right[i].place - exact.segment<3>(4 * i)).norm(), kSolve * exact.lpNorm<Eigen::Infinity>());
+    EXPECT_LT((right[i].position - exact.segment<3>(4 * i)).norm(), kSolve * exact.lpNorm<Eigen::Infinity>());
     EXPECT_NEAR(right[i].tension, exact[4 * i + 3], kSolve * exact.lpNorm<Eigen::Infinity>());
   }
 }
 
-TEST(Chain, HangsWithItsWeightFromAHand) {
+TEST(Chain, HangsWithItsWeightFromATool) {
   Chain chain(chainSoft(), along(Vector3d::Zero(), -Vector3d::UnitZ(), 100));
   ChainAround around;
   around.gravity_m_per_s2 = Vector3d(0, 0, -9.81);
@@ -103,7 +103,7 @@ TEST(Chain, HangsWithItsWeightFromAHand) {
   EXPECT_NEAR(chain.tension_n(0), 9.81 * (mass_kg - chain.mass_kg(0)), 1e-6 * 9.81 * mass_kg);
 }
 
-TEST(Chain, SlipsInAHandThatIsNotStrongEnough) {
+TEST(Chain, SlipsInAToolThatIsNotStrongEnough) {
   Chain chain(chainSoft(), along(Vector3d::Zero(), Vector3d::UnitX(), 100));
   ChainAround around;
   around.holds = {chainHeld(chain, 0), chainHeld(chain, 99)};
@@ -115,7 +115,7 @@ TEST(Chain, SlipsInAHandThatIsNotStrongEnough) {
   }
   EXPECT_NEAR(around.holds[1].impulse_ns.norm() / kChainSubstep_s, 2, 0.1);  // kSlack
   EXPECT_NEAR(chain.tension_n(50), 2, 0.1);
-  EXPECT_LT(chain.places_m().back().x(), start.x() + 1e-6);
+  EXPECT_LT(chain.positions_m().back().x(), start.x() + 1e-6);
   EXPECT_LT(chain.worstLink(), 1e-4);
 }
 
@@ -142,20 +142,20 @@ TEST(Chain, LiesStillOnASlopeThatIsNotTooSteepAndSlidesDownAnother) {
     if (free < 0) {
       EXPECT_LT(std::abs(speed), 1e-6);
     }
-    EXPECT_NEAR(chain.places_m()[25].dot(up), 1e-4, 1e-9);
+    EXPECT_NEAR(chain.positions_m()[25].dot(up), 1e-4, 1e-9);
   }
 }
 
 TEST(Chain, StaysWhereItWasAtAForceThatIsNoNumber) {
   Chain chain(chainSoft(), along(Vector3d::Zero(), Vector3d::UnitX(), 10));
-  const std::vector<Vector3d> before = chain.places_m();
+  const std::vector<Vector3d> before = chain.positions_m();
   ChainAround around;
   around.loads = {{3, Vector3d(0, 0, std::numeric_limits<double>::quiet_NaN())}};
   chain.step(kChainSubstep_s, around);
-  EXPECT_EQ(chain.places_m(), before);
+  EXPECT_EQ(chain.positions_m(), before);
   around.loads.clear();
   chain.step(kChainSubstep_s, around);
-  EXPECT_LT((chain.places_m()[3] - before[3]).norm(), 1e-12);
+  EXPECT_LT((chain.positions_m()[3] - before[3]).norm(), 1e-12);
 }
 
 TEST(Chain, GoesOnFromASavedStateAndResets) {
@@ -181,10 +181,10 @@ TEST(Chain, GoesOnFromASavedStateAndResets) {
     one.step(k < 25 ? kChainSubstep_s : kChainSubstep_s / 2, beside);
     two.step(k < 25 ? kChainSubstep_s : kChainSubstep_s / 2, beside);
   }
-  EXPECT_EQ(one.places_m(), two.places_m());
+  EXPECT_EQ(one.positions_m(), two.positions_m());
   EXPECT_EQ(one.velocities_m_per_s(), two.velocities_m_per_s());
   one.reset();
-  EXPECT_EQ(one.places_m(), first.places_m());
+  EXPECT_EQ(one.positions_m(), first.positions_m());
   EXPECT_EQ(one.velocities_m_per_s(), first.velocities_m_per_s());
 }
 
@@ -213,7 +213,7 @@ TEST(Chain, PartsAtANodeWithItsMomentumAndComesBackWhole) {
   EXPECT_LT((momentum(chain) + momentum(behind) - before).norm(), 1e-15 * before.norm());
   EXPECT_EQ(chain.nodes(), 29U);
   EXPECT_EQ(behind.nodes(), 32U);
-  EXPECT_EQ(behind.places_m()[0], chain.places_m()[28]);
+  EXPECT_EQ(behind.positions_m()[0], chain.positions_m()[28]);
   EXPECT_EQ(behind.tension_n(7), whole.tension_n(35));
   ASSERT_EQ(around.slides.size(), 1U);
   ASSERT_EQ(beyond.slides.size(), 2U);
@@ -225,7 +225,7 @@ TEST(Chain, PartsAtANodeWithItsMomentumAndComesBackWhole) {
     chain.step(kChainSubstep_s, around);
     behind.step(kChainSubstep_s, beyond);
   }
-  EXPECT_LT(chain.places_m().back().z(), -1e-6);  // hangs down beyond its channel
+  EXPECT_LT(chain.positions_m().back().z(), -1e-6);  // hangs down beyond its channel
   Archive saved;
   saved.section("sutures");
   behind.persist(saved);
@@ -233,7 +233,7 @@ TEST(Chain, PartsAtANodeWithItsMomentumAndComesBackWhole) {
   read.section("sutures");
   Chain again = whole;
   again.persist(read);
-  EXPECT_EQ(again.places_m(), behind.places_m());
+  EXPECT_EQ(again.positions_m(), behind.positions_m());
   behind.step(kChainSubstep_s, beyond);
   chain.reset();
   EXPECT_EQ(chain.nodes(), 60U);

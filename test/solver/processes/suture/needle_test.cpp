@@ -124,11 +124,12 @@ class NeedleDrive {
   }
   /// Turns by an angle, at a speed of the tip.
   template <class RenderRequest>
-  void turn(const Vector3d& middle_m, double from_rad, double to_rad, double speed_m_per_s, const RenderRequest& look) {
+  void turn(const Vector3d& middle_m, double from_rad, double to_rad, double speed_m_per_s,
+            const RenderRequest& request) {
     const double step = std::copysign(speed_m_per_s * dt_s_ / kNeedleArc_m, to_rad - from_rad);
     for (double angle = from_rad; (to_rad - angle) * step > 0; angle += step) {
       to(at(middle_m, angle));
-      look(angle);
+      request(angle);
     }
   }
   Needle& needle() { return needle_; }
@@ -165,7 +166,7 @@ TEST_P(NeedleBite, PuncturesAtItsForceAndIsSteadyInside) {
   const double puncture_n = kPunctureArea_m2 * bite.young_pa;
   double first_n = 0, second_n = 0, farthest_m = 0, pressed_m = 0, least_n = 1, most_n = 0;
   drive.appear(NeedleDrive::at(kArcMiddle, kBiteStart));
-  const auto look = [&](double angle) {
+  const auto request = [&](double angle) {
     const Needle& needle = drive.needle();
     const double tip_n = needle.alongTip_n();
     farthest_m = std::max(farthest_m, needle.farthest_m());
@@ -178,7 +179,7 @@ TEST_P(NeedleBite, PuncturesAtItsForceAndIsSteadyInside) {
     least_n = std::min(least_n, tip_n);
     most_n = std::max(most_n, tip_n);
   };
-  drive.turn(kArcMiddle, kBiteStart, bite.whole ? kBiteEnd : kBiteLowest + 0.2, bite.speed_m_per_s, look);
+  drive.turn(kArcMiddle, kBiteStart, bite.whole ? kBiteEnd : kBiteLowest + 0.2, bite.speed_m_per_s, request);
   EXPECT_NEAR(first_n, puncture_n, 0.1 * puncture_n);
   EXPECT_GT(pressed_m, 1.2e-3);  // at any speed
   EXPECT_LT(pressed_m, 2.2e-3);
@@ -190,7 +191,7 @@ TEST_P(NeedleBite, PuncturesAtItsForceAndIsSteadyInside) {
   RecordProperty("farthest_um", static_cast<int>(1e6 * farthest_m));
   if (!bite.whole) return;
   EXPECT_NEAR(second_n, puncture_n, 0.1 * puncture_n);
-  drive.turn(kArcMiddle, kBiteEnd, kBiteEnd + kArcPi, bite.speed_m_per_s, look);
+  drive.turn(kArcMiddle, kBiteEnd, kBiteEnd + kArcPi, bite.speed_m_per_s, request);
   EXPECT_LT(farthest_m, 0.7e-3);
   EXPECT_GE(drive.passed.size(), 6u);
   EXPECT_LE(drive.passed.size(), 10u);
@@ -300,7 +301,7 @@ TEST(Needle, NeverComesThroughAnObstacle) {
   for (int i = 0; i < 400; ++i) {
     const Pose asked{{0.02 * std::sin(0.1 * i), 0, 0.01 - 0.0002 * i}, rotationFromDegrees({0, 0.5 * i, 0.2 * i})};
     at = keptOut(shape, at, asked, &plate, 1);
-    for (const Vector3d& place : shape.places(at)) ASSERT_GT(place.z(), 0.001 + 0.8 * shape.wireRadius_m());
+    for (const Vector3d& position : shape.positions(at)) ASSERT_GT(position.z(), 0.001 + 0.8 * shape.wireRadius_m());
   }
   for (int i = 0; i < 400; ++i) at = keptOut(shape, at, {{0, 0, 0.02}, Quaterniond::Identity()}, &plate, 1);
   EXPECT_LT((at.position_m - Vector3d(0, 0, 0.02)).norm(), 1e-9);

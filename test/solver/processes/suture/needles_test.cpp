@@ -59,10 +59,10 @@ class Sewing {
     solver_ = std::make_unique<CpuSolver>(model_, scene_);
   }
   /// Returns the pose of the stylus: its tip on the centre of the needle's circle, turned with it.
-  static Pose handAt(double turn_rad) {
+  static Pose toolAt(double turn_rad) {
     return {Vector3d(0, 0, kSewnAbove_m), Quaterniond(Eigen::AngleAxisd(-turn_rad, Vector3d::UnitY()))};
   }
-  void handIsAt(double turn_rad) { at_ = handAt(turn_rad); }
+  void toolIsAt(double turn_rad) { at_ = toolAt(turn_rad); }
   void tick(const Pose& to, ToolMode mode) {
     ToolMotions motions;
     motions[0].present = true;
@@ -88,11 +88,11 @@ class Sewing {
   }
   /// Turns about the centre of its circle.
   template <class RenderRequest>
-  void turn(double from_rad, double to_rad, double speed_m_per_s, const RenderRequest& look) {
+  void turn(double from_rad, double to_rad, double speed_m_per_s, const RenderRequest& request) {
     const double step = std::copysign(speed_m_per_s * kSewnTick_s / kSewnArc_m, to_rad - from_rad);
     for (double angle = from_rad; (to_rad - angle) * step > 0; angle += step) {
-      tick(handAt(angle), ToolMode::kNeedle);
-      look(angle);
+      tick(toolAt(angle), ToolMode::kNeedle);
+      request(angle);
     }
   }
   void turn(double from_rad, double to_rad, double speed_m_per_s) {
@@ -126,7 +126,7 @@ Scene sewnScene() {
   return out;
 }
 
-TEST(Needles, AHandDrivesOneThroughAndLetsItGo) {
+TEST(Needles, AToolDrivesOneThroughAndLetsItGo) {
   Sewing sewing(1, sewnScene());
   double most_n = 0, worst = 0;
   size_t most = 0;
@@ -135,7 +135,7 @@ TEST(Needles, AHandDrivesOneThroughAndLetsItGo) {
     most = std::max(most, sewing.needle().crossings());
     const Chain& chain = findProcess<SutureBodies>(sewing.solver())->chain(0);
     worst = std::max(worst, chain.worstLink());
-    ASSERT_LT((chain.places_m()[0] - sewing.needle().tail_m()).norm(), 1e-4);
+    ASSERT_LT((chain.positions_m()[0] - sewing.needle().tail_m()).norm(), 1e-4);
   });
   EXPECT_GE(most, 5u);
   EXPECT_GE(findProcess<SutureBodies>(sewing.solver())->slides(0).size(), 2u);  // channels of the suture
@@ -143,7 +143,7 @@ TEST(Needles, AHandDrivesOneThroughAndLetsItGo) {
   EXPECT_LT(most_n, 0.3);
   EXPECT_LT(worst, 1e-3);
   const Pose before = sewing.needle().pose();
-  for (int i = 0; i < 30; ++i) sewing.tick(Sewing::handAt(0), ToolMode::kNone);
+  for (int i = 0; i < 30; ++i) sewing.tick(Sewing::toolAt(0), ToolMode::kNone);
   EXPECT_LT((sewing.needle().pose().position_m - before.position_m).norm(), 6e-3);  // tissue still holds its tail
   EXPECT_EQ(sewing.force_n(), 0);
   EXPECT_EQ(sewing.nonfinite, 0u);
@@ -166,7 +166,7 @@ TEST(Needles, GoThroughBothLipsOfAWoundAndOutOfThem) {
   sewing.turn(0, kOut_rad, 0.05);
   double most_n = 0;
   for (int i = 1; i <= 30; ++i) {
-    Pose up = Sewing::handAt(kOut_rad);
+    Pose up = Sewing::toolAt(kOut_rad);
     up.position_m += i * Vector3d(5e-4, 0, 5e-4);
     sewing.tick(up, ToolMode::kNeedle);
     most_n = std::max(most_n, sewing.force_n());
@@ -189,7 +189,7 @@ TEST(Needles, OneThatIsFreeHangsOnItsSuture) {
   suture.position_m = {0.05, 0, 0.05};
   suture.end = SutureEnd::kFixed;
   Sewing sewing(1, hanging);
-  for (int i = 0; i < 300; ++i) sewing.tick(Sewing::handAt(0), ToolMode::kNone);
+  for (int i = 0; i < 300; ++i) sewing.tick(Sewing::toolAt(0), ToolMode::kNone);
   EXPECT_LT((sewing.needle().tail_m() - Vector3d(0.06, 0, 0.04)).norm(), 1e-3);
   EXPECT_LT((sewing.needle().pose() * sewing.needle().shape().middle()).z(), 0.04);
   const NeedleShape& shape = sewing.needle().shape();
@@ -197,7 +197,7 @@ TEST(Needles, OneThatIsFreeHangsOnItsSuture) {
               0.1 * shape.mass_kg() * 9.81);
 }
 
-TEST(Needles, AHandTakesOnlyWhatIsInReachAndAgainAtTheTip) {
+TEST(Needles, AToolTakesOnlyWhatIsInReachAndAgainAtTheTip) {
   Scene near = sewnScene();
   near.styluses[0].grab.radius_m = 0.002;
   near.environment.gravity_m_per_s2.setZero();
@@ -226,7 +226,7 @@ TEST(Needles, StatesAreTheSameInEveryRunAndWithAnyNumberOfThreads) {
 TEST(Needles, GoOnFromASavedStateToTheBit) {
   Sewing first(1, sewnScene()), second(1, sewnScene());
   first.turn(0, kSewnPi, 0.2);
-  first.tick(Sewing::handAt(kSewnPi), ToolMode::kNeedle);
+  first.tick(Sewing::toolAt(kSewnPi), ToolMode::kNeedle);
   second.turn(0, 0.2, 0.2);
   Archive saved;
   first.solver().persist(saved);
@@ -235,7 +235,7 @@ TEST(Needles, GoOnFromASavedStateToTheBit) {
   read.end();
   EXPECT_EQ(first.hash(), second.hash());
   first.turn(kSewnPi, 1.3 * kSewnPi, 0.2);
-  second.handIsAt(kSewnPi);
+  second.toolIsAt(kSewnPi);
   second.turn(kSewnPi, 1.3 * kSewnPi, 0.2);
   EXPECT_GE(second.needle().crossings(), 3u);
   EXPECT_EQ(first.hash(), second.hash());

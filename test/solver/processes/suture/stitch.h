@@ -35,9 +35,9 @@ inline Body slitBox() {
     layout::NodeBits& bits = lattice.nodes[slot];
     if (node.x() == kSlitLayer && isSlit(node.y() + 0.5)) bits.lo &= ~layout::kCellBit;
     for (uint32_t s = 0; s < layout::kSpringsPerNode; ++s) {
-      const auto& way = kNeighborOffsets[s];
-      const bool across = (node.x() == kSlitLayer && way[0] > 0) || (node.x() == kSlitLayer + 1 && way[0] < 0);
-      if (across && isSlit(node.y() + 0.5 * way[1])) setSpringCount(bits, s, 0);
+      const auto& offset = kNeighborOffsets[s];
+      const bool across = (node.x() == kSlitLayer && offset[0] > 0) || (node.x() == kSlitLayer + 1 && offset[0] < 0);
+      if (across && isSlit(node.y() + 0.5 * offset[1])) setSpringCount(bits, s, 0);
     }
   }
   return body;
@@ -57,11 +57,12 @@ inline SutureConfig stitch() {
   const Vector3d inside[] = {inStitch(12, 8.3), inStitch(12.5, 5.5), inStitch(15, 3.2),
                              inStitch(18, 3.2), inStitch(20.5, 5.5), inStitch(21, 8.3)};
   out.path.push_back({inStitch(12, 9.5)});
-  for (const Vector3d& place : inside) {
-    out.path.push_back({place});
-    out.channels.push_back({"", place});
+  for (const Vector3d& position : inside) {
+    out.path.push_back({position});
+    out.channels.push_back({"", position});
   }
-  for (const Vector3d& place : {inStitch(21, 9.5), inStitch(17, 13), inStitch(17, 50)}) out.path.push_back({place});
+  for (const Vector3d& position : {inStitch(21, 9.5), inStitch(17, 13), inStitch(17, 50)})
+    out.path.push_back({position});
   return out;
 }
 
@@ -86,14 +87,14 @@ inline void pullApart(TissueStepper& solver, const Body& body, double by_m) {
 }
 
 /// A stylus that takes the suture near its end and pulls it up, at most at 20 mm/s.
-class StitchHand {
+class StitchTool {
  public:
-  explicit StitchHand(double way_m) : way_m_(way_m) {}
+  explicit StitchTool(double offset_m) : offset_m_(offset_m) {}
   ToolMotions next(const TissueStepper& solver, double tick_s) {
     constexpr size_t kFromEnd = 30;
-    const std::vector<Vector3d>& places = findProcess<SutureBodies>(solver)->chain(0).places_m();
+    const std::vector<Vector3d>& positions = findProcess<SutureBodies>(solver)->chain(0).positions_m();
     const bool begins = time_s_ == 0;
-    if (begins) tip_m_ = places[places.size() - kFromEnd];
+    if (begins) tip_m_ = positions[positions.size() - kFromEnd];
     ToolMotions out = tool(ToolMode::kGrab, at(time_s_), at(time_s_ + tick_s));
     out[0].hold_begins = begins;
     time_s_ += tick_s;
@@ -101,8 +102,8 @@ class StitchHand {
   }
 
  private:
-  Vector3d at(double time_s) const { return tip_m_ + std::min(0.02 * time_s, way_m_) * Vector3d::UnitZ(); }
-  double way_m_, time_s_ = 0;
+  Vector3d at(double time_s) const { return tip_m_ + std::min(0.02 * time_s, offset_m_) * Vector3d::UnitZ(); }
+  double offset_m_, time_s_ = 0;
   Vector3d tip_m_;
 };
 

@@ -49,11 +49,11 @@ TEST_P(Stitch, ClosesASlitThatIsPulledApart) {
   for (int t = 0; t < 20; ++t) solver->step({});
   const Gap before = gapOf(*solver, model_.bodies[0]);
   EXPECT_GT(before.mean_m, 2e-3);
-  StitchHand hand(0.012);
+  StitchTool tool(0.012);
   const int ticks = GetParam() == "gpu" ? 40 : 60;
   double felt_n = 0;
   for (int t = 0; t < ticks; ++t) {
-    solver->step(hand.next(*solver, kTick_s));
+    solver->step(tool.next(*solver, kTick_s));
     felt_n = std::max(felt_n, xyz(lastStats(*solver).impulse[0]).norm() / kTick_s);
     ASSERT_LT(findProcess<SutureBodies>(*solver)->chain(0).worstLink(), kLink) << t;
   }
@@ -88,8 +88,8 @@ TEST_P(Stitch, KeepsMomentumOfSutureAndTissue) {
 TEST_P(Stitch, GoesOnToTheBitFromASavedState) {
   const auto one = make(model_, stitchScene()), two = make(model_, stitchScene());
   pullApart(*one, model_.bodies[0], 1.5e-3);
-  StitchHand hand(0.012);
-  for (int t = 0; t < 10; ++t) one->step(hand.next(*one, kTick_s));
+  StitchTool tool(0.012);
+  for (int t = 0; t < 10; ++t) one->step(tool.next(*one, kTick_s));
   Archive saved;
   one->persist(saved);
   Archive read(saved.sections());
@@ -97,7 +97,7 @@ TEST_P(Stitch, GoesOnToTheBitFromASavedState) {
   read.end();
   EXPECT_EQ(hashOf(model_, *one), hashOf(model_, *two));
   for (int t = 0; t < 5; ++t) {
-    const ToolMotions motions = hand.next(*one, kTick_s);
+    const ToolMotions motions = tool.next(*one, kTick_s);
     one->step(motions);
     two->step(motions);
   }
@@ -156,8 +156,8 @@ TEST_P(Stitch, IsTheSameOnEveryBackendAndForAnyNumberOfThreads) {
   scene.solver.dt_fraction = scene.solver.dt_fraction_strained = 0.5;
   const auto ticked = [&](TissueStepper& solver) {
     pullApart(solver, model_.bodies[0], 1.5e-3);
-    StitchHand hand(0.012);
-    for (int t = 0; t < kTicks; ++t) solver.step(hand.next(solver, kTick_s));
+    StitchTool tool(0.012);
+    for (int t = 0; t < kTicks; ++t) solver.step(tool.next(solver, kTick_s));
   };
   const auto solver = make(model_, scene);
   const auto one = makeCpu(simdTargets().front(), model_, scene, 1);
@@ -182,8 +182,8 @@ TEST_P(Stitch, HoldsWithPdWhoseSubstepsAreLonger) {
   pullApart(*solver, model_.bodies[0], 1.5e-3);
   for (int t = 0; t < 3; ++t) solver->step({});
   const Gap before = gapOf(*solver, model_.bodies[0]);
-  StitchHand hand(0.012);
-  for (int t = 0; t < 15; ++t) solver->step(hand.next(*solver, kTick_s));
+  StitchTool tool(0.012);
+  for (int t = 0; t < 15; ++t) solver->step(tool.next(*solver, kTick_s));
   EXPECT_LT(gapOf(*solver, model_.bodies[0]).mean_m, 0.95 * before.mean_m);
   EXPECT_LT(findProcess<SutureBodies>(*solver)->chain(0).worstLink(), kLink);
   EXPECT_EQ(solver->health().trips, 0U);
@@ -195,9 +195,9 @@ TEST_P(Stitch, TearsOutOfTissueThatItPullsTooHard) {
   const auto solver = make(model_, scene);
   solver->step({});
   const uint32_t before = lastStats(*solver).springs_cut;
-  StitchHand hand(0.03);
+  StitchTool tool(0.03);
   const int ticks = 90;
-  for (int t = 0; t < ticks; ++t) solver->step(hand.next(*solver, kTick_s));
+  for (int t = 0; t < ticks; ++t) solver->step(tool.next(*solver, kTick_s));
   EXPECT_LT(findProcess<SutureBodies>(*solver)->chain(0).worstLink(), kLink);
   EXPECT_GT(lastStats(*solver).springs_cut, before);
   EXPECT_LT(findProcess<SutureBodies>(*solver)->slides(0).size(), 6U);
@@ -205,7 +205,7 @@ TEST_P(Stitch, TearsOutOfTissueThatItPullsTooHard) {
   EXPECT_EQ(solver->health().trips, 0U);
 }
 
-TEST(StitchScene, NamesWhatIsWrongWithAChannel) {
+TEST(StitchScene, NamesWhatIsWrongWithATrack) {
   const Model model = modelOf({slitBox()});
   const auto fault = [&](const std::function<void(SutureConfig&)>& change) {
     Scene scene = stitchScene();

@@ -13,7 +13,7 @@ namespace viscera {
 namespace {
 
 constexpr double kTick_s = 1.0 / 60, kLink = 1e-9;
-constexpr double kPlace_m = 1e-5;  // of held or resting nodes
+constexpr double kPosition_m = 1e-5;  // of held or resting nodes
 
 /// Returns a scene with 60 mm of suture above the point x = 0 of the ground.
 std::string sceneWith(const std::string& keys, double height_m = 0.01) {
@@ -42,12 +42,13 @@ TEST(SuturePositions, FollowTheirPathInLinksOfOneLengthAndGoOnStraight) {
   config.spacing_m = 0.001;
   config.length_m = 0.05;
   config.path = {{Vector3d(0, 0, 0)}, {Vector3d(0.0105, 0, 0)}, {Vector3d(0.0105, 0.02, 0)}};
-  const std::vector<Vector3d> places = placesOf(config);
-  ASSERT_EQ(places.size(), 51U);
-  for (size_t i = 1; i < places.size(); ++i) EXPECT_NEAR((places[i] - places[i - 1]).norm(), 0.001, kLink) << i;
-  EXPECT_LT((places[10] - Vector3d(0.01, 0, 0)).norm(), kLink);
-  for (size_t i = 11; i < places.size(); ++i) EXPECT_NEAR(places[i].x(), 0.0105, kLink) << i;
-  EXPECT_GT(places.back().y(), 0.038);
+  const std::vector<Vector3d> positions = positionsOf(config);
+  ASSERT_EQ(positions.size(), 51U);
+  for (size_t i = 1; i < positions.size(); ++i)
+    EXPECT_NEAR((positions[i] - positions[i - 1]).norm(), 0.001, kLink) << i;
+  EXPECT_LT((positions[10] - Vector3d(0.01, 0, 0)).norm(), kLink);
+  for (size_t i = 11; i < positions.size(); ++i) EXPECT_NEAR(positions[i].x(), 0.0105, kLink) << i;
+  EXPECT_GT(positions.back().y(), 0.038);
 }
 
 TEST(SutureMaterials, AreOfSizeAndMaterialUnlessTheSceneSaysMore) {
@@ -88,40 +89,40 @@ TEST(SutureBodies, SuturesFallOnATableAndStay) {
   ObstacleMotions still(1);
   for (int k = 0; k < 60; ++k) sutures.step({}, still);
   const double radius_m = sutures.chain(0).material().radius_m;
-  for (const Vector3d& place : sutures.chain(0).places_m()) EXPECT_NEAR(place.z(), radius_m, kPlace_m);
+  for (const Vector3d& position : sutures.chain(0).positions_m()) EXPECT_NEAR(position.z(), radius_m, kPosition_m);
   // and are drawn along by its friction
   for (int k = 0; k < 60; ++k) {
     still[0].from = still[0].to;
     still[0].to.position_m.x() += 0.05 * kTick_s;
     sutures.step({}, still);
   }
-  EXPECT_NEAR(sutures.chain(0).places_m()[0].x(), -0.03 + 0.05, 0.002);
+  EXPECT_NEAR(sutures.chain(0).positions_m()[0].x(), -0.03 + 0.05, 0.002);
 }
 
-TEST(SutureBodies, HandsThatGrabTakeSuturesAndLetThemGo) {
+TEST(SutureBodies, ToolsThatGrabTakeSuturesAndLetThemGo) {
   const Scene scene = sceneOf(sceneWith(", start: fixed"));
   SutureBodies sutures(scene);
-  const Vector3d end_m(0.03, 0, 0.01), way_m(-0.02, 0.01, 0.01);
+  const Vector3d end_m(0.03, 0, 0.01), offset_m(-0.02, 0.01, 0.01);
   constexpr int kTicks = 30;
   for (int k = 0; k < kTicks; ++k) {
-    sutures.step(grabAt(end_m + k * way_m / kTicks, end_m + (k + 1) * way_m / kTicks, k == 0), {});
+    sutures.step(grabAt(end_m + k * offset_m / kTicks, end_m + (k + 1) * offset_m / kTicks, k == 0), {});
   }
-  EXPECT_LT((sutures.chain(0).places_m().back() - end_m - way_m).norm(), kPlace_m);
-  EXPECT_LT((sutures.chain(0).places_m()[0] - Vector3d(-0.03, 0, 0.01)).norm(), kPlace_m);
+  EXPECT_LT((sutures.chain(0).positions_m().back() - end_m - offset_m).norm(), kPosition_m);
+  EXPECT_LT((sutures.chain(0).positions_m()[0] - Vector3d(-0.03, 0, 0.01)).norm(), kPosition_m);
   const Vector3d far_m = end_m + Vector3d(0.05, 0, 0);
   for (int k = 0; k < kTicks; ++k) {  // farther than the suture is long: it slips in the stylus, and does not stretch
-    const Vector3d from_m = end_m + way_m;
+    const Vector3d from_m = end_m + offset_m;
     sutures.step(grabAt(from_m + k * (far_m - from_m) / kTicks, from_m + (k + 1) * (far_m - from_m) / kTicks, false),
                  {});
   }
-  EXPECT_NEAR(sutures.chain(0).places_m().back().x(), 0.03, 1e-4);
+  EXPECT_NEAR(sutures.chain(0).positions_m().back().x(), 0.03, 1e-4);
   EXPECT_NEAR(sutures.chain(0).tension_n(40), scene.styluses[0].max_force_n, 0.06 * scene.styluses[0].max_force_n);
   EXPECT_LT(sutures.chain(0).worstLink(), 1e-3);
   for (int k = 0; k < 60; ++k) sutures.step({}, {});
-  EXPECT_LT(sutures.chain(0).places_m().back().z(), 0);  // hangs, or swings
+  EXPECT_LT(sutures.chain(0).positions_m().back().z(), 0);  // hangs, or swings
 }
 
-TEST(SutureBodies, AHandOutOfReachTakesNothing) {
+TEST(SutureBodies, AToolOutOfReachTakesNothing) {
   const Scene scene = sceneOf(sceneWith(", start: fixed, end: fixed"));
   SutureBodies sutures(scene), alone(scene);
   const Vector3d above_m(0, 0, 0.01 + 2 * scene.styluses[0].grab.radius_m);

@@ -62,10 +62,10 @@ TEST(SutureBlades, CutSuturesWhereTheyMeetThem) {
   ASSERT_EQ(sutures.count(), 2U);
   EXPECT_EQ(sutures.chain(0).nodes() + sutures.chain(1).nodes(), nodes + 1);
   EXPECT_EQ(sutures.piece(1).suture, 0U);
-  EXPECT_NEAR(sutures.chain(0).places_m().back().x(), 0.01, sutures.chain(0).link_m());
+  EXPECT_NEAR(sutures.chain(0).positions_m().back().x(), 0.01, sutures.chain(0).link_m());
   for (int k = 0; k < 30; ++k) sutures.step({}, {});
-  EXPECT_LT((sutures.chain(0).places_m().front() - Vector3d(-0.03, 0, 0)).norm(), kSuturePiecesPosition_m);
-  EXPECT_LT((sutures.chain(1).places_m().back() - Vector3d(0.03, 0, 0)).norm(),
+  EXPECT_LT((sutures.chain(0).positions_m().front() - Vector3d(-0.03, 0, 0)).norm(), kSuturePiecesPosition_m);
+  EXPECT_LT((sutures.chain(1).positions_m().back() - Vector3d(0.03, 0, 0)).norm(),
             kSuturePiecesPosition_m);  // ends stay held
   sutures.step(cutAt(0.02), {});       // pieces are cut too
   EXPECT_EQ(sutures.count(), 3U);
@@ -105,7 +105,7 @@ TEST(SutureBlades, PartAsManyAsTheyMayAndLeaveShortEndsWhole) {
   for (size_t p = 0; p < sutures.count(); ++p) EXPECT_GE(sutures.chain(p).nodes(), 3U) << p;
 }
 
-TEST(SutureBlades, AHandKeepsThePieceThatItHolds) {
+TEST(SutureBlades, AToolKeepsThePieceThatItHolds) {
   Scene scene = taut();
   scene.sutures[0].end = SutureEnd::kFree;
   SutureBodies sutures(scene);
@@ -125,8 +125,8 @@ TEST(SutureBlades, AHandKeepsThePieceThatItHolds) {
   both[1].from = both[1].to;
   for (int k = 0; k < 30; ++k) sutures.step(both, {});
   double nearest_m = 1;
-  for (const Vector3d& place : sutures.chain(1).places_m())
-    nearest_m = std::min(nearest_m, (place - both[1].to.position_m).norm());
+  for (const Vector3d& position : sutures.chain(1).positions_m())
+    nearest_m = std::min(nearest_m, (position - both[1].to.position_m).norm());
   EXPECT_LT(nearest_m, 2 * kSuturePiecesPosition_m + sutures.chain(1).link_m() / 2);
   StylusPulls pulls;
   sutures.addPulls(pulls);
@@ -202,7 +202,7 @@ TEST(SutureKnots, ALoopThatIsCutIsOpenAndAKnotInAPieceStays) {
   sutures.tie(0, tie);
   for (int k = 0; k < 60 * 3; ++k) sutures.step({}, still);
   // off the tail that begins it: the knot is in the piece behind
-  const Vector3d tail_m = sutures.chain(0).places_m()[10];
+  const Vector3d tail_m = sutures.chain(0).positions_m()[10];
   ToolMotions cut = cutAt(tail_m.x(), tail_m.z() - 0.005);
   cut[0].from.position_m.y() = tail_m.y();
   cut[0].to.position_m.y() = tail_m.y();
@@ -252,18 +252,18 @@ TEST(SutureKnots, PiecesAndKnotsGoOnFromASavedState) {
 }
 
 /// Two styluses that each hold a tail of looped() near its end.
-class TwoHands {
+class TwoGrippers {
  public:
-  explicit TwoHands(SutureBodies& sutures) : sutures_(sutures) {
-    const std::vector<Vector3d>& places = sutures.chain(0).places_m();
-    at_[0] = places[2];
-    at_[1] = places[places.size() - 3];
+  explicit TwoGrippers(SutureBodies& sutures) : sutures_(sutures) {
+    const std::vector<Vector3d>& positions = sutures.chain(0).positions_m();
+    at_[0] = positions[2];
+    at_[1] = positions[positions.size() - 3];
   }
   /// Moves straight to two positions, at 50 mm/s.
   void go(const Vector3d& left_m, const Vector3d& right_m) {
     const std::array<Vector3d, 2> from = {at_[0], at_[1]}, to = {left_m, right_m};
-    const double way_m = std::max((left_m - at_[0]).norm(), (right_m - at_[1]).norm());
-    const int ticks = std::max(1, static_cast<int>(std::ceil(way_m / 0.05 / kSuturePiecesTick_s)));
+    const double offset_m = std::max((left_m - at_[0]).norm(), (right_m - at_[1]).norm());
+    const int ticks = std::max(1, static_cast<int>(std::ceil(offset_m / 0.05 / kSuturePiecesTick_s)));
     for (int k = 1; k <= ticks; ++k) {
       ToolMotions motions;
       for (size_t s = 0; s < 2; ++s) {
@@ -294,17 +294,17 @@ class TwoHands {
   bool holds_ = false;
 };
 
-TEST(SutureKnots, ThrowsOfTwoHandsAreCountedAndTellKnotsApart) {
+TEST(SutureKnots, ThrowsOfTwoToolsAreCountedAndTellKnotsApart) {
   for (const int second : {-1, 1}) {
     const Scene scene = looped();
     SutureBodies sutures(scene);
-    TwoHands hands(sutures);
-    hands.throwOnce(1);
+    TwoGrippers grippers(sutures);
+    grippers.throwOnce(1);
     SutureState seen = sutures.piece(0).seen();
     ASSERT_EQ(seen.knots.size(), 1U);
     EXPECT_EQ(seen.knots[0].kind, KnotKind::kHalf);
     EXPECT_FALSE(seen.knots[0].tied);
-    hands.throwOnce(second);
+    grippers.throwOnce(second);
     seen = sutures.piece(0).seen();
     ASSERT_EQ(seen.knots.size(), 1U);
     ASSERT_EQ(seen.knots[0].turns.size(), 2U);

@@ -24,9 +24,9 @@ Scene withSuture(const Model& model, double fraction) {
   return scene;
 }
 
-ToolMotions pull(int tick, const Vector3d& way_m) {
+ToolMotions pull(int tick, const Vector3d& offset_m) {
   const Vector3d end_m(0.03, 0, 0.1);
-  ToolMotions out = tool(ToolMode::kGrab, end_m + tick * way_m, end_m + (tick + 1) * way_m);
+  ToolMotions out = tool(ToolMode::kGrab, end_m + tick * offset_m, end_m + (tick + 1) * offset_m);
   out[0].hold_begins = tick == 0;
   return out;
 }
@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, SutureTicks, ::testing::ValuesIn(backendKinds
 
 }  // namespace
 
-TEST_P(SutureTicks, AHandThatPullsFeelsTheSuture) {
+TEST_P(SutureTicks, AToolThatPullsFeelsTheSuture) {
   for (const bool stability_monitor : {true, false}) {
     Scene scene = withSuture(model_, 0.5);
     scene.solver.stability_monitor = stability_monitor;

@@ -49,7 +49,7 @@ TEST(Throws, LinkedRingsTurnOnce) {
     other.emplace_back(1 + std::cos(angle), 0, std::sin(angle));
   }
   EXPECT_NEAR(std::abs(turnsOf(strandOf(one), strandOf(other))), 1, 1e-9);
-  for (Vector3d& place : other) place.x() += 3;
+  for (Vector3d& position : other) position.x() += 3;
   EXPECT_NEAR(turnsOf(strandOf(one), strandOf(other)), 0, 1e-9);
 }
 

@@ -21,12 +21,12 @@ constexpr double kMidpoint = 0.25;  // bending at the middle of the substep: dis
 
 }  // namespace
 
-Chain::Chain(const ChainMaterial& material, std::vector<Vector3d> places_m)
+Chain::Chain(const ChainMaterial& material, std::vector<Vector3d> positions_m)
     : material_(material),
-      link_m_((places_m[1] - places_m[0]).norm()),
+      link_m_((positions_m[1] - positions_m[0]).norm()),
       mass_kg_(material.density_kg_per_m3 * kPi * material.radius_m * material.radius_m * link_m_),
       bend_n_per_m_(material.bending_nm2 / (link_m_ * link_m_ * link_m_)),
-      start_(std::move(places_m)),
+      start_(std::move(positions_m)),
       x_(start_),
       v_(x_.size(), Vector3d::Zero()),
       mu_(x_.size() - 1, 0.0),
@@ -43,8 +43,8 @@ void Chain::stop() {
 }
 
 /// Moves the nodes by a substep from rest: their displacement is minimal, weighted by mass.
-void Chain::put(std::vector<Vector3d> places_m, std::vector<Vector3d> v_m_per_s, ChainAround& around) {
-  x_ = std::move(places_m);
+void Chain::put(std::vector<Vector3d> positions_m, std::vector<Vector3d> v_m_per_s, ChainAround& around) {
+  x_ = std::move(positions_m);
   stop();
   step(dt_s_ > 0 ? dt_s_ : kPut_s, around);
   stop();
@@ -87,7 +87,8 @@ void Chain::step(double dt_s, ChainAround& around) {
     if (whole) changed |= knots_.update(shape(), frozen, runs, around.knots);
     if (asks) around.answer(around.slides);
   }
-  const bool finite = std::all_of(next_.begin(), next_.end(), [](const Vector3d& place) { return place.allFinite(); });
+  const bool finite =
+      std::all_of(next_.begin(), next_.end(), [](const Vector3d& position) { return position.allFinite(); });
   waits_ = !finite || (iterations_ == kMostIterations && waits_ < kMostWaits) ? waits_ + 1 : 0;
   if (waited()) return wait(around);
   slides_.end(shape(), around.slides);
@@ -133,13 +134,13 @@ void Chain::setBending() {
     const double self = from_end == 0 ? 1 : from_end == 1 ? (n == 3 ? 4 : 5) : 6;
     const double next = from_end == 0 || i + 2 == n ? -2 : -4;
     matrix_.setNode(i, mass_kg(i) * (1 + drag) + stiff * self, i + 1 < n ? stiff * next : 0, i + 2 < n ? stiff : 0);
-    rest_[i].place = mass_kg(i) * (ahead_[i] - next_[i] + drag * (x_[i] - next_[i]));
+    rest_[i].position = mass_kg(i) * (ahead_[i] - next_[i] + drag * (x_[i] - next_[i]));
   }
   for (size_t i = 1; i + 1 < n; ++i) {
     const Vector3d force = bend_n_per_m_ * (bent_[i - 1] - 2 * bent_[i] + bent_[i + 1]);
-    rest_[i - 1].place -= force;
-    rest_[i].place += 2 * force;
-    rest_[i + 1].place -= force;
+    rest_[i - 1].position -= force;
+    rest_[i].position += 2 * force;
+    rest_[i + 1].position -= force;
   }
 }
 
@@ -159,8 +160,8 @@ void Chain::setLinks() {
   for (size_t i = 0; i < links_.size(); ++i) {
     const ChainLink& link = links_[i];
     matrix_.addLink(i, link.along, mu_[i] / link.length_m);
-    rest_[i].place += mu_[i] * link.along;
-    rest_[i + 1].place -= mu_[i] * link.along;
+    rest_[i].position += mu_[i] * link.along;
+    rest_[i + 1].position -= mu_[i] * link.along;
     rest_[i].tension = link_m_ - link.length_m;
   }
   rest_.back().tension = 0;
@@ -168,8 +169,8 @@ void Chain::setLinks() {
 
 void Chain::setAround(const ChainAround& around) {
   const auto push = [&](uint32_t node, double share, const Vector3d& by) {
-    rest_[node].place += (1 - share) * by;
-    if (share > 0) rest_[node + 1].place += share * by;
+    rest_[node].position += (1 - share) * by;
+    if (share > 0) rest_[node + 1].position += share * by;
   };
   for (const ChainLoad& load : around.loads) push(load.node, 0, dt_s_ * dt_s_ * load.force_n);
   for (const ChainHold& hold : around.holds) {
@@ -187,8 +188,8 @@ void Chain::setAround(const ChainAround& around) {
 
 /// Returns the slip along the border in the substep.
 Vector3d Chain::slid(const ChainTouch& touch) const {
-  const Vector3d way = next_[touch.node] - x_[touch.node] - touch.moved_m;
-  return way - way.dot(touch.normal) * touch.normal;
+  const Vector3d offset = next_[touch.node] - x_[touch.node] - touch.moved_m;
+  return offset - offset.dot(touch.normal) * touch.normal;
 }
 
 double Chain::depth_m(const ChainTouch& touch) const {
@@ -202,12 +203,12 @@ bool Chain::advance(ChainAround& around) {
   if (!around.knots.empty()) knots_.solve(shape(), matrix_, around.knots, rest_);
   double turned = 0;
   for (size_t i = 0; i + 1 < x_.size(); ++i) {
-    turned = std::max(turned, (rest_[i + 1].place - rest_[i].place).squaredNorm());
+    turned = std::max(turned, (rest_[i + 1].position - rest_[i].position).squaredNorm());
   }
   // No link turns by more than about a radian at once; tensions are always updated fully.
   const bool whole = turned <= link_m_ * link_m_;
   const double share = whole ? 1 : link_m_ / std::sqrt(turned);
-  for (size_t i = 0; i < x_.size(); ++i) next_[i] += share * rest_[i].place;
+  for (size_t i = 0; i < x_.size(); ++i) next_[i] += share * rest_[i].position;
   for (size_t i = 0; i < mu_.size(); ++i) mu_[i] += rest_[i].tension;
   return whole;
 }

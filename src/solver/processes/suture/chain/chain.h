@@ -74,8 +74,8 @@ struct ChainAround {
 /// A suture as a chain of nodes with inextensible links, with bending and without twist (docs/physics.md 13).
 class Chain {
  public:
-  /// @param places_m  [>= 3] positions of the nodes at rest; all links are as long as the first
-  Chain(const ChainMaterial& material, std::vector<Vector3d> places_m);
+  /// @param positions_m  [>= 3] positions of the nodes at rest; all links are as long as the first
+  Chain(const ChainMaterial& material, std::vector<Vector3d> positions_m);
 
   void step(double dt_s, ChainAround& around);
   /// Resets it to its initial positions, and whole.
@@ -89,12 +89,12 @@ class Chain {
   size_t nodes() const { return x_.size(); }
   double link_m() const { return link_m_; }
   const ChainMaterial& material() const { return material_; }
-  const std::vector<Vector3d>& places_m() const { return x_; }
+  const std::vector<Vector3d>& positions_m() const { return x_; }
   const std::vector<Vector3d>& velocities_m_per_s() const { return v_; }
   void setVelocities(std::vector<Vector3d> v_m_per_s) { v_ = std::move(v_m_per_s); }
   /// Moves nodes at once: as near to these positions as their links, holds and knots permit, without tensions.
-  /// @param places_m, v_m_per_s  [nodes]
-  void put(std::vector<Vector3d> places_m, std::vector<Vector3d> v_m_per_s, ChainAround& around);
+  /// @param positions_m, v_m_per_s  [nodes]
+  void put(std::vector<Vector3d> positions_m, std::vector<Vector3d> v_m_per_s, ChainAround& around);
   /// Sets all velocities and tensions to zero.
   void stop();
   double mass_kg(size_t node) const { return node == 0 || node + 1 == x_.size() ? mass_kg_ / 2 : mass_kg_; }

@@ -15,14 +15,15 @@ namespace {
 constexpr double kLoopLinks = 2;  // links of the smallest loop
 
 /// Returns the vector from s1 to s2, in addition to apart_m.
-Vector3d offOf(const ChainKnot& knot, const std::vector<Vector3d>& places) {
-  return ChainPoint(knot.s2, places.size()).of(places) - ChainPoint(knot.s1, places.size()).of(places) - knot.apart_m;
+Vector3d offOf(const ChainKnot& knot, const std::vector<Vector3d>& positions) {
+  return ChainPoint(knot.s2, positions.size()).of(positions) - ChainPoint(knot.s1, positions.size()).of(positions) -
+         knot.apart_m;
 }
 
 Vector3d offOf(const ChainKnot& knot, const std::vector<ChainMatrix::Unknown>& found) {
   const ChainPoint one(knot.s1, found.size()), two(knot.s2, found.size());
   const auto at = [&](const ChainPoint& point) -> Vector3d {
-    return (1 - point.share) * found[point.node].place + point.share * found[point.node + 1].place;
+    return (1 - point.share) * found[point.node].position + point.share * found[point.node + 1].position;
   };
   return at(two) - at(one);
 }
@@ -41,7 +42,7 @@ bool runsAlong(const ChainKnot& knot) {
 void ChainKnots::begin(const std::vector<ChainSlide>& slides, const ChainShape& shape, std::vector<ChainKnot>& knots) {
   assert(knots.size() <= kMostKnots);
   const size_t rows = 3 * knots.size();
-  while (borders_.size() < rows) borders_.emplace_back(shape.places_m.size());
+  while (borders_.size() < rows) borders_.emplace_back(shape.positions_m.size());
   for (size_t k = 0; k < knots.size(); ++k) {
     ChainKnot& knot = knots[k];
     runs_[k] = {};
@@ -62,7 +63,7 @@ void ChainKnots::set(const ChainShape& shape, const std::vector<ChainKnot>& knot
                      std::vector<ChainMatrix::Unknown>& rest) {
   for (size_t k = 0; k < knots.size(); ++k) {
     if (knots[k].out) continue;
-    runs_[k].turn = ChainTurn(ChainPoint(knots[k].s2, shape.places_m.size()), shape.links);
+    runs_[k].turn = ChainTurn(ChainPoint(knots[k].s2, shape.positions_m.size()), shape.links);
     push(knots[k], shape.dt_s * knots[k].impulse_ns, rest);
   }
 }
@@ -85,7 +86,7 @@ void ChainKnots::solve(const ChainShape& shape, const ChainMatrix& matrix, std::
             -offOf(knots[j], border);
       }
     }
-    off.segment<3>(3 * static_cast<Eigen::Index>(k)) = offOf(knots[k], shape.places_m) + offOf(knots[k], found);
+    off.segment<3>(3 * static_cast<Eigen::Index>(k)) = offOf(knots[k], shape.positions_m) + offOf(knots[k], found);
   }
   gives.diagonal().array() += 1 / kRigidMass_kg;
   for (size_t k = 0; k < knots.size(); ++k) {
@@ -115,7 +116,7 @@ void ChainKnots::solve(const ChainShape& shape, const ChainMatrix& matrix, std::
     for (int axis = 0; axis < 3; ++axis) {
       const std::vector<ChainMatrix::Unknown>& border = borders_[3 * k + static_cast<size_t>(axis)];
       for (size_t i = 0; i < found.size(); ++i) {
-        found[i].place += by[axis] * border[i].place;
+        found[i].position += by[axis] * border[i].position;
         found[i].tension += by[axis] * border[i].tension;
       }
     }
@@ -128,7 +129,7 @@ bool ChainKnots::update(const ChainShape& shape, bool frozen, bool runs, std::ve
     ChainKnot& knot = knots[k];
     if (knot.out) continue;
     ChainRun& run = runs_[k];
-    const double off_m = offOf(knot, shape.places_m).dot(run.turn.tangent);
+    const double off_m = offOf(knot, shape.positions_m).dot(run.turn.tangent);
     const double along = shape.dt_s * knot.impulse_ns.dot(run.turn.tangent);
     const double limit_n = (knot.tied ? knot.holds_n : knot.friction_n) * run.turn.alongBisector();
     const double limit = shape.dt_s * shape.dt_s * limit_n;
@@ -145,7 +146,7 @@ double ChainKnots::farthestOff_m(const ChainShape& shape, const std::vector<Chai
   double out = 0;
   for (size_t k = 0; k < knots.size(); ++k) {
     if (knots[k].out) continue;
-    const Vector3d off_m = offOf(knots[k], shape.places_m), &t = runs_[k].turn.tangent;
+    const Vector3d off_m = offOf(knots[k], shape.positions_m), &t = runs_[k].turn.tangent;
     out = std::max(out, runsAlong(knots[k]) ? (off_m - off_m.dot(t) * t).norm() : off_m.norm());
   }
   return out;

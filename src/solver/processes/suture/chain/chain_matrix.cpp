@@ -65,8 +65,8 @@ void ChainMatrix::addLink(size_t i, const Vector3d& along, double across) {
   row.next -= turned;
 }
 
-void ChainMatrix::addPoint(size_t i, double share, double all, const Vector3d& way) {
-  addPoint(i, share, all * Matrix3d::Identity() + way * way.transpose());
+void ChainMatrix::addPoint(size_t i, double share, double all, const Vector3d& direction) {
+  addPoint(i, share, all * Matrix3d::Identity() + direction * direction.transpose());
 }
 
 void ChainMatrix::addPoint(size_t i, double share, const Matrix3d& what) {
@@ -163,53 +163,53 @@ void ChainMatrix::factorMiddle(const Left<Pair>& left) {
 /// @param place, tension  in: right-hand sides, without the contributions of nodes before it
 /// @param next, after  in: contributions to the node and the next one; out: to the next one and the one after it
 template <class T>
-void ChainMatrix::forward(const Factored<T>& node, Vector<T>& place, T& tension, Vector<T>& next, Vector<T>& after) {
-  for (size_t r = 0; r < 3; ++r) place[r] -= next[r];
-  Vector<T> x = times(node.back, place);
-  const T pull = dot(node.across, place) + node.tension * tension;
+void ChainMatrix::forward(const Factored<T>& node, Vector<T>& position, T& tension, Vector<T>& next, Vector<T>& after) {
+  for (size_t r = 0; r < 3; ++r) position[r] -= next[r];
+  Vector<T> x = times(node.back, position);
+  const T pull = dot(node.across, position) + node.tension * tension;
   for (size_t r = 0; r < 3; ++r) x[r] += node.across[r] * tension;
   for (size_t c = 0; c < 3; ++c) {
     next[c] =
         after[c] + node.next[0][c] * x[0] + node.next[1][c] * x[1] + node.next[2][c] * x[2] + node.along[c] * pull;
     after[c] = node.after * x[c];
   }
-  place = x;
+  position = x;
   tension = pull;
 }
 
 template <class T>
-void ChainMatrix::backward(const Factored<T>& node, const Vector<T>& next, const Vector<T>& after, Vector<T>& place,
+void ChainMatrix::backward(const Factored<T>& node, const Vector<T>& next, const Vector<T>& after, Vector<T>& position,
                            T& tension) {
   Vector<T> known;
   for (size_t r = 0; r < 3; ++r) known[r] = dot(node.next[r], next) + node.after * after[r];
   const T link = dot(node.along, next);
   const Vector<T> by = times(node.back, known);
-  for (size_t r = 0; r < 3; ++r) place[r] -= by[r] + node.across[r] * link;
+  for (size_t r = 0; r < 3; ++r) position[r] -= by[r] + node.across[r] * link;
   tension -= dot(node.across, known) + node.tension * link;
 }
 
 void ChainMatrix::solve(std::vector<Unknown>& right) const {
   const size_t n = rows_.size(), k = pairs_.size(), count = middles();
-  const auto load = [&](size_t p, Vector<Pair>& place, Pair& tension) {
+  const auto load = [&](size_t p, Vector<Pair>& position, Pair& tension) {
     const Unknown &first = right[p], &last = right[n - 1 - p];
-    place = {Pair(first.place[0], last.place[0]), Pair(first.place[1], last.place[1]),
-             Pair(first.place[2], last.place[2])};
+    position = {Pair(first.position[0], last.position[0]), Pair(first.position[1], last.position[1]),
+                Pair(first.position[2], last.position[2])};
     tension = {first.tension, right[n - 2 - p].tension};
   };
-  const auto store = [&](size_t p, const Vector<Pair>& place, const Pair& tension) {
-    right[p].place = {place[0][0], place[1][0], place[2][0]};
-    right[n - 1 - p].place = {place[0][1], place[1][1], place[2][1]};
+  const auto store = [&](size_t p, const Vector<Pair>& position, const Pair& tension) {
+    right[p].position = {position[0][0], position[1][0], position[2][0]};
+    right[n - 1 - p].position = {position[0][1], position[1][1], position[2][1]};
     right[p].tension = tension[0];
     right[n - 2 - p].tension = tension[1];
   };
-  Vector<Pair> place, next, after;
+  Vector<Pair> position, next, after;
   next.fill(Pair::Zero());
   after.fill(Pair::Zero());
   Pair tension;
   for (size_t p = 0; p < k; ++p) {
-    load(p, place, tension);
-    forward(pairs_[p], place, tension, next, after);
-    store(p, place, tension);
+    load(p, position, tension);
+    forward(pairs_[p], position, tension, next, after);
+    store(p, position, tension);
   }
   const auto lane = [](const Vector<Pair>& of, Eigen::Index l) { return Vector<double>{of[0][l], of[1][l], of[2][l]}; };
   std::array<Vector<double>, 3> x{};
@@ -218,14 +218,14 @@ void ChainMatrix::solve(std::vector<Unknown>& right) const {
   for (size_t m = 0; m < count; ++m) {
     const Vector<Pair>* const from_last = m + 1 == count ? &next : m + 2 == count ? &after : nullptr;
     for (size_t r = 0; r < 3; ++r)
-      x[m][r] = right[k + m].place[static_cast<Eigen::Index>(r)] - (from_last ? (*from_last)[r][1] : 0);
+      x[m][r] = right[k + m].position[static_cast<Eigen::Index>(r)] - (from_last ? (*from_last)[r][1] : 0);
     pull[m] = m + 1 < count ? right[k + m].tension : 0;
     forward(middle_[m], x[m], pull[m], mid_next, mid_after);
   }
   for (size_t m = count - 1; m-- > 0;)
     backward(middle_[m], x[m + 1], m + 2 < count ? x[m + 2] : Vector<double>{}, x[m], pull[m]);
   for (size_t m = 0; m < count; ++m) {
-    right[k + m].place = {x[m][0], x[m][1], x[m][2]};
+    right[k + m].position = {x[m][0], x[m][1], x[m][2]};
     if (m + 1 < count) right[k + m].tension = pull[m];
   }
   for (size_t r = 0; r < 3; ++r) {
@@ -233,11 +233,11 @@ void ChainMatrix::solve(std::vector<Unknown>& right) const {
     after[r] = {x[1][r], x[count - 2][r]};
   }
   for (size_t p = k; p-- > 0;) {
-    load(p, place, tension);
-    backward(pairs_[p], next, after, place, tension);
-    store(p, place, tension);
+    load(p, position, tension);
+    backward(pairs_[p], next, after, position, tension);
+    store(p, position, tension);
     after = next;
-    next = place;
+    next = position;
   }
 }
 

@@ -16,7 +16,7 @@ namespace viscera {
 class ChainMatrix {
  public:
   struct Unknown {
-    Vector3d place = Vector3d::Zero();
+    Vector3d position = Vector3d::Zero();
     double tension = 0;
   };
 
@@ -27,7 +27,7 @@ class ChainMatrix {
   /// Adds link i, from node i to the next: its direction, and the stiffness across it where it is taut.
   void addLink(size_t i, const Vector3d& along, double across);
   /// Adds (all I + way way^T) on the point with weight `share` of node i + 1 and the rest of node i.
-  void addPoint(size_t i, double share, double all, const Vector3d& way);
+  void addPoint(size_t i, double share, double all, const Vector3d& direction);
   void addPoint(size_t i, double share, const Matrix3d& what);
   void factor();
   /// Solves the factored system. @param right  [nodes] in: right-hand sides; out: solution. The last tension does not
@@ -68,9 +68,9 @@ class ChainMatrix {
   static void factorNode(Symmetric<T> self, bool link, Factored<T>& node, Left<T>& left);
   void factorMiddle(const Left<Pair>& left);
   template <class T>
-  static void forward(const Factored<T>& node, Vector<T>& place, T& tension, Vector<T>& next, Vector<T>& after);
+  static void forward(const Factored<T>& node, Vector<T>& position, T& tension, Vector<T>& next, Vector<T>& after);
   template <class T>
-  static void backward(const Factored<T>& node, const Vector<T>& next, const Vector<T>& after, Vector<T>& place,
+  static void backward(const Factored<T>& node, const Vector<T>& next, const Vector<T>& after, Vector<T>& position,
                        T& tension);
   size_t middles() const { return rows_.size() - 2 * pairs_.size(); }
 

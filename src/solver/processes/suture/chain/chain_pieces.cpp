@@ -69,7 +69,7 @@ void Chain::keep(size_t first, size_t last) {
 void Chain::fit() {
   if (next_.size() == x_.size()) return;
   matrix_ = ChainMatrix(x_.size());
-  for (std::vector<Vector3d>* places : {&ahead_, &next_, &bent_}) places->resize(x_.size());
+  for (std::vector<Vector3d>* positions : {&ahead_, &next_, &bent_}) positions->resize(x_.size());
   links_.resize(mu_.size());
   rest_.resize(x_.size());
 }

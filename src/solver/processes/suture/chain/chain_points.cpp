@@ -24,13 +24,13 @@ double secant(double limit, double slipped_m, double most_kg) {
 ChainPoint::ChainPoint(double s, size_t nodes)
     : node(static_cast<uint32_t>(std::clamp(s, 0.0, static_cast<double>(nodes) - 2))), share(s - node) {}
 
-Vector3d ChainPoint::of(const std::vector<Vector3d>& places) const {
-  return (1 - share) * places[node] + share * places[node + 1];
+Vector3d ChainPoint::of(const std::vector<Vector3d>& positions) const {
+  return (1 - share) * positions[node] + share * positions[node + 1];
 }
 
 void ChainPoint::push(const Vector3d& by, std::vector<ChainMatrix::Unknown>& rest) const {
-  rest[node].place += (1 - share) * by;
-  rest[node + 1].place += share * by;
+  rest[node].position += (1 - share) * by;
+  rest[node + 1].position += share * by;
 }
 
 ChainTurn::ChainTurn(const ChainPoint& point, const std::vector<ChainLink>& links) {

@@ -24,7 +24,7 @@ struct ChainLink {
 
 /// A chain in an iteration of a substep.
 struct ChainShape {
-  const std::vector<Vector3d>& places_m;
+  const std::vector<Vector3d>& positions_m;
   const std::vector<ChainLink>& links;
   double link_m;
   double dt_s;
@@ -34,7 +34,7 @@ struct ChainShape {
 struct ChainPoint {
   /// @param s  position on a chain with `nodes` nodes [links]
   ChainPoint(double s, size_t nodes);
-  Vector3d of(const std::vector<Vector3d>& places) const;
+  Vector3d of(const std::vector<Vector3d>& positions) const;
   /// Distributes a force on the point to its nodes.
   void push(const Vector3d& by, std::vector<ChainMatrix::Unknown>& rest) const;
   uint32_t node;

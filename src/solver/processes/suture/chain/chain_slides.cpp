@@ -72,14 +72,14 @@ void ChainSlides::set(const ChainShape& shape, const std::vector<ChainSlide>& sl
   for (size_t k = 0; k < slides.size(); ++k) {
     const ChainSlide& slide = slides[k];
     if (slide.out) continue;
-    const ChainPoint point(slide.s, shape.places_m.size());
+    const ChainPoint point(slide.s, shape.positions_m.size());
     runs_[k].turn = ChainTurn(point, shape.links);
     const Vector3d& t = runs_[k].turn.tangent;
     Matrix3d stiff =
         (tears(slide) ? yields(slide, runs_[k], slide.stiffness_kg) : slide.mass_kg) * Matrix3d::Identity();
     if (runsAlong(slide)) stiff -= (slide.mass_kg - yields(slide, runs_[k], slide.rub_kg)) * t * t.transpose();
     matrix.addPoint(point.node, point.share, stiff);
-    point.push(-impulse(slide, runs_[k], point.of(shape.places_m) - slide.to_m, shape.dt_s), rest);
+    point.push(-impulse(slide, runs_[k], point.of(shape.positions_m) - slide.to_m, shape.dt_s), rest);
   }
 }
 
@@ -89,7 +89,7 @@ bool ChainSlides::update(const ChainShape& shape, bool frozen, bool runs, std::v
     ChainSlide& slide = slides[k];
     if (slide.out) continue;
     ChainRun& run = runs_[k];
-    Vector3d off_m = ChainPoint(slide.s, shape.places_m.size()).of(shape.places_m) - slide.to_m;
+    Vector3d off_m = ChainPoint(slide.s, shape.positions_m.size()).of(shape.positions_m) - slide.to_m;
     const Vector3d before_ns = slide.impulse_ns;
     slide.impulse_ns = impulse(slide, run, off_m, shape.dt_s) / shape.dt_s;
     if (run.on_needle) off_m += shape.dt_s * (before_ns - slide.impulse_ns) / slide.mass_kg;
@@ -127,7 +127,7 @@ double ChainSlides::farthestOff_m(const ChainShape& shape, const std::vector<Cha
   for (size_t k = 0; k < slides.size(); ++k) {
     const ChainSlide& slide = slides[k];
     if (slide.out || tears(slide)) continue;
-    Vector3d off_m = ChainPoint(slide.s, shape.places_m.size()).of(shape.places_m) - slide.to_m;
+    Vector3d off_m = ChainPoint(slide.s, shape.positions_m.size()).of(shape.positions_m) - slide.to_m;
     if (runsAlong(slide)) off_m -= off_m.dot(runs_[k].turn.tangent) * runs_[k].turn.tangent;
     out = std::max(out, off_m.norm());
   }
@@ -137,7 +137,7 @@ double ChainSlides::farthestOff_m(const ChainShape& shape, const std::vector<Cha
 void ChainSlides::end(const ChainShape& shape, std::vector<ChainSlide>& slides) const {
   for (ChainSlide& slide : slides) {
     if (!slide.out && tears(slide))
-      slide.torn_m = ChainPoint(slide.s, shape.places_m.size()).of(shape.places_m) - slide.to_m;
+      slide.torn_m = ChainPoint(slide.s, shape.positions_m.size()).of(shape.positions_m) - slide.to_m;
   }
 }
 

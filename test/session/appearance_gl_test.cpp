@@ -17,7 +17,7 @@ namespace {
 
 using namespace test;
 
-class Looks : public OnSceneBackend {
+class Appearance : public OnSceneBackend {
  protected:
   /// Returns a block that fills much of an image.
   static Scene scene(int supersampling = 0) {
@@ -38,7 +38,7 @@ class Looks : public OnSceneBackend {
     return picture(session, kind);
   }
 };
-VISCERA_ON_EVERY_BACKEND(Looks);
+VISCERA_ON_EVERY_BACKEND(Appearance);
 
 constexpr int kOpenTicks = kCutTicks + 10;
 /// Returns a cut, after which the far lip is drawn away by the other stylus.
@@ -75,7 +75,7 @@ double sumOf(const ImageFrame& image, size_t pixel) {
 
 /// Next to a body and a camera that request all of them. If nothing requests them, they are compiled out of the
 /// shaders.
-TEST_P(Looks, WhatDoesNotAskForThemLooksAsBefore) {
+TEST_P(Appearance, WhatDoesNotAskForThemLooksAsBefore) {
   constexpr int kRounded = 1;  // of 255: other shaders round differently
   for (const int supersampling : {0, 2}) {
     const Scene plain = scene(supersampling);
@@ -95,9 +95,9 @@ TEST_P(Looks, WhatDoesNotAskForThemLooksAsBefore) {
       Session session(of, context_);
       play(session, press, kPressTicks);
       session.drain();
-      FrameRequest wants;
-      wants.cameras = {all, all};
-      if (all) session.show(wants);
+      FrameRequest outputs;
+      outputs.cameras = {all, all};
+      if (all) session.show(outputs);
       return picture(session).rgb;
     };
     const std::vector<uint8_t> alone = bytes(plain, false), with = bytes(beside, true);
@@ -108,7 +108,7 @@ TEST_P(Looks, WhatDoesNotAskForThemLooksAsBefore) {
   }
 }
 
-TEST_P(Looks, LightAtTheLensFadesWithTheSquareOfTheDistanceAndTowardsTheRimOfItsCone) {
+TEST_P(Appearance, LightAtTheLensFadesWithTheSquareOfTheDistanceAndTowardsTheRimOfItsCone) {
   constexpr double kShare = 0.06;  // of the compared light: 8 bits of dark colours, and a light 4 mm from the lens
   Scene lit = scene();
   CameraConfig& camera = lit.cameras[0];
@@ -142,7 +142,7 @@ TEST_P(Looks, LightAtTheLensFadesWithTheSquareOfTheDistanceAndTowardsTheRimOfIts
   EXPECT_LT(as_lamp, 2.2) << "it comes from straight before the face, the lamp from aside";
 }
 
-TEST_P(Looks, ContactShadowsAreWhereAToolIsNear) {
+TEST_P(Appearance, ContactShadowsAreWhereAToolIsNear) {
   Scene plain = scene(), dark = plain;
   dark.cameras[0].contact_shadows = 1;
   const auto above = [](double gap_m) {
@@ -161,7 +161,7 @@ TEST_P(Looks, ContactShadowsAreWhereAToolIsNear) {
   EXPECT_LT(most_far, 0.3 * most);
 }
 
-TEST_P(Looks, LobulesAndBundlesAreOnWallsOfWoundsAlone) {
+TEST_P(Appearance, LobulesAndBundlesAreOnWallsOfWoundsAlone) {
   for (const int supersampling : {0, 2}) {
     Scene plain = scene(supersampling);
     plain.cameras[0].position_m = Vector3d(0.01, -0.02, 0.1);
@@ -189,7 +189,7 @@ TEST_P(Looks, LobulesAndBundlesAreOnWallsOfWoundsAlone) {
   }
 }
 
-TEST_P(Looks, SkinIsPalerWhereItIsPressedAndNowhereElse) {
+TEST_P(Appearance, SkinIsPalerWhereItIsPressedAndNowhereElse) {
   Scene plain = scene(), pale = plain;
   pale.bodies[0].blanching = 1;
   EXPECT_TRUE(after(plain).rgb == after(pale).rgb) << "at rest";

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// collision_note.comp - records the contacts that nodes may have in an implicit substep.   physics.md 2, 8
+// collision_record.comp - records the contacts that nodes may have in an implicit substep.   physics.md 2, 8
 // Owner: solver/gpu/contact/collision_pass.h
 // in  contacts [slots] of collision_meet.comp     out  pairs (implicit_pairs.glsl); marks nodes with pairs in the increments
 #undef LOADS  // the buffer that it writes must not be read through another binding
@@ -12,12 +12,12 @@
 layout(std430, binding = kBindIncrement) buffer IncrementBuffer { vec4 increments[]; };
 #endif
 
-uint noted = 0u;
+uint recorded = 0u;
 
 void visit(Entry me, Entry other, float wanted) {
   PairRun run = pairsOf(me.slot);
-  if (noted >= run.count) return;
-  uint end = run.first + noted++;
+  if (recorded >= run.count) return;
+  uint end = run.first + recorded++;
   bool first = me.slot < other.slot;
   vec3 normal = first ? contactNormal(directionBetween(me, other), contacts[me.slot], contacts[other.slot])
                       : contactNormal(directionBetween(other, me), contacts[other.slot], contacts[me.slot]);
@@ -27,7 +27,7 @@ void visit(Entry me, Entry other, float wanted) {
   pair_rows[2u * end + 1u] = vec4(0.0f);
 }
 bool isAlone(uint slot) { return contacts[slot].w == 0.0f; }
-void begin() { noted = 0u; }
+void begin() { recorded = 0u; }
 void end(uint slot) {
   uint count = pairsOf(slot).count;
   if (count == 0u) return;

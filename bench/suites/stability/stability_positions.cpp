@@ -15,7 +15,7 @@ namespace viscera::bench {
 
 namespace {
 
-constexpr double kStabilityPlacesSpacing_m = 0.005, kAway_m = 1000;
+constexpr double kStabilityPositionsSpacing_m = 0.005, kAway_m = 1000;
 /// Based on float32 resolution at 1000 m, 6e-5 m, in which tools and surface meshes are published: one rounding of the
 /// vertex, and 1.7 times that of the tip, because squeezed cells expand sideways.
 constexpr double kSkinApart_m = 1.6e-4;
@@ -30,15 +30,15 @@ struct Pressed {
   double force_n = 0;
 };
 
-Pressed press(Backend backend, gpu::Context* context, const Vector3d& place_m) {
+Pressed press(Backend backend, gpu::Context* context, const Vector3d& position_m) {
   constexpr int kTicks = 40;
   Scene scene;
   BodyConfig body;
   body.source = TissueSource::kBox;
   body.box_size_m = Vector3d(0.03, 0.03, 0.02);
-  body.spacing_m = kStabilityPlacesSpacing_m;
-  body.position_m = place_m;
-  body.fixed.push_back(clampBehind(place_m - Vector3d(0, 0, 0.0099), Vector3d::UnitZ()));
+  body.spacing_m = kStabilityPositionsSpacing_m;
+  body.position_m = position_m;
+  body.fixed.push_back(clampBehind(position_m - Vector3d(0, 0, 0.0099), Vector3d::UnitZ()));
   scene.bodies.push_back(body);
   scene.environment.gravity_m_per_s2 = Vector3d::Zero();
   scene.solver.backend = backend;
@@ -52,30 +52,30 @@ Pressed press(Backend backend, gpu::Context* context, const Vector3d& place_m) {
   Pressed out;
   for (int t = 0; t < kTicks; ++t) {
     const double down = std::min(1.0, t / 20.0);
-    samples[0].pose.position_m = place_m + Vector3d(0.001, 0.002, 0.01 + 0.008 + 0.002 - 0.006 * down);
+    samples[0].pose.position_m = position_m + Vector3d(0.001, 0.002, 0.01 + 0.008 + 0.002 - 0.006 * down);
     out.force_n = session->step(samples, {}).reactions[0].force_n.norm();
   }
   out.force_n = session->drain().reactions[0].force_n.norm();
   const HostState state = session->solver().readState();
   for (const layout::vec4& u : state.displacement_m) out.u_m.push_back(xyz(u));
-  FrameRequest wants;
-  wants.surface = true;
-  const Pictures pictures = session->show(wants);
+  FrameRequest outputs;
+  outputs.surface = true;
+  const Pictures pictures = session->show(outputs);
   if (pictures.surface) out.skin_m = pictures.surface->positions_m;
   return out;
 }
 
-/// Returns the largest distance of a vertex to the nearest one of the surface mesh that is displaced by `place_m` [m];
-/// NaN if one of them is empty. Vertices do not correspond one to one: far away, rounding makes some edges exceed the
-/// limit, and they are divided.
-double skinsApart(const Pressed& here, const Pressed& there, const Vector3d& place_m) {
+/// Returns the largest distance of a vertex to the nearest one of the surface mesh that is displaced by `position_m`
+/// [m]; NaN if one of them is empty. Vertices do not correspond one to one: far away, rounding makes some edges exceed
+/// the limit, and they are divided.
+double skinsApart(const Pressed& here, const Pressed& there, const Vector3d& position_m) {
   if (here.skin_m.empty() || there.skin_m.empty()) return std::nan("");
   const auto at = [](const std::vector<float>& skin_m, size_t v) {
     return Vector3d(skin_m[3 * v], skin_m[3 * v + 1], skin_m[3 * v + 2]);
   };
   double out = 0;
   for (size_t v = 0; 3 * v < here.skin_m.size(); ++v) {
-    const Vector3d moved = at(here.skin_m, v) + place_m;
+    const Vector3d moved = at(here.skin_m, v) + position_m;
     double nearest = std::numeric_limits<double>::infinity();
     for (size_t w = 0; 3 * w < there.skin_m.size(); ++w) {
       nearest = std::min(nearest, (at(there.skin_m, w) - moved).norm());
@@ -97,12 +97,12 @@ void measureFar(Report& report) {
   for (Backend backend : report.backends()) {
     report.stage("far away, " + nameOf(backend));
     gpu::Context* context = backend == Backend::kGpu ? report.context() : nullptr;
-    const Vector3d place_m(kAway_m, 0, 0);
-    const Pressed here = press(backend, context, Vector3d::Zero()), there = press(backend, context, place_m);
+    const Vector3d position_m(kAway_m, 0, 0);
+    const Pressed here = press(backend, context, Vector3d::Zero()), there = press(backend, context, position_m);
     double apart = 0;
     for (size_t i = 0; i < here.u_m.size(); ++i) apart = worse(apart, (here.u_m[i] - there.u_m[i]).norm());
     apart /= largestNorm(here.u_m);
-    const double force = std::abs(there.force_n / here.force_n - 1), skin_m = skinsApart(here, there, place_m);
+    const double force = std::abs(there.force_n / here.force_n - 1), skin_m = skinsApart(here, there, position_m);
     table.add({nameOf(backend), here.force_n, force, apart, skin_m, static_cast<double>(here.skin_m.size() / 3),
                static_cast<double>(there.skin_m.size() / 3)});
     const std::string name = nameOf(backend) + ": 1000 m from the origin: ";
@@ -159,7 +159,7 @@ void measureSizes(Report& report) {
 
 }  // namespace
 
-void placesOfStability(Report& report) {
+void positionsOfStability(Report& report) {
   measureFar(report);
   measureSizes(report);
 }

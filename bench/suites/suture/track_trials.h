@@ -7,13 +7,13 @@
 namespace viscera::bench {
 
 /// A suture drawn through channels that turn it by 90 degrees in all, friction 0.3.
-struct ChannelTrial {
+struct TrackTrial {
   double ratio = 0;   ///< ratio of tensions, mean while links pass, over exp(friction x angle)
   double ripple = 0;  ///< largest deviation of the ratio from its mean
   double iterations = 0;
 };
 /// Runs the trial. @param bending_share  relative to a solid suture   @param back_n  force that holds it back [N]
-ChannelTrial drawnThroughChannels(size_t channels, double bending_share, double back_n);
+TrackTrial drawnThroughTracks(size_t channels, double bending_share, double back_n);
 
 /// A suture in flight through three channels of free masses, half a second, with friction and tearing.
 struct TissueTrial {

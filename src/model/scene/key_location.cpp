@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "model/scene/key_place.h"
+#include "model/scene/key_location.h"
 
 #include <yaml-cpp/yaml.h>
 
@@ -10,7 +10,7 @@
 
 namespace viscera {
 
-std::string placeOf(const std::string& file, const std::string& path) {
+std::string locationOf(const std::string& file, const std::string& path) {
   try {
     YAML::Node node = YAML::Load(textOf(file, "scene"));
     for (size_t at = 0; at < path.size();) {

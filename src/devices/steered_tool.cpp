@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "devices/steered_hand.h"
+#include "devices/steered_tool.h"
 
 #include <cmath>
 
@@ -22,9 +22,9 @@ double deflected(double value, double dead_zone) {
 
 Pose approach(const Pose& from, const Pose& target, const SteeredSpeed& speed, double dt_s) {
   Pose out = target;
-  const Vector3d way = target.position_m - from.position_m;
-  const double length = way.norm(), most_m = speed.linear_m_per_s * dt_s;
-  if (length > most_m) out.position_m = from.position_m + most_m / length * way;
+  const Vector3d offset = target.position_m - from.position_m;
+  const double length = offset.norm(), most_m = speed.linear_m_per_s * dt_s;
+  if (length > most_m) out.position_m = from.position_m + most_m / length * offset;
   const double angle = from.orientation.angularDistance(target.orientation), most_rad = speed.angular_rad_per_s * dt_s;
   if (angle > most_rad) out.orientation = from.orientation.slerp(most_rad / angle, target.orientation).normalized();
   return out;

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bench/suites/suture/channel_trials.h"
+#include "bench/suites/suture/track_trials.h"
 
 #include <algorithm>
 #include <array>
@@ -22,23 +22,23 @@ struct Corners {
     const double all_m = 2 * end_m + piece_m * (static_cast<double>(corners) - 1);
     for (size_t k = 0; k < corners; ++k) at_m.push_back(end_m + piece_m * static_cast<double>(k));
     Vector3d at = Vector3d::Zero();
-    double heading = 0, way_m = 0;
+    double heading = 0, path_m = 0;
     size_t next = 0;
-    places.push_back(at);
-    while (way_m + link_m < all_m) {  // a link over a corner is slightly shorter; the first substep corrects that
-      way_m += link_m;
-      while (next < corners && way_m > at_m[next]) {
-        points.push_back(at + (link_m - (way_m - at_m[next])) * direction(heading));
+    positions.push_back(at);
+    while (path_m + link_m < all_m) {  // a link over a corner is slightly shorter; the first substep corrects that
+      path_m += link_m;
+      while (next < corners && path_m > at_m[next]) {
+        points.push_back(at + (link_m - (path_m - at_m[next])) * direction(heading));
         heading += angle;
-        at = points.back() - (link_m - (way_m - at_m[next])) * direction(heading);
+        at = points.back() - (link_m - (path_m - at_m[next])) * direction(heading);
         ++next;
       }
       at += link_m * direction(heading);
-      places.push_back(at);
+      positions.push_back(at);
     }
   }
   static Vector3d direction(double heading) { return {std::cos(heading), 0, -std::sin(heading)}; }
-  std::vector<Vector3d> places, points;
+  std::vector<Vector3d> positions, points;
   std::vector<double> at_m;
 };
 
@@ -49,37 +49,37 @@ struct FreeMasses {
   FreeMasses() { speeds.fill(Vector3d::Zero()); }
   ChainAround around(double link_m) {
     ChainAround out;
-    for (size_t c = 0; c < places.size(); ++c) {
+    for (size_t c = 0; c < positions.size(); ++c) {
       ChainSlide slide;
       slide.s = 20.3 + 17.8 * static_cast<double>(c);
       slide.mass_kg = kMass_kg;
       slide.friction = kFriction;
       slide.through_n = 1e-3;
       slide.most_n = 0.05;
-      places[c] = Vector3d(slide.s * link_m, 0, 0);
+      positions[c] = Vector3d(slide.s * link_m, 0, 0);
       out.slides.push_back(slide);
     }
     out.answer = [this](std::vector<ChainSlide>& slides) {
       for (size_t c = 0; c < slides.size(); ++c) {
         speeds[c] += (slides[c].impulse_ns - given[c]) / kMass_kg;
         given[c] = slides[c].impulse_ns;
-        slides[c].to_m = places[c] + kSubstep_s * speeds[c];
+        slides[c].to_m = positions[c] + kSubstep_s * speeds[c];
       }
     };
     return out;
   }
-  std::array<Vector3d, 3> places, speeds, given;
+  std::array<Vector3d, 3> positions, speeds, given;
 };
 
 }  // namespace
 
-ChannelTrial drawnThroughChannels(size_t channels, double bending_share, double back_n) {
+TrackTrial drawnThroughTracks(size_t channels, double bending_share, double back_n) {
   constexpr double kLink_m = 5e-4, kPiece_m = 6e-3, kEnd_m = 0.03, kSpeed_m_per_s = 0.01;
   constexpr int kAll = 2000, kCounted = 800;  // eight links
   const Corners corners(channels, kQuarter / static_cast<double>(channels), kPiece_m, kEnd_m, kLink_m);
   ChainMaterial material = nylon(bending_share);
   material.mass_damping_per_s = 20;
-  Chain chain(material, corners.places);
+  Chain chain(material, corners.positions);
   const auto last = static_cast<uint32_t>(chain.nodes() - 1);
   ChainAround around;
   for (size_t k = 0; k < channels; ++k) {
@@ -91,10 +91,10 @@ ChannelTrial drawnThroughChannels(size_t channels, double bending_share, double 
     around.slides.push_back(slide);
   }
   around.holds = {holdAt(chain, last)};
-  const Vector3d back = (chain.places_m()[0] - chain.places_m()[1]).normalized();
-  const Vector3d ahead = (chain.places_m()[last] - chain.places_m()[last - 1]).normalized();
+  const Vector3d back = (chain.positions_m()[0] - chain.positions_m()[1]).normalized();
+  const Vector3d ahead = (chain.positions_m()[last] - chain.positions_m()[last - 1]).normalized();
   std::vector<double> ratios;
-  ChannelTrial out;
+  TrackTrial out;
   for (int k = 0; k < kAll; ++k) {
     around.holds[0].to_m += kSpeed_m_per_s * kSubstep_s * ahead;
     around.loads = {{0, std::min(1.0, k / 200.0) * back_n * back}};
@@ -111,12 +111,12 @@ ChannelTrial drawnThroughChannels(size_t channels, double bending_share, double 
 TissueTrial thrownThroughTissue() {
   constexpr double kLink_m = 5e-4;
   Chain chain(nylon(0.1), straight(80, kLink_m));
-  std::vector<Vector3d> way(chain.nodes());
-  for (size_t i = 0; i < way.size(); ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(way.size());
-    way[i] = Vector3d(0.3, std::sin(9 * share), std::cos(5 * share));
+  std::vector<Vector3d> offset(chain.nodes());
+  for (size_t i = 0; i < offset.size(); ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(offset.size());
+    offset[i] = Vector3d(0.3, std::sin(9 * share), std::cos(5 * share));
   }
-  chain.setVelocities(way);
+  chain.setVelocities(offset);
   FreeMasses tissue;
   ChainAround around = tissue.around(kLink_m);
   double size = 0;
@@ -141,13 +141,13 @@ TissueTrial thrownThroughTissue() {
     }
     tissue.given.fill(Vector3d::Zero());
     chain.step(kSubstep_s, around);
-    for (size_t c = 0; c < tissue.places.size(); ++c) {
+    for (size_t c = 0; c < tissue.positions.size(); ++c) {
       const ChainSlide& slide = around.slides[c];
       exchanged_ns += slide.impulse_ns.norm();
-      tissue.places[c] += kSubstep_s * tissue.speeds[c] + slide.torn_m;
+      tissue.positions[c] += kSubstep_s * tissue.speeds[c] + slide.torn_m;
       if (!slide.out)
-        out.off_m =
-            std::max(out.off_m, (ChainPoint(slide.s, chain.nodes()).of(chain.places_m()) - tissue.places[c]).norm());
+        out.off_m = std::max(out.off_m,
+                             (ChainPoint(slide.s, chain.nodes()).of(chain.positions_m()) - tissue.positions[c]).norm());
     }
   }
   const double changed = (momentum() - first).norm();
@@ -161,16 +161,16 @@ KnotTrial pulledKnot() {
   constexpr int kHeld = 400, kSlipping = 600, kCounted = 200;
   const std::array<Vector3d, 7> corners = {Vector3d(-0.015, 0, 0), {0, 0, 0}, {0.005, 0, 0.005}, {0, 0, 0.01},
                                            {-0.005, 0, 0.005},     {0, 0, 0}, {0.015, 0, 0}};
-  std::vector<Vector3d> places;
+  std::vector<Vector3d> positions;
   double ahead_m = 0;  // to the next node, along a side
   for (size_t k = 0; k + 1 < corners.size(); ++k) {
     const Vector3d side = corners[k + 1] - corners[k];
-    for (; ahead_m < side.norm(); ahead_m += kLink_m) places.push_back(corners[k] + ahead_m * side.normalized());
+    for (; ahead_m < side.norm(); ahead_m += kLink_m) positions.push_back(corners[k] + ahead_m * side.normalized());
     ahead_m -= side.norm();
   }
   ChainMaterial material = nylon(1e-3);
   material.mass_damping_per_s = 20;
-  Chain chain(material, places);
+  Chain chain(material, positions);
   const auto last = static_cast<uint32_t>(chain.nodes() - 1);
   ChainAround around;
   around.holds = {holdAt(chain, 0)};
@@ -185,8 +185,8 @@ KnotTrial pulledKnot() {
     chain.step(kSubstep_s, around);
     const ChainKnot& now = around.knots[0];
     out.worst_link = std::max(out.worst_link, chain.worstLink());
-    const Vector3d one = ChainPoint(now.s1, chain.nodes()).of(chain.places_m());
-    out.off_m = std::max(out.off_m, (ChainPoint(now.s2, chain.nodes()).of(chain.places_m()) - one).norm());
+    const Vector3d one = ChainPoint(now.s1, chain.nodes()).of(chain.positions_m());
+    out.off_m = std::max(out.off_m, (ChainPoint(now.s2, chain.nodes()).of(chain.positions_m()) - one).norm());
   };
   for (int k = 0; k < kHeld; ++k) {
     around.loads = {{last, Vector3d(0.9 * kHolds_n * std::min(1.0, k / 200.0), 0, 0)}};

@@ -52,21 +52,21 @@ void hold(BodyConfig& body, const Vector3d& side) {
 }
 
 /// A stylus that moves at constant speed.
-class BladePlacesHand {
+class BladePositionsTool {
  public:
-  BladePlacesHand(const Model& model, const Scene& scene, const Pose& pose)
+  BladePositionsTool(const Model& model, const Scene& scene, const Pose& pose)
       : tick_s_(1 / scene.solver.tick_hz), solver_(model, scene), at_(pose) {}
   /// @returns the mean force along the path
-  double go(const Vector3d& way_m) {
-    const Vector3d along = way_m.normalized();
-    const int ticks = std::max(1, static_cast<int>(way_m.norm() / (kSpeed_m_per_s * tick_s_)));
+  double go(const Vector3d& offset_m) {
+    const Vector3d along = offset_m.normalized();
+    const int ticks = std::max(1, static_cast<int>(offset_m.norm() / (kSpeed_m_per_s * tick_s_)));
     double sum = 0;
     for (int i = 0; i < ticks; ++i) {
       ToolMotions motions;
       motions[0].mode = ToolMode::kCut;
       motions[0].present = true;
       motions[0].from = at_;
-      at_.position_m += way_m / ticks;
+      at_.position_m += offset_m / ticks;
       motions[0].to = at_;
       solver_.step(motions);
       layout::TickStats stats;
@@ -78,7 +78,7 @@ class BladePlacesHand {
     return sum / ticks;
   }
   double most_n() const { return most_n_; }
-  void put(const BladePlacesHand& other) { at_ = other.at_; }
+  void put(const BladePositionsTool& other) { at_ = other.at_; }
   /// Places it elsewhere, as after a tick without a tool.
   void put(const Pose& pose) {
     solver_.step(ToolMotions{});
@@ -121,23 +121,23 @@ void divide(Body& body, double toughness_j_per_m2) {
   body.parts.push_back(part);
 }
 
-TEST(BladePlaces, EveryPartHasItsOwnToughness) {
+TEST(BladePositions, EveryPartHasItsOwnToughness) {
   for (const double second : {50.0, 0.0}) {
     Cut cut(100);
     divide(cut.model.bodies[0], second);
-    BladePlacesHand hand(cut.model, cut.scene, cut.before());
-    hand.go({0.027, 0, 0});
-    EXPECT_NEAR(hand.go({0.01, 0, 0}), 100 * kWidth_m, kForce * 100 * kWidth_m);
-    hand.go({0.02, 0, 0});
-    EXPECT_NEAR(hand.go({0.01, 0, 0}), second * kWidth_m, kForce * 50 * kWidth_m);
-    const BladeWork work = bladeWork(hand.solver(), 0);
-    EXPECT_EQ(hand.solver().health().trips, 0u);
+    BladePositionsTool tool(cut.model, cut.scene, cut.before());
+    tool.go({0.027, 0, 0});
+    EXPECT_NEAR(tool.go({0.01, 0, 0}), 100 * kWidth_m, kForce * 100 * kWidth_m);
+    tool.go({0.02, 0, 0});
+    EXPECT_NEAR(tool.go({0.01, 0, 0}), second * kWidth_m, kForce * 50 * kWidth_m);
+    const BladeWork work = bladeWork(tool.solver(), 0);
+    EXPECT_EQ(tool.solver().health().trips, 0u);
     EXPECT_NEAR(work.parting_j, kWidth_m * (100 * 0.04 + second * (work.area_m2 / kWidth_m - 0.04)),
                 0.02 * work.parting_j);
   }
 }
 
-TEST(BladePlaces, ABodyOfWhichOnlyALayerOrAPartIsToughResists) {
+TEST(BladePositions, ABodyOfWhichOnlyALayerOrAPartIsToughResists) {
   BodyConfig body = blockOf({0.02, 0.02, 0.02}, 0);
   EXPECT_FALSE(resistsBlades(sceneOf(body, 0.02)));
   body.layers = {{0.001, Vector3d::Ones(), 30}};
@@ -151,17 +151,17 @@ TEST(BladePlaces, ABodyOfWhichOnlyALayerOrAPartIsToughResists) {
 }
 
 /// A blade parallel to the surface is pressed through it. Its ends are in the capsule of the sides throughout.
-TEST(BladePlaces, ACapsuleGivesAPeakAndADrop) {
+TEST(BladePositions, ACapsuleGivesAPeakAndADrop) {
   const auto pressed = [](double capsule_j_per_m2, double& most_n) {
     BodyConfig body = blockOf({0.048, kAcross_m, 0.04}, 40);
     hold(body, {0, 0, -1});
     body.layers = {{kCapsule_m, Vector3d::Ones(), capsule_j_per_m2}};
     const Scene scene = sceneOf(body, kAcross_m + 0.006);
     const Quaterniond lies = rotationBetween(Vector3d::UnitZ(), Vector3d::UnitY());
-    BladePlacesHand hand(buildModel(scene), scene, {{0.0003, -0.5 * kAcross_m - 0.003, 0.021}, lies});
-    hand.go({0, 0, -0.02});
-    most_n = hand.most_n();
-    return hand.go({0, 0, -0.005});
+    BladePositionsTool tool(buildModel(scene), scene, {{0.0003, -0.5 * kAcross_m - 0.003, 0.021}, lies});
+    tool.go({0, 0, -0.02});
+    most_n = tool.most_n();
+    return tool.go({0, 0, -0.005});
   };
   double plain_n = 0, tough_n = 0;
   const double plain_after_n = pressed(0, plain_n), after_n = pressed(120, tough_n);
@@ -170,17 +170,17 @@ TEST(BladePlaces, ACapsuleGivesAPeakAndADrop) {
   EXPECT_NEAR(after_n, plain_after_n + ends_n, kForce * after_n);
 }
 
-TEST(BladePlaces, WallsRubInTheTissueAndInTheirOwnWound) {
+TEST(BladePositions, WallsRubInTheTissueAndInTheirOwnWound) {
   Cut cut(50);
   cut.scene.styluses[0].cut.friction_n_per_m = 20;
-  BladePlacesHand hand(cut.model, cut.scene, cut.before());
-  hand.go({0.04, 0, 0});
-  EXPECT_NEAR(hand.go({0.01, 0, 0}), 70 * kWidth_m, kForce * 70 * kWidth_m);
-  hand.go({-0.015, 0, 0});
-  const double area_m2 = bladeWork(hand.solver(), 0).area_m2;
-  EXPECT_NEAR(hand.go({-0.01, 0, 0}), 20 * kWidth_m, kBack * 20 * kWidth_m);
-  EXPECT_NEAR(bladeWork(hand.solver(), 0).area_m2, area_m2, 0.01 * area_m2);
-  EXPECT_EQ(hand.solver().health().trips, 0u);
+  BladePositionsTool tool(cut.model, cut.scene, cut.before());
+  tool.go({0.04, 0, 0});
+  EXPECT_NEAR(tool.go({0.01, 0, 0}), 70 * kWidth_m, kForce * 70 * kWidth_m);
+  tool.go({-0.015, 0, 0});
+  const double area_m2 = bladeWork(tool.solver(), 0).area_m2;
+  EXPECT_NEAR(tool.go({-0.01, 0, 0}), 20 * kWidth_m, kBack * 20 * kWidth_m);
+  EXPECT_NEAR(bladeWork(tool.solver(), 0).area_m2, area_m2, 0.01 * area_m2);
+  EXPECT_EQ(tool.solver().health().trips, 0u);
 }
 
 /// A blade pushed into a block with a capsule from above.
@@ -200,25 +200,26 @@ struct Needle {
   Model model;
 };
 
-TEST(BladePlaces, ANeedlePuncturesDropsAndGoesOnByItsWidth) {
+TEST(BladePositions, ANeedlePuncturesDropsAndGoesOnByItsWidth) {
   Needle needle;
-  BladePlacesHand hand(needle.model, needle.scene, needle.above());
-  hand.go({0, 0, -0.012});
-  EXPECT_NEAR(hand.most_n(), 500 * Needle::kNeedle_m, kForce * 500 * Needle::kNeedle_m);
-  hand.go({0, 0, -0.012});
-  EXPECT_NEAR(hand.go({0, 0, -0.005}), 80 * Needle::kNeedle_m, 2 * kForce * 80 * Needle::kNeedle_m);
-  const BladeWork work = bladeWork(hand.solver(), 0);
+  BladePositionsTool tool(needle.model, needle.scene, needle.above());
+  tool.go({0, 0, -0.012});
+  EXPECT_NEAR(tool.most_n(), 500 * Needle::kNeedle_m, kForce * 500 * Needle::kNeedle_m);
+  tool.go({0, 0, -0.012});
+  EXPECT_NEAR(tool.go({0, 0, -0.005}), 80 * Needle::kNeedle_m, 2 * kForce * 80 * Needle::kNeedle_m);
+  const BladeWork work = bladeWork(tool.solver(), 0);
   EXPECT_NEAR(work.parting_j, 80 * work.area_m2 + (500 - 80) * 0.001 * Needle::kNeedle_m, 0.02 * work.parting_j);
   EXPECT_LT(work.parting_j, work.work_j);
-  hand.go({0, 0, 0.01});
-  EXPECT_NEAR(hand.go({0, 0, 0.015}), 0, 1e-3);
-  EXPECT_NEAR(hand.go({0, 0, -0.015}), 0, 0.1 * 80 * Needle::kNeedle_m);
-  EXPECT_EQ(hand.solver().health().trips, 0u);
+  tool.go({0, 0, 0.01});
+  EXPECT_NEAR(tool.go({0, 0, 0.015}), 0, 1e-3);
+  EXPECT_NEAR(tool.go({0, 0, -0.015}), 0, 0.1 * 80 * Needle::kNeedle_m);
+  EXPECT_EQ(tool.solver().health().trips, 0u);
 }
 
-TEST(BladePlaces, ASavedNeedleGoesOnToTheBit) {
+TEST(BladePositions, ASavedNeedleGoesOnToTheBit) {
   Needle needle;
-  BladePlacesHand first(needle.model, needle.scene, needle.above()), second(needle.model, needle.scene, needle.above());
+  BladePositionsTool first(needle.model, needle.scene, needle.above()),
+      second(needle.model, needle.scene, needle.above());
   first.go({0, 0, -0.01});
   Archive saved;
   first.solver().persist(saved);
@@ -231,23 +232,23 @@ TEST(BladePlaces, ASavedNeedleGoesOnToTheBit) {
   EXPECT_EQ(bladeWork(first.solver(), 0).work_j, bladeWork(second.solver(), 0).work_j);
 }
 
-TEST(BladePlaces, RandomStrokesOfANeedleThatRubsGiveNothing) {
+TEST(BladePositions, RandomStrokesOfANeedleThatRubsGiveNothing) {
   Needle needle;
   needle.scene.styluses[0].cut.friction_n_per_m = 30;
-  BladePlacesHand hand(needle.model, needle.scene, needle.above());
+  BladePositionsTool tool(needle.model, needle.scene, needle.above());
   std::mt19937 random(1);
   std::uniform_real_distribution<double> any(-1, 1);
   for (int stroke = 0; stroke < 40; ++stroke) {
-    if (stroke % 10 == 0) hand.solver().reset();
+    if (stroke % 10 == 0) tool.solver().reset();
     const Vector3d at(0.02 * any(random), 0.02 * any(random), 0.025), axis(any(random), any(random), 1.5);
-    hand.put({at, rotationBetween(Vector3d::UnitZ(), axis.normalized())});
-    const double before_j = bladeWork(hand.solver(), 0).work_j;
-    const Vector3d way = -0.03 * axis.normalized() + 0.004 * Vector3d(any(random), any(random), any(random));
-    hand.go(way);
-    hand.go(-0.5 * way);
-    EXPECT_GT(bladeWork(hand.solver(), 0).work_j - before_j, -1e-3) << stroke;
+    tool.put({at, rotationBetween(Vector3d::UnitZ(), axis.normalized())});
+    const double before_j = bladeWork(tool.solver(), 0).work_j;
+    const Vector3d offset = -0.03 * axis.normalized() + 0.004 * Vector3d(any(random), any(random), any(random));
+    tool.go(offset);
+    tool.go(-0.5 * offset);
+    EXPECT_GT(bladeWork(tool.solver(), 0).work_j - before_j, -1e-3) << stroke;
   }
-  EXPECT_EQ(hand.solver().health().trips, 0u);
+  EXPECT_EQ(tool.solver().health().trips, 0u);
 }
 
 }  // namespace
