@@ -24,6 +24,7 @@
 #include "model/shape/organ/unit_question.h"
 #include "viscera/math/error.h"
 #include "viscera/model/body/elasticity.h"
+#include "viscera/model/body/wall_cells.h"
 #include "viscera/model/body/wall_thickness.h"
 
 namespace viscera {
@@ -92,6 +93,7 @@ Body buildLatticeBody(const BodyConfig& config, const Scene& scene, const Tissue
     body.notes.push_back(wallThicknessText(*thickness, solid.spacing_m, bent_by));
   if (config.structure != Structure::kExplicit) {
     addCellPrestress(body);
+    addRowGhosts(body);
     return body;
   }
   body.network = latticeNetwork(body, config.bending_ratio);

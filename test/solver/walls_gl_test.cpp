@@ -183,6 +183,111 @@ TEST_P(ThinWalls, RowsThatABladeCutsMatchTheReference) {
 
 namespace {
 
+/// Returns an oblique plate that is fixed at one end, with ghosts beyond.
+Body clampedPlate(double nu = 0.3) {
+  Body body = askewPlate(nu);
+  for (const uint32_t slot : body.lattice.active_slots) {
+    if (body.lattice.nodeAt(slot).x() == 0) body.lattice.nodes[slot].lo |= layout::kFixedBit;
+  }
+  addRowGhosts(body);
+  return body;
+}
+
+/// Returns a random state in which ghosts are displaced and move, too.
+HostState randomWithGhosts(const Model& model, double size_m, double speed_m_per_s, uint32_t seed) {
+  std::mt19937 random(seed);
+  HostState state = randomState(model, size_m, speed_m_per_s, seed);
+  for (const RowGhost& ghost : model.bodies[0].lattice.ghosts) {
+    state.displacement_m[ghost.slot] = vec4(randomVector(random, size_m));
+    state.velocity_m_per_s[ghost.slot] = vec4(randomVector(random, speed_m_per_s));
+  }
+  return state;
+}
+
+}  // namespace
+
+/// Ghosts lie beyond fixed corners of cells in walls, in new bricks. They have neither springs nor mass.
+TEST(RowGhosts, ContinueTheRowsOfAClamp) {
+  const Body without = askewPlate(), body = clampedPlate();
+  const Lattice& lattice = body.lattice;
+  ASSERT_GT(lattice.ghosts.size(), 5u);
+  EXPECT_EQ(lattice.active_slots, without.lattice.active_slots);
+  EXPECT_GT(lattice.bricks.size(), without.lattice.bricks.size());
+  EXPECT_DOUBLE_EQ(massOf_kg(body), massOf_kg(without));
+  for (const RowGhost& ghost : lattice.ghosts) {
+    EXPECT_EQ(lattice.nodeAt(ghost.slot), lattice.nodeAt(ghost.fixed) - Vector3i::UnitX());
+    EXPECT_TRUE(isGhost(lattice.nodes[ghost.slot]));
+    EXPECT_TRUE(isWithinRow(lattice.nodes[ghost.fixed], 0));
+    EXPECT_LT(lattice.slotAt(lattice.nodeAt(ghost.slot)), 0);
+  }
+}
+
+TEST(RowGhosts, NeedAFixedCornerOfAThinWall) {
+  Body free = askewPlate(), of_cells = clampedPlate();
+  addRowGhosts(free);
+  EXPECT_TRUE(free.lattice.ghosts.empty());
+  of_cells = askewPlate();
+  of_cells.material.walls = Walls::kCells;
+  for (const uint32_t slot : of_cells.lattice.active_slots) of_cells.lattice.nodes[slot].lo |= layout::kFixedBit;
+  addRowGhosts(of_cells);
+  EXPECT_TRUE(of_cells.lattice.ghosts.empty());
+}
+
+TEST_P(ThinWalls, ClampedOnesWithGhostsMatchTheReference) {
+  for (const double stiffness_damping_ratio : {0.0, 0.2}) {
+    Body body = clampedPlate();
+    body.material.stiffness_damping_ratio = stiffness_damping_ratio;
+    body.material.mass_damping_per_s = 3;
+    const Model model = modelOf({body});
+    const Vector3d gravity(0.3, -0.2, -9.81);
+    for (const auto& [size, substeps] : {std::pair{0.02, 10}, std::pair{0.2, 1}}) {
+      const auto solver = make(model, sceneFor(model, substeps, {}, gravity));
+      ReferenceSolver reference(model, gravity, static_cast<float>(solver->dt_s()));
+      const HostState start = randomWithGhosts(model, size * kWallSpacing_m, 0.1, 7);
+      const HostState end = expectSameTick(*solver, reference, start, kWallFloat32Displacement, kWallFloat32Velocity);
+      const uint32_t ghost = body.lattice.ghosts.front().slot;
+      EXPECT_NE(xyz(end.displacement_m[ghost]), xyz(start.displacement_m[ghost]));
+    }
+  }
+}
+
+/// Where a blade cuts the spring between a fixed node and the tissue, the ghost stops.
+TEST_P(ThinWalls, GhostsBehindACutStop) {
+  constexpr int kSubsteps = 10;
+  const Model model = modelOf({clampedPlate()});
+  const Lattice& lattice = model.bodies[0].lattice;
+  std::vector<StylusConfig> styluses(2);
+  styluses[0].cut.blade_length_m = 0.2;
+  styluses[0].cut.blade_side = BladeSide::kAhead;
+  const auto solver = make(model, sceneFor(model, kSubsteps, styluses));
+  solver->writeState(randomWithGhosts(model, 0.02 * kWallSpacing_m, 0.05, 7));
+  solver->step(tool(ToolMode::kCut, {0.0045, -0.02, 0.16}, {0.0045, 0.1, 0.16}));
+  const HostState cut = solver->readState();
+  solver->step({});
+  const HostState end = solver->readState();
+  size_t stopped = 0;
+  for (const RowGhost& ghost : lattice.ghosts) {
+    const bool whole = isWithinRow(cut.nodes[ghost.fixed], static_cast<int>(ghost.spring / 2));
+    const bool same = xyz(end.displacement_m[ghost.slot]) == xyz(cut.displacement_m[ghost.slot]);
+    EXPECT_EQ(same, !whole);
+    stopped += same ? 1 : 0;
+  }
+  EXPECT_GT(stopped, 5u);
+}
+
+/// A ghost has no weight: at rest without a load, gravity does not move it.
+TEST_P(ThinWalls, GhostsHaveNoWeight) {
+  Body body = clampedPlate();
+  for (const uint32_t slot : body.lattice.active_slots) body.lattice.nodes[slot].lo |= layout::kFixedBit;
+  const Model model = modelOf({body});
+  const auto solver = make(model, sceneFor(model, 5, {}, {0, 0, -9.81}));
+  solver->step({});
+  const HostState end = solver->readState();
+  for (const RowGhost& ghost : body.lattice.ghosts) EXPECT_LT(xyz(end.displacement_m[ghost.slot]).norm(), 1e-9);
+}
+
+namespace {
+
 /// Returns a plate of several bricks, held at one end.
 Body sleepyPlate() {
   Body body = askewPlate(0.3, {23, 8, 15}, kSleepSpacing_m);

@@ -19,6 +19,8 @@ const uint kGrabMask = 3u << 23;
 const uint kSeveredBit = 1u << 25; // at least one spring of this node was cut
 const uint kCellBit = 1u << 26;  // the cell that has this node as its lowest corner is filled and whole
 const uint kLawCellBit = 1u << 27;  // that cell obeyed its body's hyperelastic law at rest; once it is no longer whole, its remaining springs act
+const uint kGhostRowShift = 28u;  // 3 bits, one per axis: the row of nodes along it ends here, at a ghost (RowGhost); of a ghost: the spring index towards its fixed node
+const uint kGhostBit = 1u << 31; // the slot is a ghost: it has kFixedBit, no springs and no mass of its own
 const uint kAxialMask = (1u << 18) - 1u;
 // NodeBits.hi: twelve diagonal counts of 2 bits (halves of the diagonal stiffness, 0..2), then the body index:
 const uint kBodyShift = 24u;

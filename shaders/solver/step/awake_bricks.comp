@@ -5,7 +5,7 @@
 // Owner: solver/gpu/buffers/awake_bricks.h
 // in  state of the nodes; cuts; regions that tools may reach     in/out  sleeping bricks     out  lists
 // LANES invocations per brick: 1, or 64 in a group of their own, which is faster on GPUs. Features, one each: WAKE_ALL, WAKE_NEAR
-// (boxes), WAKE_HELD, WAKE_CUT (after a cut of springs), WAKE_MARKED (another kernel has woken bricks), LOOK (nodes that were
+// (boxes), WAKE_HELD, WAKE_CUT (after a cut of springs), WAKE_MARKED (another kernel has woken bricks), CHECK (nodes that were
 // fast in the last substep; with TOOLS also those that were touched), LIST. The rule is that of src/solver/cpu/state/sleep.h. A
 // pass that invalidates a list empties it; LIST must follow before the next substep. A list is in the order in which bricks
 // arrive: nodes gather forces, so no result depends on it.
@@ -99,8 +99,9 @@ float freeze(uint b) {
 #endif
 
 #ifdef WAKE_ALL
-/// Fixed, or isolated and not held (step.glsl).
+/// Fixed, or isolated and not held (step.glsl). Ghosts move.
 bool staysAtRest(NodeBits bits) {
+  if ((bits.lo & kGhostBit) != 0u) return false;
   return (bits.lo & kFixedBit) != 0u || (isIsolated(bits) && (bits.lo & kGrabMask) == 0u);
 }
 

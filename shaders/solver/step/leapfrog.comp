@@ -96,11 +96,39 @@ vec3 added(uint of, vec3 sum, vec3 increment) {
 #endif
 }
 
+#ifdef WALLS
+/// Advances a ghost: only the second difference of its fixed node acts on it.
+void stepGhost(uint slot, NodeBits bits) {
+  uint spring = (bits.lo >> kGhostRowShift) & 7u, axis = spring >> 1;
+  uint fixed_node = besideInRow(slot, axis, (spring & 1u) == 0u ? 1 : -1);
+  NodeBits of_fixed = nodes[fixed_node];
+  vec3 u = xyz(stateAt(displacement, int(slot))), u_next = u, v_next = vec3(0.0f);
+  if (isWithinRow(of_fixed, axis)) {
+    BodyParams body = bodies[bodyOf(bits)];
+    vec3 v = xyz(stateAt(velocity, int(slot)));
+    vec3 force = -xyz(stateAt(cell_forces, int(cellVector(fixed_node, kCellVectors + axis))));
+    float g = 0.5f * body.mass_damping_per_s * kick_s;
+    vec3 acceleration = force / nodeMass(fixed_node, of_fixed, body);
+    v_next = added(2u * slot + 1u, v, (kick_s * acceleration - (2.0f * g) * v) / (1.0f + g));
+    u_next = added(2u * slot, u, dt_s * v_next);
+    fallAsleep(bits, u, u_next, v_next);
+  }
+  next_displacement[slot] = vec4(u_next, 0.0f);
+  next_velocity[slot] = vec4(v_next, 0.0f);
+}
+#endif
+
 void main() {
   uint i = globalIndex();
   if (i >= active_count) return;
   uint slot = active_nodes[i];
   NodeBits bits = nodes[slot];
+#ifdef WALLS
+  if (isGhost(bits)) {
+    stepGhost(slot, bits);
+    return;
+  }
+#endif
   vec3 u = xyz(stateAt(displacement, int(slot)));
   if (isAtRest(bits)) {
     next_displacement[slot] = vec4(u, 0.0f);

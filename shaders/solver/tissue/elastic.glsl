@@ -209,8 +209,15 @@ uint cornerNumber(ivec3 corner) { return uint((corner.x + 1) / 2 + (corner.y + 1
 uint cellVector(uint slot, uint corner) { return inPlanes(slot, corner, CELL_PLANES); }
 
 #ifdef WALLS
-/// Returns whether both springs of a node along an axis are whole.
-bool isWithinRow(NodeBits bits, uint axis) { return springCount(bits, 2u * axis) != 0u && springCount(bits, 2u * axis + 1u) != 0u; }
+bool isGhost(NodeBits bits) { return (bits.lo & kGhostBit) != 0u; }
+/// Returns whether a node has a second difference along an axis: both springs along it are whole, or one of them and the other
+/// neighbour is a ghost.
+bool isWithinRow(NodeBits bits, uint axis) {
+  uint ends = isGhost(bits) ? 0u : (bits.lo >> (kGhostRowShift + axis)) & 1u;
+  if (springCount(bits, 2u * axis) != 0u) ++ends;
+  if (springCount(bits, 2u * axis + 1u) != 0u) ++ends;
+  return ends >= 2u;
+}
 
 /// Returns the slot of the neighbour along an axis, as neighborSlot(). @param side  -1 or 1
 uint besideInRow(uint slot, uint axis, int side) {

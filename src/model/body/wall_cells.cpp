@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
 
 #include "math/decompositions.h"
 
@@ -110,6 +112,78 @@ double thicknessAt(const CellGrid& grid, const Vector3d& position, const Vector3
   return std::min(sum, kThick);
 }
 
+/// Bricks of a lattice by their coordinates, and new ones beyond its bounds.
+class BrickGrid {
+ public:
+  explicit BrickGrid(Lattice& lattice) : lattice_(lattice) {
+    for (uint32_t b = 0; b < lattice.bricks.size(); ++b) bricks_[key(coordinates(b))] = b;
+  }
+
+  /// Returns the slot at integer coordinates of any sign, in a new brick where there is none.
+  uint32_t slotAt(const Vector3i& node) {
+    constexpr int kEdge = static_cast<int>(layout::kBrickEdge);
+    Vector3i brick, within;
+    for (int axis = 0; axis < 3; ++axis) {
+      within[axis] = ((node[axis] % kEdge) + kEdge) % kEdge;
+      brick[axis] = (node[axis] - within[axis]) / kEdge;
+    }
+    const auto known = bricks_.find(key(brick));
+    const uint32_t b = known != bricks_.end() ? known->second : add(brick);
+    return b * layout::kBrickSlots + static_cast<uint32_t>(within.x() + kEdge * (within.y() + kEdge * within.z()));
+  }
+
+ private:
+  using Key = std::tuple<int, int, int>;
+  static Key key(const Vector3i& brick) { return {brick.x(), brick.y(), brick.z()}; }
+  Vector3i coordinates(uint32_t b) const {
+    return {lattice_.bricks[b].coord_x, lattice_.bricks[b].coord_y, lattice_.bricks[b].coord_z};
+  }
+
+  uint32_t add(const Vector3i& at) {
+    const auto out = static_cast<uint32_t>(lattice_.bricks.size());
+    layout::Brick brick{};
+    brick.coord_x = at.x();
+    brick.coord_y = at.y();
+    brick.coord_z = at.z();
+    for (int d = 0; d < 27; ++d) {
+      const auto known = bricks_.find(key(at + Vector3i(d % 3 - 1, d / 3 % 3 - 1, d / 9 - 1)));
+      brick.neighbors[d] = known == bricks_.end() ? out : known->second;
+      if (known != bricks_.end()) lattice_.bricks[known->second].neighbors[26 - d] = out;
+    }
+    lattice_.bricks.push_back(brick);
+    bricks_[key(at)] = out;
+    extend();
+    return out;
+  }
+  /// Extends the numbers per slot to the new brick.
+  void extend() {
+    const size_t slots = lattice_.bricks.size() * layout::kBrickSlots;
+    lattice_.nodes.resize(slots);
+    lattice_.labels.resize(slots);
+    lattice_.cell_labels.resize(slots);
+    if (!lattice_.cell_fills.empty()) lattice_.cell_fills.resize(slots);
+    if (!lattice_.depth_m.empty()) lattice_.depth_m.resize(slots, static_cast<float>(lattice_.spacing_m));
+    if (!lattice_.offset_to_surface_m.empty()) lattice_.offset_to_surface_m.resize(slots, Eigen::Vector3f::Zero());
+  }
+
+  Lattice& lattice_;
+  std::map<Key, uint32_t> bricks_;
+};
+
+/// Returns the spring index from a fixed node out of the tissue along an axis, if the spring on its other side leads to
+/// a node that is not fixed; else -1.
+int springOut(const Lattice& lattice, uint32_t slot, int axis) {
+  const layout::NodeBits& bits = lattice.nodes[slot];
+  const auto first = static_cast<uint32_t>(2 * axis);
+  const bool up = springCount(bits, first) != 0, down = springCount(bits, first + 1) != 0;
+  if (up == down) return -1;
+  const uint32_t inwards = up ? first : first + 1;
+  const int64_t inner = lattice.neighborSlot(slot, inwards);
+  if (inner < 0 || isFixed(lattice.nodes[static_cast<size_t>(inner)])) return -1;
+  const uint32_t outwards = oppositeSpring(inwards);
+  return lattice.neighborSlot(slot, outwards) < 0 ? static_cast<int>(outwards) : -1;
+}
+
 }  // namespace
 
 std::vector<WallCell> wallCells(const Body& body) {
@@ -134,6 +208,36 @@ std::vector<WallCell> wallCells(const Body& body) {
     if (rows > 0) out.push_back({slot, normal, rows, kRowVariation * rows});
   }
   return out;
+}
+
+void addRowGhosts(Body& body) {
+  Lattice& lattice = body.lattice;
+  std::vector<uint32_t> fixed;
+  for (const WallCell& wall : wallCells(body)) {
+    forEachCorner(lattice, wall.cell, [&](const Vector3i& /*corner*/, uint32_t slot) {
+      if (isFixed(lattice.nodes[slot])) fixed.push_back(slot);
+    });
+  }
+  std::sort(fixed.begin(), fixed.end());
+  fixed.erase(std::unique(fixed.begin(), fixed.end()), fixed.end());
+  if (fixed.empty()) return;
+  BrickGrid grid(lattice);
+  for (const uint32_t slot : fixed) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const int out = springOut(lattice, slot, axis);
+      if (out < 0) continue;
+      const auto spring = static_cast<uint32_t>(out);
+      const auto& offset = kNeighborOffsets[spring];
+      const uint32_t ghost = grid.slotAt(lattice.nodeAt(slot) + Vector3i(offset[0], offset[1], offset[2]));
+      if (isGhost(lattice.nodes[ghost])) continue;
+      lattice.nodes[ghost].lo =
+          layout::kGhostBit | layout::kFixedBit | oppositeSpring(spring) << layout::kGhostRowShift;
+      lattice.nodes[slot].lo |= 1u << (layout::kGhostRowShift + static_cast<uint32_t>(axis));
+      lattice.ghosts.push_back({ghost, slot, spring});
+    }
+  }
+  std::sort(lattice.ghosts.begin(), lattice.ghosts.end(),
+            [](const RowGhost& a, const RowGhost& b) { return a.slot < b.slot; });
 }
 
 }  // namespace viscera

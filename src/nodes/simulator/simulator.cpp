@@ -56,7 +56,7 @@ Simulator::Simulator(const SimulatorOptions& options, EndWatch& end, SceneSwitch
       samples_(node_, options.scene, options.choice),
       obstacle_forces_(node_, options.scene),
       tasks_(node_, options.scene, options.choice, options.package_folder,
-             {options.saved_folder, options.saved_limit_gb}),
+             {options.saved_folder, options.saved_limit_gb}, options.trainee),
       loop_(options.scene, scenes.takeMade(), ports(),
             [this](const std::string& stage, double fraction) { reportProgress(stage, fraction); }),
 #ifdef VISCERA_RECONFIGURE

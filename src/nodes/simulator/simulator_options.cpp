@@ -4,6 +4,7 @@
 
 #include "model/scene/file_bounds.h"
 #include "nodes/ros/scene_choice.h"
+#include "tasks/attempt.h"
 
 namespace viscera::nodes {
 
@@ -41,6 +42,9 @@ SimulatorOptions simulatorOptions(Parameters& parameters, const std::string& pac
   options.saved_folder = parameters.text("saved_folder", options.saved_folder);
   options.saved_limit_gb = parameters.number("saved_limit_gb", options.saved_limit_gb, 1e-6, 1e6);
   options.record = parameters.text("record", options.record);
+  options.trainee = parameters.text("trainee", options.trainee);
+  const std::string fault = options.trainee.empty() ? "" : traineeFault(options.trainee);
+  if (!fault.empty()) throw ParameterError("parameter ~trainee: " + fault);
   options.stall_ticks = parameters.number("stall_ticks", options.stall_ticks, 1.5, 1e6);
   options.max_transform_age_s = parameters.number("max_transform_age_s", options.max_transform_age_s, 0.01, 3600);
   options.haptics = hapticOptions(parameters);

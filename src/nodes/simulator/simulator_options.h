@@ -30,6 +30,7 @@ struct SimulatorOptions {
   PublishOptions publish;
   std::string saved_folder = "viscera_saved";  ///< folder of `save_state`, `load_state` and `save_surface`
   double saved_limit_gb = 50;                  ///< limit of all files in it [GB]
+  std::string trainee;                         ///< name in reports of tasks; empty: none
   std::string record;                          ///< file or folder of a recording; empty: none
   double stall_ticks = 3;                      ///< number of tick periods without a tick after which forces are zero
   double max_transform_age_s = 0.5;            ///< largest age of a moving frame's transform [s]

@@ -12,6 +12,7 @@
 #include "model/scene/tool_kinds.h"
 #include "nodes/input/stylus_mailbox.h"
 #include "nodes/ros/conversions.h"
+#include "tasks/attempt.h"
 #include "viscera/math/error.h"
 #include "viscera/session/session.h"
 #include "viscera/session/tissue_processes.h"
@@ -287,11 +288,13 @@ bool SimulatorServices::onTieSuture(TieSuture::Request& request, TieSuture::Resp
 
 bool SimulatorServices::onStartTask(StartTask::Request& request, StartTask::Response& response) {
   try {
+    const std::string fault = request.trainee.empty() ? "" : traineeFault(request.trainee);
+    if (!fault.empty()) throw Error("trainee: " + fault);
     Command command;
     command.kind = Command::Kind::kChange;
     command.leaps = true;
-    command.change = [this, task = switches_.tasks.find(request.task)](Session& session) {
-      return switches_.tasks.start(session, task);
+    command.change = [this, task = switches_.tasks.find(request.task), trainee = request.trainee](Session& session) {
+      return switches_.tasks.start(session, task, trainee);
     };
     answer(commands_, std::move(command), response);
   } catch (const Error& error) {

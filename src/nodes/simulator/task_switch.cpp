@@ -17,6 +17,7 @@
 #include "tasks/task_notes.h"
 #include "tasks/task_report.h"
 #include "tasks/verdict.h"
+#include "viscera/math/state_hash.h"
 
 namespace viscera::nodes {
 namespace {
@@ -82,10 +83,11 @@ void fill(TaskState& message, const TaskConfig& task, const TaskStatus& status) 
 }  // namespace
 
 TaskSwitch::TaskSwitch(ros::NodeHandle node, const Scene& scene, const SceneChoice& choice,
-                       const std::string& package_folder, const SavedFolder& saved_folder)
+                       const std::string& package_folder, const SavedFolder& saved_folder, const std::string& trainee)
     : choice_(choice),
       package_folder_(package_folder),
       saved_folder_(saved_folder),
+      trainee_(trainee),
       tick_s_(1 / scene.solver.tick_hz),
       state_publisher_(node.advertise<TaskState>("task_state", 1, true)),
       metrics_publisher_(node.advertise<Metrics>("metrics", 1)) {
@@ -127,12 +129,13 @@ void TaskSwitch::leave() {
   if (session_) std::exchange(session_, nullptr)->removeLog(*this);
 }
 
-std::string TaskSwitch::start(Session& session, const TaskConfig& task) {
+std::string TaskSwitch::start(Session& session, const TaskConfig& task, const std::string& trainee) {
   session.reset();
   for (const std::string& note : taskNotes(task)) ROS_WARN("task %s: %s", task.name.c_str(), note.c_str());
   session.recordTask(task.name, task.yaml);
   const std::lock_guard<std::mutex> lock(mutex_);
   last_ = task;
+  if (!trainee.empty()) trainee_ = trainee;
   state_.report.clear();
   return task.title;
 }
@@ -199,7 +202,9 @@ Metrics TaskSwitch::metricsOf(const TaskResult& result) const {
 void TaskSwitch::report(TaskResult&& result) {
   if (reporting_.valid()) reporting_.wait();
   const std::string folder = reportFolder(saved_folder_.path(), result.task.name);
-  reporting_ = std::async(std::launch::async, [this, folder, done = std::move(result)] {
+  Attempt attempt = attemptAt(std::time(nullptr), trainee_);
+  attempt.state_hash = StateHash::text(session_->stateHash());
+  reporting_ = std::async(std::launch::async, [this, folder, attempt, done = std::move(result)] {
     Metrics metrics = metricsOf(done);
     metrics.header.stamp = ros::Time::now();
     metrics_publisher_.publish(metrics);
@@ -207,7 +212,7 @@ void TaskSwitch::report(TaskResult&& result) {
              mistakesText(done.task, done.status).c_str());
     try {
       saved_folder_.room();
-      writeReport(folder, done, attemptAt(std::time(nullptr)));
+      writeReport(folder, done, attempt);
       ROS_INFO("report: %s/report.html", folder.c_str());
       const std::lock_guard<std::mutex> lock(mutex_);
       state_.report = folder;

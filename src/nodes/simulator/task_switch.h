@@ -29,8 +29,9 @@ class TaskSwitch : public SessionLog {
  public:
   /// @param choice  choice of the scene; its task, if any, waits from the start
   /// @param saved_folder  folder of reports
+  /// @param trainee  name in the reports until a task is started with another; empty: none
   TaskSwitch(ros::NodeHandle node, const Scene& scene, const SceneChoice& choice, const std::string& package_folder,
-             const SavedFolder& saved_folder);
+             const SavedFolder& saved_folder, const std::string& trainee);
   ~TaskSwitch() override;
   TaskSwitch(const TaskSwitch&) = delete;
   TaskSwitch& operator=(const TaskSwitch&) = delete;
@@ -43,7 +44,8 @@ class TaskSwitch : public SessionLog {
   void follow(Session& session);
   void leave();
   /// Resets the session and starts a task. @returns the task's title
-  std::string start(Session& session, const TaskConfig& task);
+  /// @param trainee  name in its report; empty: that of the last start
+  std::string start(Session& session, const TaskConfig& task, const std::string& trainee);
   /// Ends the task. @throws Error  no task runs
   std::string end(Session& session);
   /// Updates the published state between ticks.
@@ -68,6 +70,7 @@ class TaskSwitch : public SessionLog {
   std::unique_ptr<TaskWatch> watch_;  ///< used on the session thread, like the tallies
   std::vector<ToolTally> tallies_;
   std::vector<std::string> styluses_;
+  std::string trainee_;
   double tick_s_, peak_strain_ = 0;
   uint64_t measured_tick_ = 0;
   uint32_t springs_cut_ = 0;

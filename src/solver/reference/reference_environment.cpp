@@ -153,7 +153,7 @@ void ReferenceSolver::blow(const SubstepOutside& outside, const Field& u, Field&
 
 void ReferenceSolver::meetObstacles(Field& u_next, Field& v_next) {
   for (uint32_t slot : active) {
-    if (rests(slot) || heldBy(slot) != 0) continue;
+    if (rests(slot) || isGhost(nodes[slot]) || heldBy(slot) != 0) continue;
     const Vector3d rest = restPosition(slot), x = rest + u_m[slot];
     for (size_t o = 0; o < obstacles_.size(); ++o) {
       const ReferenceObstacle obstacle = obstacles_[o].enlarged(surfaceDepth(slot));

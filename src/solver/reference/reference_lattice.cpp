@@ -67,6 +67,12 @@ void ReferenceLattice::addBody(const Model& model, size_t b, double dt_safe_s) {
   } else {
     addLatticeSprings(lattice, first);
   }
+  for (const RowGhost& ghost : lattice.ghosts) {
+    active.push_back(first + ghost.slot);
+    rest_m_[first + ghost.slot] = viscera::restPosition(body, ghost.slot);
+    neighbors_[starts_[first + ghost.fixed] + ghost.spring].slot = first + ghost.slot;
+    neighbors_[starts_[first + ghost.slot] + oppositeSpring(ghost.spring)].slot = first + ghost.fixed;
+  }
 }
 
 void ReferenceLattice::addLatticeSprings(const Lattice& lattice, uint32_t first) {
@@ -157,6 +163,7 @@ void ReferenceLattice::addCell(const Body& body, size_t b, uint32_t local) {
 }
 
 double ReferenceLattice::mass(uint32_t slot) const {
+  if (isGhost(nodes[slot])) return mass(farEnd(slot, springOfGhost(nodes[slot])));
   const uint32_t b = nodes[slot].hi >> layout::kBodyShift;
   if (!strengths_[b].mass_kg.empty()) return strengths_[b].mass_kg[slot - first_[b]];
   return massEighths(nodes[slot]) * static_cast<double>(params_[b].mass_eighth_kg);

@@ -37,7 +37,7 @@ double ReferenceSolver::kineticEnergy() const {
 
 double ReferenceSolver::gravityEnergy() const {
   double sum = 0;
-  for (uint32_t slot : active) sum -= mass(slot) * gravity_.dot(u_m[slot]);
+  for (uint32_t slot : active) sum -= mass(slot) * gravityAt(slot).dot(u_m[slot]);
   return sum;
 }
 
@@ -61,7 +61,16 @@ HostState ReferenceSolver::state() const {
   return out;
 }
 
+/// Returns the acceleration by gravity; ghosts have no weight.
+Vector3d ReferenceSolver::gravityAt(uint32_t slot) const {
+  return isGhost(nodes[slot]) ? Vector3d::Zero() : gravity_;
+}
+
 bool ReferenceSolver::rests(uint32_t slot) const {
+  if (isGhost(nodes[slot])) {
+    const uint32_t spring = springOfGhost(nodes[slot]);
+    return !viscera::isWithinRow(nodes[farEnd(slot, spring)], static_cast<int>(spring / 2));
+  }
   return isFixed(nodes[slot]) || (isIsolated(slot) && heldBy(slot) == 0);
 }
 
@@ -85,7 +94,7 @@ void ReferenceSolver::substep(const SubstepMotions& motions, const SubstepOutsid
   integrate(u_next, v_next);
   for (uint32_t slot : active) {
     if (rests(slot)) continue;
-    if (!implicit) applyTools(motions, slot, u_next[slot], v_next[slot]);
+    if (!implicit && !isGhost(nodes[slot])) applyTools(motions, slot, u_next[slot], v_next[slot]);
     sleep(slot, u_next[slot], v_next[slot]);
   }
   for (uint32_t s = 0; options_.integrator == ReferenceIntegrator::kLeapfrog && s < layout::kMaxStyluses; ++s)
@@ -127,7 +136,7 @@ void ReferenceSolver::leapfrog(Field& u_next, Field& v_next) const {
     Vector3d force = elastic[slot];
     if (!obeysLaw(slot)) force += dampingForce(u_m, v_m_per_s, slot);
     const double g = mass_damping_per_s(slot) * kick_s;
-    v_next[slot] = ((1 - g / 2) * v_m_per_s[slot] + kick_s * (force / mass(slot) + gravity_)) / (1 + g / 2);
+    v_next[slot] = ((1 - g / 2) * v_m_per_s[slot] + kick_s * (force / mass(slot) + gravityAt(slot))) / (1 + g / 2);
     u_next[slot] = u_m[slot] + dt_s_ * v_next[slot];
   }
 }

@@ -89,6 +89,7 @@ class ReferenceSolver : public ReferenceLattice, public ToolPort, public TissueP
   using ReferenceLattice::stiffnessMatrix;
   const Vector3d& gravity() const { return gravity_; }
   const ReferenceEnvironment* environment() const { return options_.environment.get(); }
+  bool rests(uint32_t slot) const;  ///< fixed, or isolated and not held; ghosts: their row is broken
   /// Returns the state rounded to float32, as a kernel holds it.
   HostState state() const;
 
@@ -98,7 +99,7 @@ class ReferenceSolver : public ReferenceLattice, public ToolPort, public TissueP
   uint32_t springs_cut = 0;
 
  private:
-  bool rests(uint32_t slot) const;  ///< fixed, or isolated and not held
+  Vector3d gravityAt(uint32_t slot) const;
   void cutWith(const layout::ToolMotion& m, bool particles, const std::vector<uint8_t>& spared);
   void leapfrog(Field& u_next, Field& v_next) const;
   void verletPaper(Field& u_next, Field& v_next) const;

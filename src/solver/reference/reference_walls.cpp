@@ -35,7 +35,8 @@ void ReferenceLattice::addWall(const WallCell& wall, Cell& cell) {
 /// Adds cells in thin walls to the nodes next to their corners, once neighbours are known.
 void ReferenceLattice::linkWalls() {
   for (const auto& [corner, spring, cell] : axial_of_walls_) {
-    if (isWhole(corner, spring)) walls_near_[farEnd(corner, spring)].push_back(cell);
+    if (isWhole(corner, spring) || hasGhost(nodes[corner], static_cast<int>(spring / 2)))
+      walls_near_[farEnd(corner, spring)].push_back(cell);
   }
   axial_of_walls_.clear();
   for (auto& [slot, near] : walls_near_) {
@@ -44,10 +45,8 @@ void ReferenceLattice::linkWalls() {
   }
 }
 
-/// Returns whether a node is within a row: both springs along an axis are intact.
 bool ReferenceLattice::isWithinRow(uint32_t slot, int axis) const {
-  const auto first = static_cast<uint32_t>(2 * axis);
-  return isWhole(slot, first) && isWhole(slot, first + 1);
+  return viscera::isWithinRow(nodes[slot], axis);
 }
 
 ReferenceLattice::WallStencil ReferenceLattice::stencilOf(const Cell& cell) const {

@@ -19,7 +19,7 @@ class Potential : public Objective {
   Potential(const ReferenceSolver& solver, const Field& external_n, double share)
       : solver_(solver), load_n_(solver.slots(), Vector3d::Zero()) {
     for (uint32_t slot : solver.active) {
-      load_n_[slot] = solver.mass(slot) * solver.gravity();
+      if (!isGhost(solver.nodes[slot])) load_n_[slot] = solver.mass(slot) * solver.gravity();
       if (!external_n.empty()) load_n_[slot] += share * external_n[slot];
     }
   }
@@ -50,6 +50,7 @@ class Potential : public Objective {
 std::vector<bool> freeDofs(const ReferenceSolver& solver, const std::vector<PrescribedDof>& prescribed) {
   std::vector<bool> free(static_cast<size_t>(solver.dofs()), true);
   for (uint32_t slot : solver.active) {
+    if (isGhost(solver.nodes[slot]) && !solver.rests(slot)) continue;
     if (!isFixed(solver.nodes[slot]) && !solver.isIsolated(slot) && solver.heldBy(slot) == 0) continue;
     for (int axis = 0; axis < 3; ++axis) free[static_cast<size_t>(solver.dof(slot, axis))] = false;
   }

@@ -28,6 +28,15 @@ std::vector<uint32_t> activeSlots(const Model& model) {
   return out;
 }
 
+std::vector<uint32_t> movingSlots(const Model& model) {
+  std::vector<uint32_t> out = activeSlots(model);
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    for (const RowGhost& ghost : model.bodies[b].lattice.ghosts) out.push_back(model.slotOffset(b) + ghost.slot);
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
 std::vector<uint32_t> cellSlots(const Model& model) {
   std::vector<uint32_t> out;
   for (size_t b = 0; b < model.bodies.size(); ++b) {

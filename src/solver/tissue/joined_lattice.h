@@ -15,6 +15,8 @@ namespace viscera {
 
 /// Returns [active] slots of nodes, ascending.
 std::vector<uint32_t> activeSlots(const Model& model);
+/// Returns [active] these and the ghosts of rows (RowGhost), ascending.
+std::vector<uint32_t> movingSlots(const Model& model);
 /// Returns [cells] slots of the lowest corners of filled cells, ascending.
 std::vector<uint32_t> cellSlots(const Model& model);
 /// Returns [bricks] with neighbours numbered over all bodies.

@@ -69,8 +69,9 @@ class TaskTest(unittest.TestCase):
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.assertEqual(done.returncode, 0, done.stderr)
         replayed = json.loads(done.stdout.splitlines()[-1])["tasks"]
-        for report in [live, *replayed]:
-            report.pop("attempt")  # its date differs
+        attempts = [report.pop("attempt") for report in [live, *replayed]]  # their dates differ
+        self.assertEqual([attempt["name"] for attempt in attempts], ["Ada", ""])
+        self.assertRegex(attempts[0]["state_hash"], "^[0-9a-f]{16}$")
         self.assertEqual(replayed, [live])
 
     def test_3_a_task_is_given_up_and_begun_again(self):
@@ -88,7 +89,19 @@ class TaskTest(unittest.TestCase):
         self.assertTrue(self.call["reset"]().success)
         wait_until(lambda: self.state() == TaskState.WAITING, LIMIT_S, "it begins again with a reset")
 
-    def test_4_another_scenes_task_and_unknown_ones_are_refused(self):
+    def test_4_the_report_names_who_starts_the_task(self):
+        answer = self.start(task="", trainee="Grace")
+        self.assertTrue(answer.success, answer.message)
+        wait_until(lambda: self.state() == TaskState.WAITING and not self.states[-1].report, LIMIT_S, "a task that waits")
+        self.assertTrue(self.call["end_task"]().success)
+        wait_until(lambda: self.states[-1].report, LIMIT_S, "the report")
+        with open(os.path.join(self.states[-1].report, "report.json")) as file:
+            self.assertEqual(json.load(file)["attempt"]["name"], "Grace")
+        answer = self.start(task="", trainee="-")
+        self.assertFalse(answer.success)
+        self.assertIn("a trainee's name must have 1 to 64 printable characters", answer.message)
+
+    def test_5_another_scenes_task_and_unknown_ones_are_refused(self):
         answer = self.start(task="pattern_cut")
         self.assertFalse(answer.success)
         self.assertIn("gauze", answer.message)

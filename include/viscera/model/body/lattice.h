@@ -14,6 +14,15 @@
 
 namespace viscera {
 
+/// Ghost: position beyond a fixed node at which a row of nodes in a thin wall goes on, so that the wall may bend where
+/// it leaves the clamp. It moves freely, has the mass of its fixed node, bears no tissue, and only the second
+/// difference at that node depends on it (physics.md 1, Thin walls).
+struct RowGhost {
+  uint32_t slot;    ///< not among the lattice's active slots
+  uint32_t fixed;   ///< slot of its fixed node
+  uint32_t spring;  ///< axial spring index from the fixed node to the ghost
+};
+
 /// Lattice of one body, connected implicitly: nodes at the corners of the solid's cells, in bricks of 4x4x4.
 struct Lattice {
   double spacing_m = 0;
@@ -35,6 +44,7 @@ struct Lattice {
   /// others; empty where all cells are full.
   std::vector<Eigen::Vector3f> offset_to_surface_m;
   std::vector<uint32_t> active_slots;  ///< [active] slots of nodes, ascending
+  std::vector<RowGhost> ghosts;        ///< ascending by slot; their bricks may follow all others, out of order
   std::vector<std::string> part_names;
 
   /// Returns the slot of the node at integer coordinates, or -1 where there is none.

@@ -57,4 +57,28 @@ inline bool isFixed(const layout::NodeBits& bits) {
   return (bits.lo & layout::kFixedBit) != 0;
 }
 
+/// Returns whether a slot is a ghost (RowGhost): no node of the tissue.
+inline bool isGhost(const layout::NodeBits& bits) {
+  return (bits.lo & layout::kGhostBit) != 0;
+}
+/// Returns the spring index from a ghost towards its fixed node.
+inline uint32_t springOfGhost(const layout::NodeBits& bits) {
+  return (bits.lo >> layout::kGhostRowShift) & 7u;
+}
+/// Returns whether a node is the end of a row along an axis that goes on to a ghost.
+inline bool hasGhost(const layout::NodeBits& bits, int axis) {
+  return !isGhost(bits) && ((bits.lo >> (layout::kGhostRowShift + static_cast<uint32_t>(axis))) & 1u) != 0;
+}
+/// Returns the spring index from such a node, with all its springs whole, to the ghost.
+inline uint32_t springToGhost(const layout::NodeBits& whole, int axis) {
+  const auto first = static_cast<uint32_t>(2 * axis);
+  return springCount(whole, first) == 0 ? first : first + 1;
+}
+/// Returns whether a node has a second difference along an axis: both springs along it are intact, or one of them and
+/// the other neighbour is a ghost.
+inline bool isWithinRow(const layout::NodeBits& bits, int axis) {
+  const auto first = static_cast<uint32_t>(2 * axis);
+  return (springCount(bits, first) != 0) + (springCount(bits, first + 1) != 0) + hasGhost(bits, axis) >= 2;
+}
+
 }  // namespace viscera

@@ -27,4 +27,8 @@ constexpr double kRowVariation = 0.5;
 /// rows`, partly filled cells and no prestress have any.
 std::vector<WallCell> wallCells(const Body& body);
 
+/// Adds ghosts to a body with such cells: one for each fixed corner of such a cell where a row of nodes leaves the
+/// clamp and no node lies beyond. A slot is the ghost of one node only.
+void addRowGhosts(Body& body);
+
 }  // namespace viscera

@@ -105,14 +105,16 @@ constexpr uint32_t kWallEnds = 24;
 constexpr uint32_t kWallNumbers = 8;
 struct WallGroups {
   const uint32_t* bodies;  ///< [groups]
-  const uint32_t* nodes;   ///< [groups][kWallNodes][kWallLanes] index in places of each node's displacement
+  const uint32_t* first;   ///< [groups + 1] where a group's nodes begin in `listed`
+  const uint32_t* listed;  ///< [listed] nodes of each group, each once: index of their displacement in places
+  const uint16_t* nodes;   ///< [groups][kWallNodes][kWallLanes] four times an index among the group's nodes
   const float* ends;       ///< [groups][kWallEnds][kWallLanes]
   const float* moments;    ///< [groups][kMomentNumbers][kWallLanes]
   const float* numbers;    ///< [groups][kWallNumbers][kWallLanes]
   const float* strengths;  ///< [groups][2][kWallLanes] rigidity [J], 0 where there is no cell; bulk over rigidity
   const float* const* laminates;  ///< [groups] [kLaminateNumbers][kWallLanes]; null where no cell has two materials
   const float* positions;         ///< [nodes][4] displacements over 4 h: x, y, z
-  float* forces;                  ///< [groups][kWallLanes][kWallNodes][4] N, forces of cells on their nodes: x, y, z
+  float* forces;                  ///< [listed][4] N, sums of the forces of a group's cells on its nodes: x, y, z
   float* measured;                ///< [groups][2][kWallLanes] energy [J], and stiffness over that at rest
 };
 struct WallJob {

@@ -78,7 +78,7 @@ CpuStrengths::CpuStrengths(const Model& model, const CpuStore& store, const Feat
     spreadMoments(store);
     spreadTensions(store);
     spreadLaminates(store);
-    if (features.walls) walls = CpuWalls(store, moments, table_);
+    if (features.walls) walls = CpuWalls(store, moments, table_, mass);
   }
   refreshAll(store);
 }
@@ -193,7 +193,21 @@ void CpuStrengths::refresh(const CpuStore& store, uint32_t slot) {
   bulk[slot] = cellBulk(store, slot);
   rigidity[slot] = walls.has(slot) ? 0 : cellRigidity(store, slot);
   breakCells(store, slot);
-  if (!walls.empty()) refreshWalls(store, slot);
+  if (walls.empty()) return;
+  refreshWalls(store, slot);
+  refreshGhosts(store, slot);
+}
+
+/// Updates the ghosts of a fixed node: a ghost moves while its row is whole.
+void CpuStrengths::refreshGhosts(const CpuStore& store, uint32_t slot) {
+  const layout::NodeBits& bits = store.nodes[slot];
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!hasGhost(bits, axis)) continue;
+    const uint32_t spring = springToGhost(store.whole_nodes[slot], axis);
+    const uint32_t ghost = neighborSlot(store.bricks, slot, kNeighborOffsets[spring]);
+    mass[ghost] = mass[slot];
+    mobility[ghost] = isWithinRow(bits, axis) ? 1 / mass[slot] : 0;
+  }
 }
 
 /// Fills brick_moments and partial_rows.

@@ -64,6 +64,7 @@ struct CpuStrengths {
   void spreadTensions(const CpuStore& store);
   void spreadLaminates(const CpuStore& store);
   void refreshWalls(const CpuStore& store, uint32_t slot);
+  void refreshGhosts(const CpuStore& store, uint32_t slot);
   float wholeRigidity(const CpuStore& store, uint32_t slot) const;
   void breakCells(const CpuStore& store, uint32_t slot);
   float* newBrokenPlanes();

@@ -24,9 +24,9 @@ uint32_t outward(uint32_t corner, int axis) {
   return static_cast<uint32_t>(2 * axis) + (corner >> axis & 1 ? 0 : 1);
 }
 
-bool isWithinRow(const layout::NodeBits& bits, int axis) {
-  const auto first = static_cast<uint32_t>(2 * axis);
-  return springCount(bits, first) != 0 && springCount(bits, first + 1) != 0;
+/// Returns whether there is a node or a ghost beyond a node in the direction of an axial spring.
+bool isBeyond(const layout::NodeBits& whole, uint32_t spring) {
+  return springCount(whole, spring) != 0 || hasGhost(whole, static_cast<int>(spring / 2));
 }
 
 /// Returns the index of a number of a cell in arrays with `numbers` of them per group.
@@ -41,7 +41,8 @@ void sortAndUnite(std::vector<uint32_t>& values) {
 
 }  // namespace
 
-CpuWalls::CpuWalls(const CpuStore& store, const JoinedMoments& moments, const Strengths& table) {
+CpuWalls::CpuWalls(const CpuStore& store, const JoinedMoments& moments, const Strengths& table,
+                   const AlignedVector<float>& masses_kg) {
   uint32_t body = 0;
   for (uint32_t slot = 0; slot < store.slotCount(); ++slot) {
     if (moments.wallOf(slot) == nullptr) continue;
@@ -60,19 +61,25 @@ CpuWalls::CpuWalls(const CpuStore& store, const JoinedMoments& moments, const St
     position_[cells_[i]] = i;
     cells_of_[cells_[i] / layout::kBrickSlots].push_back(i);
   }
-  listNodes(store);
+  listGroups(listNodes(store));
   addNumbers(moments, table);
   addForces();
+  ghosts_kg_.resize(slots_.size());
+  for (size_t n = 0; n < slots_.size(); ++n) {
+    const layout::NodeBits& bits = store.nodes[slots_[n]];
+    if (!isGhost(bits)) continue;
+    ghosts_kg_[n] = masses_kg[neighborSlot(store.bricks, slots_[n], kNeighborOffsets[springOfGhost(bits)])];
+  }
 }
 
-/// Fills nodes_, slots_ and bricks_of_. Where there is no node beyond a corner, the corner takes its place with weight
-/// 0.
-void CpuWalls::listNodes(const CpuStore& store) {
-  nodes_.resize(cells_.size() * simd::kWallNodes);
+/// Fills slots_ and bricks_of_. Where there is no node beyond a corner, the corner takes its place with weight 0.
+/// @return [groups][kWallNodes][kWallLanes] index in slots_
+std::vector<uint32_t> CpuWalls::listNodes(const CpuStore& store) {
+  std::vector<uint32_t> out(cells_.size() * simd::kWallNodes);
   bricks_of_.resize(bodies_.size());
   for (size_t i = 0; i < cells_.size(); ++i) {
     const auto record = [&](uint32_t node, uint32_t slot) {
-      nodes_[numberAt(i, node, simd::kWallNodes)] = slot;
+      out[numberAt(i, node, simd::kWallNodes)] = slot;
       slots_.push_back(slot);
       bricks_of_[i / kWallLanes].push_back(slot / layout::kBrickSlots);
     };
@@ -82,7 +89,7 @@ void CpuWalls::listNodes(const CpuStore& store) {
       record(corner, slot);
       for (int axis = 0; axis < 3; ++axis) {
         const uint32_t spring = outward(corner, axis);
-        const bool there = springCount(store.whole_nodes[slot], spring) != 0;
+        const bool there = isBeyond(store.whole_nodes[slot], spring);
         record(simd::nodeBeyond(corner, axis),
                there ? neighborSlot(store.bricks, slot, kNeighborOffsets[spring]) : slot);
       }
@@ -100,7 +107,27 @@ void CpuWalls::listNodes(const CpuStore& store) {
     ++first_node_[slots_[n] / layout::kBrickSlots + 1];
   }
   for (size_t b = 0; b < store.brickCount(); ++b) first_node_[b + 1] += first_node_[b];
-  for (uint32_t& node : nodes_) node = 4 * index[node];
+  for (uint32_t& node : out) node = index[node];
+  return out;
+}
+
+/// Fills listed_ and nodes_.
+/// @param nodes  of listNodes()
+void CpuWalls::listGroups(const std::vector<uint32_t>& nodes) {
+  constexpr size_t kGroup = size_t{simd::kWallNodes} * kWallLanes;
+  first_listed_.push_back(0);
+  for (size_t g = 0; g < bodies_.size(); ++g) {
+    const auto first = nodes.begin() + static_cast<std::ptrdiff_t>(g * kGroup);
+    std::vector<uint32_t> once(first, first + kGroup);
+    sortAndUnite(once);
+    for (size_t i = 0; i < kGroup; ++i) {
+      const auto position = std::lower_bound(once.begin(), once.end(), nodes[g * kGroup + i]) - once.begin();
+      nodes_.push_back(static_cast<uint16_t>(4 * position));
+    }
+    for (const uint32_t node : once) listed_.push_back(4 * node);
+    first_listed_.push_back(static_cast<uint32_t>(listed_.size()));
+  }
+  forces_.resize(4 * listed_.size());
 }
 
 void CpuWalls::addNumbers(const JoinedMoments& moments, const Strengths& table) {
@@ -109,7 +136,6 @@ void CpuWalls::addNumbers(const JoinedMoments& moments, const Strengths& table) 
   moments_.resize(cells_.size() * simd::kMomentNumbers);
   numbers_.resize(cells_.size() * simd::kWallNumbers);
   strengths_.resize(cells_.size() * 2);
-  forces_.resize(cells_.size() * 4 * simd::kWallNodes);
   measured_.resize(cells_.size() * 2);
   rows_.resize(cells_.size());
   laminates_.assign(groups, nullptr);
@@ -143,14 +169,7 @@ void CpuWalls::addNumbers(const JoinedMoments& moments, const Strengths& table) 
 /// Fills shares_ and first_share_.
 void CpuWalls::addForces() {
   std::vector<std::vector<uint32_t>> of_node(slots_.size());
-  for (uint32_t i = 0; i < cells_.size(); ++i) {
-    if (cells_[i] == kNone) continue;
-    for (uint32_t node = 0; node < simd::kWallNodes; ++node) {
-      const uint32_t at = nodes_[numberAt(i, node, simd::kWallNodes)];
-      const bool nothing = node >= 8 && at == nodes_[numberAt(i, (node - 8) / 3, simd::kWallNodes)];
-      if (!nothing) of_node[at / 4].push_back(4 * (i * simd::kWallNodes + node));
-    }
-  }
+  for (uint32_t n = 0; n < listed_.size(); ++n) of_node[listed_[n] / 4].push_back(4 * n);
   first_share_.push_back(0);
   for (const std::vector<uint32_t>& shares : of_node) {
     shares_.insert(shares_.end(), shares.begin(), shares.end());
@@ -180,8 +199,9 @@ void CpuWalls::refresh(const CpuStore& store, uint32_t cell, float rigidity_j, f
 }
 
 simd::WallGroups CpuWalls::groups() {
-  return {bodies_.data(),    nodes_.data(),     ends_.data(),      moments_.data(), numbers_.data(),
-          strengths_.data(), laminates_.data(), positions_.data(), forces_.data(),  measured_.data()};
+  return {bodies_.data(),    first_listed_.data(), listed_.data(),  nodes_.data(),
+          ends_.data(),      moments_.data(),      numbers_.data(), strengths_.data(),
+          laminates_.data(), positions_.data(),    forces_.data(),  measured_.data()};
 }
 
 std::vector<uint32_t> CpuWalls::acting(const std::vector<uint32_t>& bricks) const {
@@ -216,9 +236,10 @@ void CpuWalls::place(uint32_t brick, const layout::BodyParams& body, const float
   }
 }
 
-void CpuWalls::sumForces(uint32_t brick, float* out) const {
+void CpuWalls::sumForces(uint32_t brick, const Vector3f& gravity, float* out) const {
   for (uint32_t n = first_node_[brick]; n < first_node_[brick + 1]; ++n) {
-    float sum[4] = {};
+    const Vector3f lifted = -ghosts_kg_[n] * gravity;
+    float sum[4] = {lifted.x(), lifted.y(), lifted.z(), 0};
     for (uint32_t s = first_share_[n]; s < first_share_[n + 1]; ++s) {
       const float* force = &forces_[shares_[s]];
       for (size_t c = 0; c < 4; ++c) sum[c] += force[c];

@@ -24,7 +24,9 @@ class CpuWalls {
  public:
   CpuWalls() = default;
   /// @param table  of bodies with parts: rigidity_j then has one entry per slot
-  CpuWalls(const CpuStore& store, const JoinedMoments& moments, const Strengths& table);
+  /// @param masses_kg  [slots]
+  CpuWalls(const CpuStore& store, const JoinedMoments& moments, const Strengths& table,
+           const AlignedVector<float>& masses_kg);
 
   bool empty() const { return cells_.empty(); }
   bool has(uint32_t slot) const { return !empty() && position_[slot] != kNone; }
@@ -42,14 +44,16 @@ class CpuWalls {
   /// @param displacement, velocity  [3 * slots] m, m/s; velocity is not read if ahead_s is 0
   void place(uint32_t brick, const layout::BodyParams& body, const float* displacement, const float* velocity,
              float ahead_s);
-  /// Writes the forces of cells on the nodes of a brick.
+  /// Writes the forces of cells on the nodes of a brick. Those on ghosts include the opposite of their weight.
+  /// @param gravity  m/s2
   /// @param out  [3 * slots] N
-  void sumForces(uint32_t brick, float* out) const;
+  void sumForces(uint32_t brick, const Vector3f& gravity, float* out) const;
   /// Returns the energy of the cells above a brick's nodes [J], and the largest stiffness over that at rest.
   std::array<float, 2> measured(uint32_t brick) const;
 
  private:
-  void listNodes(const CpuStore& store);
+  std::vector<uint32_t> listNodes(const CpuStore& store);
+  void listGroups(const std::vector<uint32_t>& nodes);
   void addNumbers(const JoinedMoments& moments, const Strengths& table);
   void addForces();
 
@@ -58,10 +62,13 @@ class CpuWalls {
   std::vector<uint32_t> cells_;     ///< [kWallLanes * groups] slots; kNone if there is no cell
   std::vector<uint32_t> position_;  ///< [slots] index in cells_
   std::vector<uint32_t> bodies_;
-  std::vector<uint32_t> nodes_;       ///< [groups][kWallNodes][kWallLanes] four times an index in slots_
-  std::vector<uint32_t> slots_;       ///< [nodes] slots of the nodes of cells in walls, ascending
-  std::vector<uint32_t> first_node_;  ///< [bricks + 1] where a brick's nodes begin
-  AlignedVector<float> positions_;    ///< [nodes][4]
+  std::vector<uint32_t> first_listed_;  ///< [groups + 1] where a group's nodes begin in listed_
+  std::vector<uint32_t> listed_;        ///< nodes of each group, ascending: four times an index in slots_
+  std::vector<uint16_t> nodes_;         ///< [groups][kWallNodes][kWallLanes] four times an index among these
+  std::vector<uint32_t> slots_;         ///< [nodes] slots of the nodes of cells in walls, ascending
+  std::vector<uint32_t> first_node_;    ///< [bricks + 1] where a brick's nodes begin
+  std::vector<float> ghosts_kg_;        ///< [nodes] masses of ghosts; 0 for nodes
+  AlignedVector<float> positions_;      ///< [nodes][4]
   AlignedVector<float> ends_, moments_, numbers_, strengths_, laminate_numbers_, forces_, measured_;
   std::vector<const float*> laminates_;
   std::vector<float> rows_;                       ///< [kWallLanes * groups] WallCell::rows

@@ -102,7 +102,7 @@ void CpuLeapfrog::stepAwake(CpuLattice& lattice, const Substep& step, const layo
   if (!cell_sums_.empty()) {
     sumCells(lattice);
     job_.arrays.cell_sums = cell_sums_.data();
-    if (!wall_groups_.empty()) sumWalls(lattice);
+    if (!wall_groups_.empty()) sumWalls(lattice, step);
   }
   job_.arrays.compensation = compensation_.empty() ? nullptr : compensation_.data();
   job_.step = step;
@@ -160,7 +160,7 @@ void CpuLeapfrog::sumCells(CpuLattice& lattice) {
 }
 
 /// Sums the forces of cells in thin walls on the nodes of awake bricks.
-void CpuLeapfrog::sumWalls(CpuLattice& lattice) {
+void CpuLeapfrog::sumWalls(CpuLattice& lattice, const Substep& step) {
   CpuWalls& walls = lattice.strengths.walls;
   parallel_.ranges(wall_bricks_.size(), portions_, [&](size_t first, size_t end) {
     for (size_t i = first; i < end; ++i) {
@@ -173,7 +173,7 @@ void CpuLeapfrog::sumWalls(CpuLattice& lattice) {
                    [&](size_t first, size_t end) { sum_walls_(job, &wall_groups_[first], end - first); });
   const std::vector<uint32_t>& awake = sleep_.awake();
   parallel_.ranges(awake.size(), portions_, [&](size_t first, size_t end) {
-    for (size_t i = first; i < end; ++i) walls.sumForces(awake[i], wall_forces_.data());
+    for (size_t i = first; i < end; ++i) walls.sumForces(awake[i], step.gravity, wall_forces_.data());
   });
   job_.arrays.wall_forces = wall_forces_.data();
   job_.arrays.in_wall = walls.inWall();

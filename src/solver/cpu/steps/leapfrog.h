@@ -23,7 +23,7 @@ class CpuLeapfrog : public CpuStepper {
   void stepAwake(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions);
   void predict(const Substep& step);
   void sumCells(CpuLattice& lattice);
-  void sumWalls(CpuLattice& lattice);
+  void sumWalls(CpuLattice& lattice, const Substep& step);
   void clearSums();
   void stepBricks(CpuLattice& lattice, const Substep& step, const layout::ToolMotion* motions, size_t first,
                   size_t end);

@@ -49,7 +49,7 @@ void countIn(const std::vector<uint32_t>& slots, std::vector<layout::SleepingBri
 
 std::vector<layout::SleepingBrick> bricksOf(const Model& model, const FeatureSet& features, size_t count) {
   std::vector<layout::SleepingBrick> out(count);
-  countIn(activeSlots(model), out, &layout::SleepingBrick::first_node, &layout::SleepingBrick::node_count);
+  countIn(movingSlots(model), out, &layout::SleepingBrick::first_node, &layout::SleepingBrick::node_count);
   if (features.law)
     countIn(cellSlots(model), out, &layout::SleepingBrick::first_cell, &layout::SleepingBrick::cell_count);
   return out;

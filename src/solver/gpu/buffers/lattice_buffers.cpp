@@ -15,9 +15,9 @@ namespace viscera {
 
 StoreBuffers::StoreBuffers(const Model& model, const std::vector<layout::BodyParams>& params,
                            const FeatureSet& features)
-    : active_count(model.activeNodes()),
+    : active_count(movingSlots(model).size()),
       slot_count(model.slots()),
-      active(activeSlots(model), "active nodes"),
+      active(movingSlots(model), "active nodes"),
       bricks(allBricks(model), "bricks"),
       bodies(layout::kMaxBodies),
       nodes(slot_count, "nodes"),
