@@ -8,8 +8,13 @@ if(NOT EXISTS ${empty})
   file(WRITE ${empty} "// Made by cmake/library.cmake: all of the library comes from those of the folders.\n")
 endif()
 add_library(viscera_core SHARED ${empty})
+# A minor version may add members to public structs, such as keys of a scene: its binary interface is another, its sources fit.
 set_target_properties(viscera_core PROPERTIES EXPORT_NAME core VERSION ${PROJECT_VERSION}
                                               SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+# What is compiled into it of other libraries, such as templates of the standard library, stays inside.
+set(map ${PROJECT_SOURCE_DIR}/cmake/viscera_core.map)
+target_link_options(viscera_core PRIVATE -Wl,--version-script=${map})
+set_target_properties(viscera_core PROPERTIES LINK_DEPENDS ${map})
 target_link_libraries(
   viscera_core
   PRIVATE -Wl,--whole-archive viscera_session viscera_calibration viscera_render viscera_surface viscera_solver
@@ -34,7 +39,7 @@ foreach(place ${PROJECT_BINARY_DIR} ${CATKIN_DEVEL_PREFIX})
 endforeach()
 include(CMakePackageConfigHelpers)
 set(folder ${CMAKE_INSTALL_LIBDIR}/cmake/viscera)
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/viscera-config-version.cmake COMPATIBILITY SameMinorVersion)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/viscera-config-version.cmake COMPATIBILITY SameMajorVersion)
 install(TARGETS viscera_core EXPORT viscera LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT library ${excluded})
 install(EXPORT viscera NAMESPACE viscera:: FILE viscera-targets.cmake DESTINATION ${folder} COMPONENT library ${excluded})
 install(DIRECTORY include/viscera DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT library ${excluded})

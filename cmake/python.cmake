@@ -39,10 +39,10 @@ target_include_directories(viscera_python SYSTEM PRIVATE ${python_include} ${PYB
 target_compile_options(viscera_python PRIVATE ${VISCERA_CXX_FLAGS})
 target_compile_definitions(viscera_python PRIVATE VISCERA_VERSION="${PROJECT_VERSION}")
 target_link_libraries(viscera_python PRIVATE viscera_export)
-# What of viscera and of pybind11 is in it is its own: another module, or libviscera_core, may have others.
-target_link_options(viscera_python PRIVATE -Wl,--exclude-libs,ALL)
-set_target_properties(viscera_python PROPERTIES PREFIX "" OUTPUT_NAME _viscera SUFFIX ${python_suffix} CXX_VISIBILITY_PRESET hidden
-                                                LIBRARY_OUTPUT_DIRECTORY ${python_built})
+set(map ${PROJECT_SOURCE_DIR}/cmake/python.map)
+target_link_options(viscera_python PRIVATE -Wl,--version-script=${map})
+set_target_properties(viscera_python PROPERTIES PREFIX "" OUTPUT_NAME _viscera SUFFIX ${python_suffix} ${VISCERA_HIDDEN}
+                                                LIBRARY_OUTPUT_DIRECTORY ${python_built} LINK_DEPENDS ${map})
 file(GLOB_RECURSE python_texts CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/src/python/viscera src/python/viscera/*.py
      src/python/viscera/*.pyi src/python/viscera/py.typed)
 foreach(file ${python_texts})

@@ -1,6 +1,7 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-# `cmake --install BUILD --prefix PREFIX`: all files are below the prefix, and its setup file makes ROS find them there.
+# `cmake --install BUILD --prefix PREFIX`: all files are below the prefix, and its setup file makes ROS find them there, and
+# a user can work with it.
 # cmake -DBUILD=... -P prefix.cmake
 # The prefix is not below the package: roslaunch would find its launch files twice.
 set(temporary $ENV{TMPDIR})
@@ -34,4 +35,8 @@ foreach(shell bash sh)
     message(SEND_ERROR "no launch files or nodes in ${PREFIX}")
   endif()
 endforeach()
-file(REMOVE_RECURSE ${PREFIX})
+execute_process(COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/as_a_user ${PREFIX} ${PREFIX}_user RESULT_VARIABLE status)
+if(status)
+  message(SEND_ERROR "test/install/as_a_user fails with ${PREFIX}")
+endif()
+file(REMOVE_RECURSE ${PREFIX} ${PREFIX}_user)

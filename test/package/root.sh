@@ -1,7 +1,8 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-# Sourced by in_fresh_root and in_container_root: a Debian 12 in $work/root, made by debootstrap. $work keeps base.tar and downloaded
-# packages for the next run.
+# Sourced by in_*_root: a fresh Debian in $work/root, made by debootstrap: of the release $release, by default 12. $work keeps base.tar
+# and downloaded packages for the next run.
+release=${release:-bookworm}
 mirror=${VISCERA_DEBIAN_MIRROR:-http://deb.debian.org/debian}
 
 fail() { echo "FAILED: $*" >&2; exit 1; }
@@ -25,11 +26,11 @@ fresh_root() {
   "$root/scripts/install_packages" root || { echo "debootstrap cannot be installed: skipped"; exit 77; }
   mkdir -p "$work/archives"
   work=$(cd "$work" && pwd) top=$work/root
-  step "a fresh Debian 12"
+  step "a fresh Debian ($release)"
   rm -rf "$top"
   mkdir -p "$top"
   if [ ! -s "$work/base.tar" ]; then
-    debootstrap --variant=minbase bookworm "$top" "$mirror" >"$work/debootstrap.log" 2>&1 ||
+    debootstrap --variant=minbase "$release" "$top" "$mirror" >"$work/debootstrap.log" 2>&1 ||
       { tail -3 "$work/debootstrap.log"; echo "Debian's archive is not in reach: skipped"; exit 77; }
     tar -C "$top" -cf "$work/base.tar.new" . && mv "$work/base.tar.new" "$work/base.tar"
   else

@@ -4,9 +4,10 @@
 
 #include <optional>
 
+#include "viscera/api.h"
 #include "viscera/calibration/step_time.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 struct Scene;
 

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "viscera/api.h"
 #include "viscera/model/body/spacing_choice.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 struct Scene;
 

@@ -5,7 +5,10 @@
 #include <string>
 #include <vector>
 
-namespace viscera::gpu {
+#include "viscera/api.h"
+
+namespace VISCERA_PUBLIC viscera {
+namespace gpu {
 
 /// One EGL device that was tried, and the result.
 struct DeviceAttempt {
@@ -17,7 +20,7 @@ struct DeviceAttempt {
 
 /// Headless OpenGL 4.5 core context through EGL, current on the thread that made it until another thread takes it.
 /// Needs no display.
-class Context {
+class VISCERA_PUBLIC Context {
  public:
   /// Tries the EGL devices in turn (hardware before software), or only device `only` if it is >= 0.
   /// @throws GpuError naming every device and why it failed
@@ -53,7 +56,7 @@ class Context {
 
 /// Scope that restores, at its end, the context that was current on this thread at its beginning, of any library, or
 /// none.
-class ContextScope {
+class VISCERA_PUBLIC ContextScope {
  public:
   ContextScope() noexcept;
   /// Makes `context` current until the end of the scope. @throws GpuError  EGL refuses, as while another thread has it
@@ -73,4 +76,5 @@ void checkErrors(const char* what);
 /// Returns the number of OpenGL objects made since the process began; the hot loop must not change it.
 size_t objectsCreated();
 
-}  // namespace viscera::gpu
+}  // namespace gpu
+}  // namespace viscera

@@ -6,10 +6,11 @@
 
 #include <limits>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 #include "viscera/tools/tick_contact.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 using Eigen::Matrix3d;
 
@@ -32,7 +33,7 @@ struct TissueConstants {
 /// falls as the blade moves back. A needle is held by tissue across its shaft from all sides; along the shaft its force
 /// is limited in both directions, as a blade's is. A suture pulls in the direction of the tick's force, with at most
 /// twice its size. No function allocates memory.
-class ContactModel {
+class VISCERA_PUBLIC ContactModel {
  public:
   /// The result of an evaluation.
   struct Force {

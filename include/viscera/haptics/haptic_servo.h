@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "viscera/api.h"
 #include "viscera/haptics/contact_model.h"
 #include "viscera/haptics/passivity.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 struct HapticServoConfig {
   double period_s = 1e-3;    ///< period of the loop [s]
@@ -21,7 +22,7 @@ struct HapticServoConfig {
 /// extrapolated position of the device, reduces the stiffness if the newest pose is too old for it, and keeps the loop
 /// passive. Oscillations, energies and their thresholds are in the coordinates of the device: its metres, the newtons
 /// of its motors.
-class HapticServo {
+class VISCERA_PUBLIC HapticServo {
  public:
   explicit HapticServo(const HapticServoConfig& config);
 

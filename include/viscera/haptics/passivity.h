@@ -5,12 +5,13 @@
 #include <optional>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// History of the forces on the device, by the times at which they were sent.
-class SentForces {
+class VISCERA_PUBLIC SentForces {
  public:
   /// @param span_s  least length of the history [s]   @param period_s  approximate time between two forces [s]
   SentForces(double span_s, double period_s);
@@ -52,7 +53,7 @@ struct PassivityLimits {
 /// user. Both reach zero together, and the force never changes its sign.
 /// The remaining E is limited to U plus a reserve: a loop that uses the energy which tissue has dissipated oscillates
 /// for long. All quantities are in the coordinates of the device.
-class PassivityControl {
+class VISCERA_PUBLIC PassivityControl {
  public:
   /// Length of the force history in addition to a round trip [s]: poses further apart are not used.
   static constexpr double kLongestTransit_s = 0.1;

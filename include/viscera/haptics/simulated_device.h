@@ -4,9 +4,10 @@
 
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Parameters of an impedance-type device that a user holds: a mass with friction, coupled to the user's intended
 /// position by a spring and a damper.
@@ -23,7 +24,7 @@ struct SimulatedDeviceConfig {
 };
 
 /// Simulates the device. A period is integrated in ten steps.
-class SimulatedDevice {
+class VISCERA_PUBLIC SimulatedDevice {
  public:
   /// @param at_m  initial position of the device and of the user's intent
   SimulatedDevice(const SimulatedDeviceConfig& config, const Vector3d& at_m);

@@ -7,7 +7,7 @@
 #include "viscera/layout/types.h"
 
 #ifdef __cplusplus
-namespace viscera::layout {
+namespace VISCERA_PUBLIC viscera { namespace layout {
 #endif
 
 // Lattice nodes are stored in bricks of 4x4x4 slots: slot = 64 * brick + x + 4 y + 16 z (coordinates within the brick).
@@ -21,6 +21,6 @@ const uint kMaxObstacles = 16u;
 const uint kGroupSize = 64u;
 
 #ifdef __cplusplus
-}  // namespace viscera::layout
+}}  // namespace viscera::layout
 #endif
 #endif

@@ -7,7 +7,7 @@
 #include "viscera/layout/types.h"
 
 #ifdef __cplusplus
-namespace viscera::layout {
+namespace VISCERA_PUBLIC viscera { namespace layout {
 #endif
 
 // Explicit connection as one of its two ends sees it.
@@ -33,6 +33,6 @@ const uint kNoSpring = 0xffffffffu;
 const float kErasedShare = 2.0f;
 
 #ifdef __cplusplus
-}  // namespace viscera::layout
+}}  // namespace viscera::layout
 #endif
 #endif

@@ -8,7 +8,7 @@
 #include "viscera/layout/limits.h"
 
 #ifdef __cplusplus
-namespace viscera::layout {
+namespace VISCERA_PUBLIC viscera { namespace layout {
 #endif
 
 // NodeBits.lo: six axial counts of 3 bits (quarters of the axial stiffness, 0..4), then:
@@ -70,6 +70,6 @@ const uint kCellVectors = 8u;
 const uint kValenceMask = kAxialMask;
 
 #ifdef __cplusplus
-}  // namespace viscera::layout
+}}  // namespace viscera::layout
 #endif
 #endif

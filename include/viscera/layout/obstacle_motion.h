@@ -7,7 +7,7 @@
 #include "viscera/layout/types.h"
 
 #ifdef __cplusplus
-namespace viscera::layout {
+namespace VISCERA_PUBLIC viscera { namespace layout {
 #endif
 
 // Rigid obstacle over one substep, tissue frame.
@@ -28,6 +28,6 @@ const uint kShapeBox = 3u;
 const uint kMostContacts = 3u;  // contacts that a node can have with probes and obstacles at once, in implicit integrators
 
 #ifdef __cplusplus
-}  // namespace viscera::layout
+}}  // namespace viscera::layout
 #endif
 #endif

@@ -7,7 +7,7 @@
 #include "viscera/layout/limits.h"
 
 #ifdef __cplusplus
-namespace viscera::layout {
+namespace VISCERA_PUBLIC viscera { namespace layout {
 #endif
 
 // The label of an object is the first label of its kind plus its index in the scene.
@@ -21,6 +21,6 @@ const uint kClipLabel = 254u;
 #ifdef __cplusplus
 static_assert(kFirstBodyLabel + kMaxBodies <= kFirstWallLabel && kFirstWallLabel + kMaxBodies <= kFirstToolLabel &&
               kFirstToolLabel + kMaxStyluses <= kFirstObstacleLabel && kFirstObstacleLabel + kMaxObstacles <= kFirstSutureLabel);
-}  // namespace viscera::layout
+}}  // namespace viscera::layout
 #endif
 #endif

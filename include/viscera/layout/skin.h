@@ -7,7 +7,7 @@
 #include "viscera/layout/types.h"
 
 #ifdef __cplusplus
-namespace viscera::layout {
+namespace VISCERA_PUBLIC viscera { namespace layout {
 #endif
 
 // Vertex of a surface mesh, bound to the lattice (EGVE eqs 4 to 9).
@@ -49,6 +49,6 @@ const float kNormalSumNone = 0.25f;
 const float kNormalSumFull = 0.75f;
 
 #ifdef __cplusplus
-}  // namespace viscera::layout
+}}  // namespace viscera::layout
 #endif
 #endif

@@ -8,7 +8,7 @@
 #include "viscera/layout/types.h"
 
 #ifdef __cplusplus
-namespace viscera::layout {
+namespace VISCERA_PUBLIC viscera { namespace layout {
 #endif
 
 const float kCollapsed = 0.3f;  // share of its rest length below which a spring counts as collapsed
@@ -36,6 +36,6 @@ struct TickStats {
 };
 
 #ifdef __cplusplus
-}  // namespace viscera::layout
+}}  // namespace viscera::layout
 #endif
 #endif

@@ -7,7 +7,7 @@
 #include "viscera/layout/types.h"
 
 #ifdef __cplusplus
-namespace viscera::layout {
+namespace VISCERA_PUBLIC viscera { namespace layout {
 #endif
 
 // Tool modes, as in ToolMotion.info.x
@@ -43,6 +43,6 @@ struct ToolMotion {
 };
 
 #ifdef __cplusplus
-}  // namespace viscera::layout
+}}  // namespace viscera::layout
 #endif
 #endif

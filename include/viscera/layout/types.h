@@ -8,7 +8,8 @@
 
 #ifdef __cplusplus
 #include <cstdint>
-namespace viscera::layout {
+#include <viscera/api.h>  // not in quotes: GLSL would be given it
+namespace VISCERA_PUBLIC viscera { namespace layout {
 using uint = std::uint32_t;
 struct alignas(16) vec4 {
   float x, y, z, w;
@@ -19,7 +20,7 @@ struct alignas(16) uvec4 {
 struct alignas(16) ivec4 {
   int x, y, z, w;
 };
-}  // namespace viscera::layout
+}}  // namespace viscera::layout
 #else
 // Syntax that differs where the CPU backend compiles GLSL as C++ (src/solver/cpu/kernels/glsl.h).
 #define INOUT(T) inout T

@@ -5,7 +5,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace viscera {
+#include "viscera/api.h"
+
+namespace VISCERA_PUBLIC viscera {
 
 /// Error in the input or the environment (a file, a key, a device). The message names it and says how to fix it.
 struct Error : std::runtime_error {

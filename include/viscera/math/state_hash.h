@@ -7,11 +7,13 @@
 #include <cstring>
 #include <string>
 
-namespace viscera {
+#include "viscera/api.h"
+
+namespace VISCERA_PUBLIC viscera {
 
 /// 64-bit FNV-1a hash of a stream of words, by which two runs are compared. Words are hashed in the order of the calls,
 /// so callers pass nodes in the order of the active list.
-class StateHash {
+class VISCERA_PUBLIC StateHash {
  public:
   void add(uint32_t word) {
     for (int byte = 0; byte < 4; ++byte) value_ = (value_ ^ ((word >> (8 * byte)) & 0xffu)) * kPrime;

@@ -9,7 +9,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-namespace viscera {
+#include "viscera/api.h"
+
+namespace VISCERA_PUBLIC viscera {
 
 using Eigen::Matrix3d;
 using Eigen::Quaterniond;

@@ -4,9 +4,10 @@
 
 #include <string>
 
+#include "viscera/api.h"
 #include "viscera/model/scene/scene.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Scene with an organ in place of the one that it was made for. Fixed regions, obstacles, cameras and tools follow the
 /// new organ (OrganFit). In scenes of several bodies only the fixed regions of the first body do.

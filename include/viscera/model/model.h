@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/model/body/lattice.h"
 #include "viscera/model/body/skin.h"
 #include "viscera/model/body/spring_network.h"
 #include "viscera/model/scene/material_config.h"
 #include "viscera/model/shape/solid.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 struct Scene;
 

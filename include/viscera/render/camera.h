@@ -4,10 +4,11 @@
 
 #include <optional>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 #include "viscera/model/scene/camera_config.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Pinhole intrinsics [px] of a camera: square pixels, principal point at the image centre. Pixel (column, row) covers
 /// [column, column + 1) x [row, row + 1), row 0 at the top, so its centre is at (column + 0.5, row + 0.5). A point (x,

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/layout/limits.h"
 #include "viscera/layout/tick_stats.h"
 #include "viscera/math/types.h"
@@ -21,7 +22,7 @@
 #include "viscera/tools/stylus.h"
 #include "viscera/tools/tick_contact.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Content of a camera image.
 enum class PictureKind : uint8_t {

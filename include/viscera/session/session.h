@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/layout/limits.h"
 #include "viscera/layout/tick_stats.h"
 #include "viscera/model/model.h"
@@ -20,9 +21,14 @@
 #include "viscera/tools/obstacles.h"
 #include "viscera/tools/tools.h"
 
-namespace viscera {
-
+namespace viscera {  // internal
 class Archive;
+class View;
+struct CarriedTissue;
+}  // namespace viscera
+
+namespace VISCERA_PUBLIC viscera {
+
 class SessionLog;
 
 /// Work since the start, for diagnostics. With a view on a thread of its own, the view's counters lag by what is not
@@ -47,8 +53,6 @@ struct Extremes {
 namespace gpu {
 class Context;
 }
-class View;
-struct CarriedTissue;
 
 struct SessionOptions {
   /// CPU threads that step the tissue, shared between sessions (makeThreadPool); null: solver.threads of its own.
@@ -59,7 +63,7 @@ struct SessionOptions {
 };
 
 /// Simulation loop that owns model, solver and view. All calls come from one thread; steps do not wait for the view.
-class Session {
+class VISCERA_PUBLIC Session {
  public:
   /// Creates a session with OpenGL.
   /// @param context  current on this thread; the session uses it until its end, on whichever thread needs it. Where the

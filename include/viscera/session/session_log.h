@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "viscera/api.h"
 #include "viscera/layout/tick_stats.h"
 #include "viscera/math/types.h"
 #include "viscera/model/scene/knot_kind.h"
@@ -13,13 +14,13 @@
 #include "viscera/tools/force_limiter.h"
 #include "viscera/tools/stylus.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 class Session;
 
 /// Observer of all changes to a session, called after each change on the session's thread. The same changes, applied to
 /// another session of the same scene from the same state on, lead to the same states.
-class SessionLog {
+class VISCERA_PUBLIC SessionLog {
  public:
   virtual ~SessionLog() = default;
   virtual void stepped(Session&, const StylusSamples&) {}

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 #include "viscera/solver/blood_report.h"
 #include "viscera/solver/burn_report.h"
@@ -12,7 +13,7 @@
 #include "viscera/solver/needle_state.h"
 #include "viscera/solver/suture_state.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 class Session;
 

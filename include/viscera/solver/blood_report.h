@@ -4,7 +4,9 @@
 
 #include <cstdint>
 
-namespace viscera {
+#include "viscera/api.h"
+
+namespace VISCERA_PUBLIC viscera {
 
 /// Blood from cut vessels since the last reset (docs/lessons/bleeding.md). bled_ml is the sum of on_tissue_ml and
 /// dripped_ml.

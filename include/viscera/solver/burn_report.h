@@ -4,7 +4,9 @@
 
 #include <cstdint>
 
-namespace viscera {
+#include "viscera/api.h"
+
+namespace VISCERA_PUBLIC viscera {
 
 /// Effects of tools of mode cautery since the last reset (docs/lessons/cautery.md). given_j is the sum of the four
 /// members below it.

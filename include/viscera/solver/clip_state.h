@@ -5,9 +5,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Clip on tissue.
 struct ClipState {

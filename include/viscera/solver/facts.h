@@ -8,7 +8,9 @@
 #include <variant>
 #include <vector>
 
-namespace viscera {
+#include "viscera/api.h"
+
+namespace VISCERA_PUBLIC viscera {
 
 /// Reported quantity of a session. Its name ends with its unit, as in `bled_ml`.
 struct Fact {

@@ -4,11 +4,12 @@
 
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/layout/nodes.h"
 #include "viscera/model/body/elasticity.h"
 #include "viscera/model/model.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Returns the material constants of a body in the layout of the kernels.
 layout::BodyParams bodyParams(const Body& body, double dt_safe_s);

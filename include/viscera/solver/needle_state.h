@@ -4,10 +4,11 @@
 
 #include <cstddef>
 
+#include "viscera/api.h"
 #include "viscera/layout/limits.h"
 #include "viscera/math/types.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Needle after a tick. In its own frame the wire is an arc about the y axis with radius_m around the origin. The tip
 /// is at (radius_m, 0, 0) and points along +z; the tail is arc_rad behind it.

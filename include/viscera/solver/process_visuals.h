@@ -5,9 +5,10 @@
 #include <memory>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/solver/visible_tube.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Paint on nodes of the tissue. A later kind covers an earlier one.
 enum class PaintKind { kBurn, kBlood };

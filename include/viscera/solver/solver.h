@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/layout/tick_stats.h"
 #include "viscera/model/model.h"
 #include "viscera/solver/material.h"
@@ -16,14 +17,16 @@
 #include "viscera/tools/obstacle_motions.h"
 #include "viscera/tools/stylus.h"
 
-namespace viscera {
-
+namespace viscera {  // internal
 class Archive;
 class TissueProcess;
 struct StylusPull;
+}  // namespace viscera
+
+namespace VISCERA_PUBLIC viscera {
 
 /// Interface between the session and a backend: upload, step, state.
-class Solver {
+class VISCERA_PUBLIC Solver {
  public:
   virtual ~Solver() = default;
   /// Advances every active node by one tick: substeps() substeps of dt_s() (physics.md 2).

@@ -4,10 +4,11 @@
 
 #include <cstdint>
 
+#include "viscera/api.h"
 #include "viscera/layout/tick_stats.h"
 #include "viscera/model/model.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// |L - l0| / l0 above which a tick is strained. The shorter substep that is proven for any state then follows, unless
 /// the limit was measured and nothing else is wrong. Chosen by `viscera bench stability` (docs/verification.md).
@@ -25,7 +26,7 @@ struct Health {
 };
 
 /// Judge of the stability of ticks (physics.md 3). Logic on the host only; RollbackGuard carries out the decisions.
-class StabilityMonitor {
+class VISCERA_PUBLIC StabilityMonitor {
  public:
   /// Reason why a tick was found bad; kNone if it was good.
   enum class Trip { kNone, kNonFinite, kSpeed, kEnergy };

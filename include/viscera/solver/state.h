@@ -6,10 +6,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/layout/limits.h"
 #include "viscera/layout/nodes.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Buffers of the state of all nodes, as surface/ and render/ need them. Buffer names are OpenGL's.
 struct StateView {

@@ -5,9 +5,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/model/scene/knot_kind.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Knot of a suture.
 struct KnotState {

@@ -4,10 +4,14 @@
 
 #include <memory>
 
-namespace viscera {
+#include "viscera/api.h"
 
+namespace viscera {  // internal
 /// CPU threads that step tissue.
 class ThreadPool;
+}  // namespace viscera
+
+namespace VISCERA_PUBLIC viscera {
 
 /// Creates threads that several sessions can share (SessionOptions). Sessions take turns, one round of jobs at a time,
 /// even if they step on threads of their own. The number of threads changes no result.

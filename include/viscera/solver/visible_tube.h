@@ -5,9 +5,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Object that is drawn as a tube.
 enum class TubeKind { kSuture, kNeedle, kClip };

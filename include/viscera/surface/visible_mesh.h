@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Kind of surface that a shown triangle belongs to.
 enum class SurfaceKind : uint8_t {

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 struct StylusConfig;
 
@@ -43,7 +44,7 @@ struct ForceLimits {
 
 /// Limiter that saturates force and torque and limits their rate from one reaction to the next (physics.md 5). Both are
 /// scaled by one factor, and both changes by one factor, so that the line of action stays where the tissue put it.
-class ForceLimiter {
+class VISCERA_PUBLIC ForceLimiter {
  public:
   explicit ForceLimiter(const ForceLimits& limits) : limits_(limits) {}
   /// Limits a reaction.

@@ -5,12 +5,15 @@
 #include <functional>
 #include <optional>
 
+#include "viscera/api.h"
 #include "viscera/tools/stylus.h"
 
-namespace viscera {
-
+namespace viscera {  // internal
 class Archive;
 struct Jaws;
+}  // namespace viscera
+
+namespace VISCERA_PUBLIC viscera {
 
 /// Tissue between two jaws.
 struct Between {
@@ -23,7 +26,7 @@ using FeelTissue = std::function<std::optional<Between>(size_t stylus, const Sty
 
 /// Jaws of one stylus, tick by tick: how far the user or a button has closed them, what keeps them apart, and how far
 /// the held tissue has slid (docs/lessons/clips.md).
-class Gripper {
+class VISCERA_PUBLIC Gripper {
  public:
   /// Advances by a tick. Sets the openings of the motion and, for jaws that grip, its hold_begins and hold_ended. In a
   /// mode that has just begun, jaws move from open to the opening of the device no faster than a button would close

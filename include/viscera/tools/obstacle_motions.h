@@ -4,9 +4,10 @@
 
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Poses of an obstacle at the start and at the end of a tick, tissue frame.
 struct RigidMotion {

@@ -6,17 +6,20 @@
 #include <optional>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/layout/obstacle_motion.h"
 #include "viscera/math/types.h"
 #include "viscera/model/scene/environment_config.h"
 #include "viscera/tools/obstacle_motions.h"
 
-namespace viscera {
-
+namespace viscera {  // internal
 class Archive;
+}  // namespace viscera
+
+namespace VISCERA_PUBLIC viscera {
 
 /// Poses of the obstacles of a scene, tick by tick: at rest, moving by their velocity keys, or carried by a tf frame.
-class Obstacles {
+class VISCERA_PUBLIC Obstacles {
  public:
   /// @param max_travel_m  largest distance in a tick of the surface of an obstacle that a frame carries, by translation
   /// and rotation together [m]. Faster than waves it would throw tissue instead of pushing it. An obstacle that was

@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/model/model.h"
 #include "viscera/model/scene/organ_fit.h"
 #include "viscera/tools/stylus.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 struct StylusConfig;
 

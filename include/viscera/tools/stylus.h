@@ -4,12 +4,13 @@
 
 #include <array>
 
+#include "viscera/api.h"
 #include "viscera/layout/limits.h"
 #include "viscera/layout/tool_motion.h"
 #include "viscera/math/types.h"
 #include "viscera/model/scene/tool_mode.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Value of StylusSample::jaw_rad where no device reports the opening of the jaws and buttons close them.
 constexpr float kNoJaw = -1;

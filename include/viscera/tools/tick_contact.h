@@ -4,10 +4,11 @@
 
 #include <limits>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 #include "viscera/tools/force_limiter.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Contact of one stylus in a tick: the path of its tip and the reaction of the tissue.
 struct TickContact {

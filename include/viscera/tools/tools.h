@@ -6,13 +6,16 @@
 #include <limits>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/model/scene/stylus_config.h"
 #include "viscera/tools/jaws.h"
 #include "viscera/tools/stylus.h"
 
-namespace viscera {
-
+namespace viscera {  // internal
 class Archive;
+}  // namespace viscera
+
+namespace VISCERA_PUBLIC viscera {
 
 /// Limits that tissue sets to the motion of tools (physics.md 5).
 struct ToolLimits {
@@ -27,7 +30,7 @@ struct ToolLimits {
 
 /// Converter of stylus samples into motions, tick by tick: modes from buttons; the first sample is a jump without
 /// motion.
-class Tools {
+class VISCERA_PUBLIC Tools {
  public:
   explicit Tools(const std::vector<StylusConfig>& styluses, const ToolLimits& limits = {});
   /// Returns the motions of the next tick. @param between  finds the tissue that jaws close on; without it they have

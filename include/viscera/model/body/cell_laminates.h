@@ -6,9 +6,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/model/model.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Cell that two materials share, modelled as a laminate of two layers that meet in a plane (physics.md 1, Two
 /// materials in a cell).

@@ -4,10 +4,11 @@
 
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/layout/limits.h"
 #include "viscera/model/model.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Constants of a cell of edge h that follow from E, nu and rho (physics.md 1).
 struct Elasticity {

@@ -7,12 +7,13 @@
 #include <unordered_map>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/layout/nodes.h"
 #include "viscera/model/body/neighbors.h"
 #include "viscera/model/scene/body_kinds.h"
 #include "viscera/model/shape/solid.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Ghost: position beyond a fixed node at which a row of nodes in a thin wall goes on, so that the wall may bend where
 /// it leaves the clamp. It moves freely, has the mass of its fixed node, bears no tissue, and only the second

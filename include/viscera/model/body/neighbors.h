@@ -5,11 +5,12 @@
 #include <array>
 #include <cstdint>
 
+#include "viscera/api.h"
 #include "viscera/layout/limits.h"
 #include "viscera/layout/nodes.h"
 #include "viscera/math/types.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Offsets of the 18 neighbours of a lattice node, in the order of the spring index: six axial, then twelve
 /// face-diagonal. Spring s, seen from its other end, is s ^ 1. shaders/solver/tissue/lattice.glsl lists the same order.

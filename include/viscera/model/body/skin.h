@@ -4,11 +4,12 @@
 
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/layout/skin.h"
 #include "viscera/model/body/lattice.h"
 #include "viscera/model/shape/triangle_mesh.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Edge of a network's surface mesh that splits where a blade crosses its spring.
 struct SplitEdge {

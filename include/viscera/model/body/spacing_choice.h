@@ -8,17 +8,20 @@
 #include <memory>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/model/model.h"
 #include "viscera/model/scene/body_config.h"
 
-namespace viscera {
+namespace viscera {  // internal
+class Tissue;
+}  // namespace viscera
+
+namespace VISCERA_PUBLIC viscera {
 
 struct Scene;
 
-class Tissue;
-
 /// Bodies of a scene before they are divided into cells, for the search for a spacing: each mesh is read once.
-class UndividedBodies {
+class VISCERA_PUBLIC UndividedBodies {
  public:
   /// @throws MeshError, SceneError  as buildModel()
   explicit UndividedBodies(const Scene& scene);

@@ -7,11 +7,12 @@
 #include <memory>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/layout/links.h"
 #include "viscera/math/types.h"
 #include "viscera/model/shape/surface_detail.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Explicit connection: F = k (L - l0) n (GW eq 1; without the factor 1/2 of VR05).
 struct NetworkSpring {

@@ -6,9 +6,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/model/model.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Cell in a thin wall that is oblique to the lattice. Its second derivatives along its own axes come from rows of
 /// nodes (physics.md 1, Thin walls).

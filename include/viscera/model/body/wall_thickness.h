@@ -5,9 +5,10 @@
 #include <optional>
 #include <string>
 
+#include "viscera/api.h"
 #include "viscera/model/model.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Thickness of the tissue behind a surface: quantiles 1 %, 10 % and 50 % over its area [m].
 struct WallThickness {

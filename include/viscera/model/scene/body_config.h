@@ -5,11 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 #include "viscera/model/scene/body_kinds.h"
 #include "viscera/model/scene/material_config.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Region of nodes that are fixed in space. Coordinates are in the body's frame, before its pose is applied.
 struct FixedConfig {

@@ -4,11 +4,12 @@
 
 #include <string>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 #include "viscera/model/scene/overlays.h"
 #include "viscera/model/scene/plumb_bob.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Light of a camera.
 enum class CameraLight {

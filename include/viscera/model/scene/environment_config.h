@@ -4,9 +4,10 @@
 
 #include <string>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 enum class ObstacleShape { kPlane, kSphere, kCapsule, kBox };
 

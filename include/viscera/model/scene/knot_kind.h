@@ -6,9 +6,10 @@
 #include <cstddef>
 #include <string>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Knot that a sequence of throws makes.
 enum class KnotKind { kNone, kHalf, kDoubleHalf, kSquare, kGranny, kSurgeons, kSurgeonsGranny };

@@ -4,10 +4,11 @@
 
 #include <string>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 #include "viscera/model/scene/body_kinds.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Resistance of tissue to cutting (docs/cutting.md).
 struct FractureConfig {

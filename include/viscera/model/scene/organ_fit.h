@@ -4,9 +4,10 @@
 
 #include <string>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Map from the environment of one organ to those of another that replaces it. Positions are mapped from box to box,
 /// axis by axis. Cameras and tools have one scale each, so that images are not sheared and blades stay straight.

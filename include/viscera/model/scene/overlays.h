@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
-namespace viscera {
+#include "viscera/api.h"
+
+namespace VISCERA_PUBLIC viscera {
 
 /// Overlay of a camera, over the tissue or in place of its colours (EGVE figures 1, 2 and 6, GW figure 4).
 enum class Overlay : uint32_t {
@@ -31,7 +33,7 @@ constexpr std::array<OverlayName, 6> kOverlayNames = {{{"lattice", Overlay::kLat
                                                        {"wind", Overlay::kWind}}};
 
 /// Set of overlays.
-class Overlays {
+class VISCERA_PUBLIC Overlays {
  public:
   bool has(Overlay overlay) const { return (bits_ & static_cast<uint32_t>(overlay)) != 0; }
   void add(Overlay overlay) { bits_ |= static_cast<uint32_t>(overlay); }

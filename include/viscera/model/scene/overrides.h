@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace viscera {
+#include "viscera/api.h"
+
+namespace VISCERA_PUBLIC viscera {
 
 /// List of "key=value" as given on the command line or in a launch file; the key is a path such as bodies[0].spacing_m.
 using Overrides = std::vector<std::string>;

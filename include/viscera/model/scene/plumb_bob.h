@@ -6,7 +6,9 @@
 
 #include <Eigen/Core>
 
-namespace viscera {
+#include "viscera/api.h"
+
+namespace VISCERA_PUBLIC viscera {
 
 /// Lens distortion as in OpenCV and sensor_msgs/CameraInfo (plumb_bob): radial k, tangential p. All 0: a pinhole.
 struct PlumbBob {

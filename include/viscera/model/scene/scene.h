@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/model/scene/body_config.h"
 #include "viscera/model/scene/camera_config.h"
 #include "viscera/model/scene/environment_config.h"
@@ -15,7 +16,7 @@
 #include "viscera/model/scene/stylus_config.h"
 #include "viscera/model/scene/suture_config.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 // Every field of these structs has one entry in src/model/scene/scene_fields.h with its key, unit, range and
 // documentation; the default is the initialiser here. `viscera keys` prints the table. A source that needs one section

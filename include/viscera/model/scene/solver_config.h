@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "viscera/api.h"
 #include "viscera/model/scene/solver_kinds.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 struct SolverConfig {
   double tick_hz = 60;

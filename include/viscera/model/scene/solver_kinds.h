@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-namespace viscera {
+#include "viscera/api.h"
+
+namespace VISCERA_PUBLIC viscera {
 
 // Values of the keys of the solver.
 

@@ -4,10 +4,11 @@
 
 #include <string>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 #include "viscera/model/scene/tool_mode.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 // Parameters of the kinds of tools, one group for each.
 struct ProbeConfig {

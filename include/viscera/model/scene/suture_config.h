@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 #include "viscera/model/scene/knot_kind.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Materials of sutures (docs/sutures.md), and their sizes of the United States Pharmacopeia.
 enum class SutureMaterial { kSilk, kNylon, kPolypropylene };

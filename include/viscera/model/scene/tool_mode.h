@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-namespace viscera {
+#include "viscera/api.h"
+
+namespace VISCERA_PUBLIC viscera {
 
 /// Action of a tool; src/model/scene/tool_kinds.h has a row for each.
 enum class ToolMode {

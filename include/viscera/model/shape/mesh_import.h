@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/model/scene/body_config.h"
 #include "viscera/model/shape/triangle_mesh.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// What an import left out, summed over parts.
 struct ImportReport {

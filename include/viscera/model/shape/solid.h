@@ -9,10 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 #include "viscera/model/shape/triangle_mesh.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Callback for the progress of a long preparation: stage name and fraction 0..1.
 using Progress = std::function<void(const std::string& stage, double fraction)>;

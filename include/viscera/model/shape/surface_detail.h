@@ -8,7 +8,9 @@
 
 #include <Eigen/Core>
 
-namespace viscera {
+#include "viscera/api.h"
+
+namespace VISCERA_PUBLIC viscera {
 
 /// Image on a surface: four bytes per texel, rows from v = 0 upwards.
 struct TextureImage {

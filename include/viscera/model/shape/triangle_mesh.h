@@ -8,10 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 #include "viscera/model/shape/surface_detail.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Triangles with shared vertices and named parts. Positions are in metres, counter-clockwise seen from outside.
 struct TriangleMesh {

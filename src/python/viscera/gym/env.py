@@ -6,7 +6,7 @@ import copy
 import numpy as np
 
 from .. import Scene, Session, Stylus, VectorSession
-from .spaces import Box, Dict, Env, VectorEnv, batched
+from .spaces import SAME_STEP, Box, Dict, Env, VectorEnv, batched
 
 _PICTURES = ("rgb", "depth", "labels")
 _OBSERVATIONS = ("poses", "forces", "points") + _PICTURES
@@ -176,7 +176,7 @@ class TissueEnv(Env):
 
 class VectorTissueEnv(VectorEnv):
     """Several sessions of a task, which one call steps on several CPU threads (see make_vec)."""
-    metadata = {"render_modes": [], "autoreset_mode": "SameStep"}
+    metadata = {"render_modes": [], "autoreset_mode": SAME_STEP}
 
     def __init__(self, task, num_envs=1, observations=("poses", "forces"), max_episode_steps=None, threads=0):
         layout = _Layout(task, observations)

@@ -8,8 +8,14 @@ try:
     from gymnasium.vector import VectorEnv
     Box, Dict = spaces.Box, spaces.Dict
     HAVE_GYMNASIUM = True
+    try:  # from 1.1 on
+        from gymnasium.vector import AutoresetMode
+        SAME_STEP = AutoresetMode.SAME_STEP
+    except ImportError:
+        SAME_STEP = "SameStep"
 except ImportError:
     HAVE_GYMNASIUM = False
+    SAME_STEP = "SameStep"
 
     class Space:
         def __init__(self, seed=None):
