@@ -160,4 +160,24 @@ void Album::writeFile(const ImageFrame& image, const std::string& stem) {
   }
 }
 
+Frame frameNow(Session& session, Album* album) {
+  Frame now = session.drain();  // makes room for the surface
+  FrameRequest outputs;
+  outputs.surface = outputs.every_image = true;
+  Pictures shown = session.show(outputs);
+  if (!shown.surface) throw Error("the skin of tick " + std::to_string(session.tick()) + " is missing");
+  for (Pictures* ready : {static_cast<Pictures*>(&now), &shown}) {
+    Frame images;
+    images.images = std::move(ready->images);
+    if (album) album->add(std::move(images));
+  }
+  if (now.surface && album) {
+    Frame asked;
+    asked.surface = std::move(now.surface);
+    album->add(std::move(asked));
+  }
+  now.surface = std::move(shown.surface);
+  return now;
+}
+
 }  // namespace viscera::cli

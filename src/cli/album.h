@@ -80,4 +80,8 @@ class Album {
   std::thread writer_;
 };
 
+/// Returns the results of the session's last tick, which it waits for, with the surface mesh. Images that are ready go
+/// to the album. @param album  null: none   @throws Error  the surface mesh is missing
+Frame frameNow(Session& session, Album* album);
+
 }  // namespace viscera::cli

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/film/film_options.h"
+#include "cli/page/page_options.h"
 #include "export/exporter.h"
 #include "model/scan/labels.h"
 #include "model/scan/window.h"
@@ -30,6 +31,7 @@ struct RunOptions {
   double save_every_s = 0;                ///< simulated time between saved states [s]; 0: at the end only
   std::optional<ExportOptions> exported;  ///< options of the export into `out`/export
   FilmOptions film;
+  PageOptions page;
   Overrides overrides;
 };
 /// Runs `viscera check`: lists EGL devices, the chosen one, and why others were not chosen; for a scene, its bodies and
@@ -50,6 +52,7 @@ struct ReplayOptions {
   std::string out;   ///< output folder; empty: no images, no tables
   std::string save;  ///< file of the final state; empty: none
   FilmOptions film;
+  PageOptions page;
   bool no_view = false, depth = false, labels = false;
   std::optional<std::string> name;  ///< trainee's name in reports of tasks
   Overrides overrides;              ///< overrides of keys that do not affect the state

@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/fault.h"
 #include "cli/film/film_options.h"
+#include "cli/page/page_options.h"
 #include "devices/device_profile.h"
 #include "math/memory_for.h"
 #include "model/scene/feature_rules.h"
@@ -107,6 +108,7 @@ CLI::App* addRun(CLI::App& app, Options& o) {
                 "skip pictures instead of waiting for them, as a live session does, except at marks")
       ->needs(out)
       ->excludes(addFilm(run, o.run.film));
+  addPage(run, o.run.page);
   run->add_flag(
          "--depth", o.run.depth,
          "write the depths of every picture: .npy, float32, metres along the optical axis, +Inf where there is nothing")
@@ -146,6 +148,7 @@ CLI::App* addReplay(CLI::App& app, Options& options) {
   replay->add_flag("--depth", o.depth, "write the depths of every picture, as run does")->needs(out);
   replay->add_flag("--labels", o.labels, "write the labels of every picture, as run does")->needs(out);
   addFilm(replay, o.film);
+  addPage(replay, o.page);
   replay->add_flag("--no-view", o.no_view,
                    "run without pictures, and without OpenGL unless solver.backend: gpu needs it");
   replay->add_option("--name", o.name, "name of the trainee, for the report of a task");
@@ -168,6 +171,7 @@ CLI::App* addTask(CLI::App& app, Options& o) {
       ->check(CLI::Range(0.0, 86400.0));
   task->add_option("--out", o.run.out, "folder for pictures and tables, as for run, and for the report");
   addFilm(task, o.run.film);
+  addPage(task, o.run.page);
   task->add_option("--name", o.run.name, "name of the trainee, for the report; at most 64 characters");
   task->add_flag("--no-view", o.run.no_view,
                  "run without pictures, and without OpenGL unless solver.backend: gpu needs it");

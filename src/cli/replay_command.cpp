@@ -9,6 +9,7 @@
 #include "cli/album.h"
 #include "cli/commands.h"
 #include "cli/film/film.h"
+#include "cli/page/page.h"
 #include "cli/run_folder.h"
 #include "cli/run_plan.h"
 #include "cli/scene_lookup.h"
@@ -31,8 +32,9 @@ using ReplayClock = std::chrono::steady_clock;
 /// first one the given folder.
 class Replayed {
  public:
-  /// @param film  null: none
-  Replayed(const ReplayOptions& options, Film* film) : options_(options), film_(film) {}
+  /// @param film, page  null: none
+  Replayed(const ReplayOptions& options, Film* film, Page* page)
+      : options_(options), film_(film), page_(page), at_s_(options.from_s) {}
 
   Session& make(const Scene& scene) {
     end();
@@ -46,7 +48,8 @@ class Replayed {
     return *session_;
   }
   FrameRequest outputs(const Session& session) {
-    if (!tools_) tools_.emplace(*session_);
+    const bool begins = !tools_;
+    if (begins) tools_.emplace(*session_);
     if ((film_ || !options_.out.empty()) && !album_) {
       ++pieces_;
       folder_ = options_.out + (pieces_ == 1 || options_.out.empty() ? "" : "/piece_" + std::to_string(pieces_));
@@ -54,10 +57,13 @@ class Replayed {
       album_ = std::make_unique<Album>(folder_, session.scene(), Strokes{}, UINT64_MAX, pictures,
                                        Album::Kinds{options_.depth, options_.labels}, film_);
     }
+    if (page_ && begins) page_->begin(*session_, album_.get(), &tasks_->watch(), at_s_);
     return album_ ? album_->outputs(session) : FrameRequest{};
   }
   void stepped(Frame&& frame, double at_s) {
+    at_s_ = at_s;
     if (album_) album_->add(std::move(frame));
+    if (page_) page_->stepped(*session_, album_.get(), at_s);
     if (options_.speed > 0)
       std::this_thread::sleep_until(begun_ +
                                     std::chrono::duration_cast<ReplayClock::duration>(
@@ -66,6 +72,7 @@ class Replayed {
   /// Writes images and tables since the last jump; measures are kept.
   void endPiece() {
     if (!session_ || !tools_) return;
+    if (page_) page_->end(*session_, album_.get());
     Frame last = session_->drain();
     measures_.push_back(tools_->rows().metrics());
     if (album_) {
@@ -90,13 +97,7 @@ class Replayed {
   const ReplayJson& measures() const { return measures_; }
 
  private:
-  void addSkin() {
-    FrameRequest skin;
-    skin.surface = skin.every_image = true;
-    Frame shown;
-    static_cast<Pictures&>(shown) = session_->show(skin);
-    album_->add(std::move(shown));
-  }
+  void addSkin() { album_->add(frameNow(*session_, album_.get())); }
   std::string reportFolder() {
     if (options_.out.empty()) return "";
     return options_.out + (++scenes_ == 1 ? "/report" : "/report_" + std::to_string(scenes_));
@@ -104,6 +105,8 @@ class Replayed {
 
   const ReplayOptions& options_;
   Film* const film_;
+  Page* const page_;
+  double at_s_;  ///< time in the recording after the last step
   std::unique_ptr<gpu::Context> context_;
   std::unique_ptr<Session> session_;
   std::optional<ToolLog> tools_;
@@ -165,6 +168,7 @@ std::unique_ptr<Film> beginFilm(const ReplayOptions& options, const SessionRepla
 
 int replay(const ReplayOptions& options) {
   requireFilm(options.film, options.no_view);
+  requirePage(options.page);
   requireTrainee(options.name);
   SessionReplay recording(options.file);
   tell(recording);
@@ -175,10 +179,12 @@ int replay(const ReplayOptions& options) {
   std::vector<Output> outputs = outputsIn(options.out);
   outputs.push_back({"--save", options.save, FileKind::kState});
   outputs.push_back({"--film", options.film.file, FileKind::kFilm});
+  outputs.push_back({"--page", options.page.file, FileKind::kHtml});
   requireOutputs(outputs);
   const RunFolder folder(options.out);
   const std::unique_ptr<Film> film = beginFilm(options, recording, until_s);
-  Replayed replayed(options, film.get());
+  const std::unique_ptr<Page> page = options.page.file.empty() ? nullptr : std::make_unique<Page>(options.page);
+  Replayed replayed(options, film.get(), page.get());
   SessionReplay::Ports ports;
   ports.make = [&](const Scene& scene, size_t) -> Session& { return replayed.make(scene); };
   ports.leaps = [&](Session&) { replayed.endPiece(); };
@@ -187,6 +193,7 @@ int replay(const ReplayOptions& options) {
   const SessionReplay::Outcome outcome = recording.run(options.from_s, until_s, options.overrides, ports);
   replayed.end();
   if (film) film->finish();
+  if (page) page->finish();
   if (!options.save.empty()) replayed.session().save(options.save);
   ReplayJson result = resultOf(recording, outcome, replayed.session());
   result["pieces"] = replayed.measures();

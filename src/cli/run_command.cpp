@@ -10,6 +10,7 @@
 #include "cli/album.h"
 #include "cli/commands.h"
 #include "cli/film/film.h"
+#include "cli/page/page.h"
 #include "cli/run_folder.h"
 #include "cli/run_metrics.h"
 #include "cli/run_plan.h"
@@ -76,18 +77,10 @@ void resume(Session& session, const std::string& file, uint64_t ticks) {
   std::cout << "resumed after " << at_s << " s, tick " << session.tick() << '\n';
 }
 
-/// Exports a state. Waits for the surface mesh of the last tick if it is exported; images in the same frame go to the
-/// album.
+/// Exports a state. Images that are ready go to the album.
 void exportNow(Session& session, Exporter& exporter, Album& album) {
   if (!exporter.ofSkin()) return exporter.add(session, {});
-  album.add(session.drain());  // makes room for the next frame
-  FrameRequest outputs;
-  outputs.surface = outputs.every_image = true;
-  Frame frame;
-  static_cast<Pictures&>(frame) = session.show(outputs);
-  if (!frame.surface) throw Error("--export: the skin of tick " + std::to_string(session.tick()) + " is missing");
-  exporter.add(session, *frame.surface);
-  album.add(std::move(frame));
+  exporter.add(session, *frameNow(session, &album).surface);
 }
 
 /// Returns the number of ticks between two saved states; 0: none.
@@ -157,6 +150,7 @@ std::vector<Output> outputsOf(const RunOptions& options) {
   out.push_back({"--save", options.save, FileKind::kState});
   out.push_back({"--record", options.record, FileKind::kRecording});
   out.push_back({"--film", options.film.file, FileKind::kFilm});
+  out.push_back({"--page", options.page.file, FileKind::kHtml});
   return out;
 }
 
@@ -182,8 +176,9 @@ void printRecording(const Strokes& strokes) {
             << ", overrides: " << (strokes.recorded.overrides.empty() ? "none" : strokes.recorded.overrides) << '\n';
 }
 
-/// Checks the options of a film before anything is computed. @throws Error
+/// Checks the options of a film and a page before anything is computed. @throws Error
 void requireFilmOf(const RunOptions& options, const Scene& scene) {
+  requirePage(options.page);
   requireFilm(options.film, options.no_view);
   if (!options.film.file.empty()) filmCamera(options.film, scene, "scene " + scene.name);
 }
@@ -192,6 +187,27 @@ void requireFilmOf(const RunOptions& options, const Scene& scene) {
 std::unique_ptr<Film> beginFilm(const FilmOptions& options, const Scene& scene) {
   if (options.file.empty()) return nullptr;
   return std::make_unique<Film>(options, filmFormat(options, scene, "scene " + scene.name));
+}
+
+/// Starts a page with the state before the first step. Returns null if none is requested.
+std::unique_ptr<Page> beginPage(const RunOptions& options, Session& session, Album& album, const TaskRun* task,
+                                const Strokes& strokes) {
+  if (options.page.file.empty()) return nullptr;
+  auto out = std::make_unique<Page>(options.page);
+  const double begin_s = static_cast<double>(session.tick()) * session.tick_s();
+  for (const Mark& mark : strokes.marks)
+    if (mark.time_s >= begin_s) out->addMark(mark.name, mark.time_s);
+  out->begin(session, &album, task ? &task->watch() : nullptr, begin_s);
+  return out;
+}
+
+/// Completes what a run has written in its steps. @param film, page, exporter  null: none   @throws Error
+void finishFiles(Session& session, Album& album, Film* film, Page* page, Exporter* exporter) {
+  if (page) page->end(session, &album);
+  album.finish();
+  if (film) film->finish();
+  if (page) page->finish();
+  if (exporter) exporter->finish();
 }
 
 /// Prints the verdict of a task, if there is one, and the metrics as the last line. @param folder  also gets the
@@ -236,6 +252,7 @@ int run(const RunOptions& options) {
   std::optional<SessionRecorder> recorder;
   if (!options.record.empty()) recorder.emplace(options.record).follow(session);
   const std::unique_ptr<TaskRun> task = beginTask(session, options);
+  const std::unique_ptr<Page> page = beginPage(options, session, album, task.get(), strokes);
   const uint64_t save_ticks = saveTicks(options.save_every_s, session.tick_s());
   std::optional<Exporter> exporter;
   if (options.exported) exporter.emplace(options.out + "/export", *options.exported, session.tick_s());
@@ -245,6 +262,7 @@ int run(const RunOptions& options) {
     if (strokes.inputReset(t + 1)) session.resetInput();
     album.add(session.step(strokes.at(time_s, scene.styluses), album.outputs(session)));
     progress("simulating", static_cast<double>(t + 1) / static_cast<double>(ticks));
+    if (page) page->stepped(session, &album, time_s);
     if (exporter && exporter->isDue(t + 1)) exportNow(session, *exporter, album);
     if (save_ticks > 0 && (t + 1) % save_ticks == 0) session.save(options.save);
   }
@@ -252,9 +270,7 @@ int run(const RunOptions& options) {
   const double wall_s = secondsSince(start);
   const layout::TickStats stats = last.stats;
   album.add(std::move(last));
-  album.finish();
-  if (film) film->finish();
-  if (exporter) exporter->finish();
+  finishFiles(session, album, film.get(), page.get(), exporter ? &*exporter : nullptr);
   if (!options.save.empty()) session.save(options.save);
   if (recorder) finish(*recorder);
 

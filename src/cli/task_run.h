@@ -27,6 +27,7 @@ class TaskRun {
   /// Ends the tasks after the session's last tick; undecided ones have failed. @returns a map of each task that ended
   /// @throws Error  a report cannot be written
   nlohmann::ordered_json finish();
+  const TaskWatch& watch() const { return watch_; }
   /// Prints what finish() found, in a few lines for a person: verdict, costliest mistakes, path of the report.
   void printVerdicts() const;
 

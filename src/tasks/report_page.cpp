@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "math/base64.h"
 #include "tasks/plot.h"
 #include "tasks/report_plots.h"
 #include "tasks/task_kinds.h"
@@ -15,17 +16,6 @@
 namespace viscera {
 
 namespace {
-
-std::string base64(const std::string& bytes) {
-  constexpr const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string out;
-  for (size_t i = 0; i < bytes.size(); i += 3) {
-    uint32_t word = 0;
-    for (size_t k = 0; k < 3; ++k) word = word << 8 | (i + k < bytes.size() ? static_cast<uint8_t>(bytes[i + k]) : 0u);
-    for (size_t k = 0; k < 4; ++k) out += i + k < bytes.size() + 1 ? kDigits[word >> (18 - 6 * k) & 63] : '=';
-  }
-  return out;
-}
 
 std::string cell(const std::string& text) {
   return "<td>" + text + "</td>";

@@ -1,0 +1,64 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "export/page/page_bytes.h"
+#include "viscera/surface/visible_mesh.h"
+
+namespace viscera {
+
+/// Positions that a page can express: 65536 along each axis, in equal steps.
+struct PageGrid {
+  static constexpr double kSteps = 65535;
+  Vector3d origin_m = Vector3d::Zero();
+  double step_m = 1;
+
+  /// Returns the grid around the shown vertices of a mesh, with room for them to move by half its size.
+  static PageGrid around(const VisibleMesh& mesh);
+  /// Returns the nearest step along each axis, of any size. @param position_m  tissue frame
+  Eigen::Vector3i nearest(const Vector3d& position_m) const;
+};
+
+/// Encodes the surface meshes of a session, frame after frame, as docs/page.md describes. Positions are differences
+/// from the frame before, and of these from a neighbouring vertex. A key frame has differences from the base instead,
+/// so that decoding can begin there.
+class SurfaceCoder {
+ public:
+  /// Begins with a mesh as the base. @param colors  [vertices] RGBA8, red in the low byte
+  void begin(const VisibleMesh& mesh, const std::vector<uint32_t>& colors, PageBytes& out);
+  /// Returns whether the grid of the base has room for all shown vertices.
+  bool hasRoomFor(const VisibleMesh& mesh) const;
+  /// Appends a frame. @param colors  as in begin()   @param is_key  whether it refers to the base
+  void add(const VisibleMesh& mesh, const std::vector<uint32_t>& colors, bool is_key, PageBytes& out);
+  const PageGrid& grid() const { return grid_; }
+  /// Returns whether the last frame shows other triangles than the frame before.
+  bool hasNewTriangles() const { return has_new_triangles_; }
+
+ private:
+  using Triangle = std::array<uint32_t, 4>;  // corners, then its SurfaceKind
+  struct State {
+    std::shared_ptr<const VisibleTopology> topology;
+    std::vector<Triangle> triangles;  ///< in the decoder's order
+    std::vector<uint16_t> steps;      ///< [3 * vertices] x of all, then y, then z
+    std::vector<uint32_t> colors;     ///< [vertices]
+    size_t vertices() const { return colors.size(); }
+  };
+  static std::vector<Triangle> trianglesOf(const VisibleTopology& topology);
+  void putTriangles(const VisibleTopology& topology, std::vector<Triangle>& shown, PageBytes& out) const;
+  void connect();
+  void putColors(const State& before, const std::vector<uint32_t>& colors, PageBytes& out) const;
+  void putPositions(const State& before, const VisibleMesh& mesh, PageBytes& out);
+
+  PageGrid grid_;
+  State base_, last_;
+  std::vector<uint32_t> neighbours_;  ///< [vertices] connected vertex with the largest smaller index, or kNone
+  std::vector<bool> is_shown_;        ///< [vertices]
+  bool has_new_triangles_ = false;
+};
+
+}  // namespace viscera
