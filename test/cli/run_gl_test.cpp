@@ -89,11 +89,9 @@ TEST_F(Run, EveryIntegratorBringsTheHangingBlockToTheSameSag) {
   };
   const double sag = stretch("leapfrog", "gpu");
   EXPECT_GT(sag, 0);
-  for (const std::string backend : {"gpu", "cpu"}) {
-    SCOPED_TRACE(backend);
-    for (const char* integrator : {"leapfrog", "pd"})
-      EXPECT_NEAR(stretch(integrator, backend), sag, kApart * sag) << integrator;
-  }
+  for (const auto& [integrator, backend] :
+       {std::pair("pd", "gpu"), std::pair("leapfrog", "cpu"), std::pair("pd", "cpu")})
+    EXPECT_NEAR(stretch(integrator, backend), sag, kApart * sag) << integrator << ", " << backend;
 }
 
 TEST_F(Run, EquilibriumIsWhereTheBlockHangsFromTheFirstTickOn) {
@@ -136,10 +134,11 @@ TEST_F(Run, NodesTooCrowdedForContactsAreCounted) {
                                           "bodies:\n"
                                           "  - {name: sheet, source: sheet, structure: surface, spacing_m: 0.001,\n"
                                           "     box_size_m: [0.07, 0.07, 0.001], position_m: [0.1, 0.1, 0.1]}\n"
-                                          "collision: {enabled: true}\n");
+                                          "collision: {enabled: true}\n"
+                                          "solver: {tick_hz: 1000}\n");  // few substeps
   for (const std::string backend : {"gpu", "cpu"}) {
     const auto crowded = [&](const std::string& distance_m) {
-      return metricsOf(viscera({"run", sheet, "--seconds", "0.02", "--set", "solver.backend=" + backend, "--set",
+      return metricsOf(viscera({"run", sheet, "--seconds", "0.002", "--set", "solver.backend=" + backend, "--set",
                                 "collision.distance_m=" + distance_m}));
     };
     const Json close = crowded("0.2");

@@ -20,7 +20,7 @@ SECONDS = 0.1
 STEP = """
 import os, viscera
 environment = dict(os.environ)
-with viscera.Session(viscera.Scene("heart")) as session:
+with viscera.Session(viscera.Scene("practice_pad")) as session:
     session.step(n=round(%r / session.tick_s))
     skin = session.skin()
     print(session.hash, viscera.__file__)
@@ -76,7 +76,7 @@ class WheelTest(unittest.TestCase):
         self.assertLess(self.wheel.stat().st_size, MOST_MB * 2**20)
 
     def test_steps_as_the_command_does_with_libraries_of_its_own(self):
-        ran = subprocess.run([str(COMMAND), "run", "heart", "--no-view", "--seconds", str(SECONDS)], check=True, capture_output=True, text=True)
+        ran = subprocess.run([str(COMMAND), "run", "practice_pad", "--no-view", "--seconds", str(SECONDS)], check=True, capture_output=True, text=True)
         first, libraries = printed(STEP).strip().split("\n")
         state, place = first.split()
         self.assertEqual(state, json.loads(ran.stdout.strip().split("\n")[-1])["state_hash"])

@@ -57,8 +57,8 @@ constexpr double kGrows = 1.1;
 
 class LawStarts : public OnBackend {
  protected:
-  /// llvmpipe steps a block of 64 nodes as slowly as one of 10,000.
-  uint32_t seeds() const { return GetParam() == "gpu" ? 1 : 10; }
+  /// Instruction sets differ from the best by rounding alone, so what the law does is tried on that.
+  static uint32_t seeds() { return GetParam() == backendKinds()[1] ? 10 : 1; }
 
   static void expectAtRest(const Ended& ended) {
     EXPECT_EQ(ended.inverted, 0u);
@@ -141,11 +141,13 @@ TEST_P(LawStarts, RandomOnesOfTwoMaterialsComeToRest) {
   }
 }
 
-/// Of thin walls with rows of nodes.
+/// Of thin walls with rows of nodes. On a GPU in software from the farthest of these starts only.
 TEST_P(LawStarts, RandomOnesOfThinWallsComeToRest) {
+  const std::vector<double> ratios = isSoftwareGpu() ? std::vector{0.45} : std::vector{0.3, 0.45};
+  const std::vector<double> sizes = isSoftwareGpu() ? std::vector{0.3} : std::vector{0.1, 0.3};
   for (const Shape shape : {Shape::kThinPlate, Shape::kPlate, Shape::kBowl}) {
-    for (const double nu : {0.3, 0.45}) {
-      for (const double size : {0.1, 0.3}) {
+    for (const double nu : ratios) {
+      for (const double size : sizes) {
         for (uint32_t seed = 0; seed < (seeds() + 2) / 3; ++seed) {
           SCOPED_TRACE(::testing::Message() << static_cast<int>(shape) << " nu " << nu << " seed " << seed);
           const Ended ended = run(startBody(shape, nu), 1.0, [&](const Lattice& lattice, HostState& state) {

@@ -56,6 +56,8 @@ class OnBackend : public ::testing::TestWithParam<std::string> {
   std::unique_ptr<TissueStepper> make(const Model& model, const Scene& scene, const SolverOptions& options = {}) const {
     return makeBackend(GetParam(), model, scene, options);
   }
+  /// Returns whether the backend is a GPU in software, where a tick of a small block takes as long as one of a large.
+  bool isSoftwareGpu() const { return context_ && context_->isSoftware(); }
 
  private:
   std::optional<gpu::Context> context_;

@@ -51,15 +51,18 @@ double sides(size_t corner, int axis) {
 /// Returns the gradient of small displacements at a cell's centroid (law_energy.h: D + G).
 Matrix3d gradientOf(const Cell& cell, const Field& u_m, double h) {
   Matrix3d g = Matrix3d::Zero(), s = Matrix3d::Zero();
+  const double per_edge = 1 / (4 * h), per_face = 1 / (2 * h);
+  const Vector3d& at = cell.centroid;
+  const bool full = at.isZero(0);
   for (size_t c = 0; c < 8; ++c) {
+    const Vector3d& u = u_m[cell.corners[c]];
     for (int a = 0; a < 3; ++a) {
-      g.col(a) += side(c, a) / (4 * h) * u_m[cell.corners[c]];
-      s.col(a) += sides(c, a) / (2 * h) * u_m[cell.corners[c]];
+      g.col(a) += side(c, a) * per_edge * u;
+      if (!full) s.col(a) += sides(c, a) * per_face * u;
     }
   }
   const double poisson = cell.lambda / (cell.lambda + 2);
-  const Vector3d& at = cell.centroid;
-  for (int n = 0; n < 3 && !at.isZero(0); ++n) {
+  for (int n = 0; n < 3 && !full; ++n) {
     const int a = (n + 1) % 3, b = (n + 2) % 3;
     g.col(n) += at[a] * s.col(b) + at[b] * s.col(a);
     g(n, n) -= poisson * at[n] * (s(a, b) + s(b, a));
@@ -72,9 +75,11 @@ Matrix3d gradientOf(const Cell& cell, const Field& u_m, double h) {
 /// Adds the forces [N] of a stress over mu on a cell's corners; gradientOf() is the adjoint.
 void addPull(const Cell& cell, const Matrix3d& stress, double h, Field& forces_n) {
   Matrix3d r = Matrix3d::Zero();
+  const double per_edge = 1 / (4 * h), per_face = 1 / (2 * h);
   const double poisson = cell.lambda / (cell.lambda + 2);
   const Vector3d& at = cell.centroid;
-  for (int n = 0; n < 3 && !at.isZero(0); ++n) {
+  const bool full = at.isZero(0);
+  for (int n = 0; n < 3 && !full; ++n) {
     const int a = (n + 1) % 3, b = (n + 2) % 3;
     r.col(b) += at[a] * stress.col(n);
     r.col(a) += at[b] * stress.col(n);
@@ -85,7 +90,10 @@ void addPull(const Cell& cell, const Matrix3d& stress, double h, Field& forces_n
   }
   for (size_t c = 0; c < 8; ++c) {
     Vector3d force = Vector3d::Zero();
-    for (int a = 0; a < 3; ++a) force += side(c, a) / (4 * h) * stress.col(a) + sides(c, a) / (2 * h) * r.col(a);
+    for (int a = 0; a < 3; ++a) {
+      const Vector3d along = side(c, a) * per_edge * stress.col(a);
+      force += full ? along : Vector3d(along + sides(c, a) * per_face * r.col(a));
+    }
     forces_n[cell.corners[c]] -= cell.rigidity_j * force;
   }
 }

@@ -22,6 +22,13 @@ Matrix positivePart(const Matrix& m) {
   return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
 }
 
+/// Returns whether cells have equal laws, and one material each: of laminates it does not ask.
+bool haveEqualLaws(const LawCell& a, const LawCell& b) {
+  return !a.laminate.exists() && !b.laminate.exists() && a.rigidity_j == b.rigidity_j && a.bulk_j == b.bulk_j &&
+         a.stiffening == b.stiffening && a.fill.first == b.fill.first && a.fill.second == b.fill.second &&
+         a.prestress == b.prestress;
+}
+
 /// Returns d2 (k/2 extension^2) / d w2 of a spring, with its dashpot [N/m]. @param damping  c / dt
 Eigen::Matrix3d springCurvature(const Vector3d& direction, double extension_m, double length_m, double k,
                                 double damping, bool positive) {
@@ -86,14 +93,24 @@ void ReferenceLattice::addWallStiffness(const Field& u_m, const Cell& cell, Curv
 }
 
 void ReferenceLattice::addCells(const Field& u_m, Curvature curvature, Triplets& out) const {
+  using Modes = Eigen::Matrix<double, 21, 21>;
+  // Derivatives are what costs, and where tissue rests, a cell has those of the cell before it.
+  const LawCell* last = nullptr;
+  CellModes last_motion = CellModes::Zero();
+  Modes m = Modes::Zero();
   for (const Cell& cell : cells_) {
     if (!isWholeCell(cell)) continue;
     if (cell.isInWall()) {
       addWallStiffness(u_m, cell, curvature, out);
       continue;
     }
-    Eigen::Matrix<double, 21, 21> m = lawCellCurvature(cell.law, motionOf(u_m, cell));
-    if (curvature == Curvature::kPositive) m = positivePart(m);
+    const CellModes motion = motionOf(u_m, cell);
+    if (!last || motion != last_motion || !haveEqualLaws(*last, cell.law)) {
+      m = lawCellCurvature(cell.law, motion);
+      if (curvature == Curvature::kPositive) m = positivePart(m);
+      last = &cell.law;
+      last_motion = motion;
+    }
     for (size_t a = 0; a < 8; ++a) {
       const Eigen::Matrix<double, 7, 1> of_a = motionOfCorner(a, cell.spacing_m);
       for (size_t b = 0; b < 8; ++b) {

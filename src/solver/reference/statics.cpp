@@ -118,9 +118,10 @@ Field solveLinear(const ReferenceSolver& solver, const std::vector<PrescribedDof
   const FreeDofs free(solver, freeDofs(solver, prescribed));
   Field u = rest;
   for (const PrescribedDof& p : prescribed) u[p.slot][p.axis] = p.u_m;
-  Field load = linearReactions(solver, u);
+  const Eigen::SparseMatrix<double> stiffness = solver.stiffnessMatrix(rest);
+  Field load = fieldOf(solver, stiffness * flattened(solver, u));
   for (uint32_t slot : solver.active) load[slot] = (external_n.empty() ? rest[slot] : external_n[slot]) - load[slot];
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt(free.of(solver.stiffnessMatrix(rest)));
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt(free.of(stiffness));
   if (ldlt.info() != Eigen::Success || ldlt.vectorD().minCoeff() < kSingular * ldlt.vectorD().maxCoeff()) {
     throw ConvergenceError("the prescribed displacements do not prevent a rigid motion: no linear equilibrium");
   }

@@ -13,7 +13,7 @@ import unittest
 
 import roslib.packages
 import rostest
-from force_session import END_LIMIT_S, FELT_S, FORCED_END_S, SCENE, ForceCase, Session
+from force_session import END_LIMIT_S, FELT_S, FORCED_END_S, SCENE, TISSUE, ForceCase, Session
 
 
 SILENT_MASTER_S = 6.0   # master_watch.cpp waits 5 s
@@ -83,7 +83,7 @@ class ForceEndingsTest(ForceCase):
     def test_second_node_of_the_same_name(self):
         with Session() as session:
             session.wait_touch()
-            second = session.node("simulator", SCENE)
+            second = session.node("simulator", SCENE, TISSUE)
             session.simulator.stdout.read()
             session.simulator.wait(END_LIMIT_S)
             felt = session.felt(0.2)

@@ -19,10 +19,10 @@ END_LIMIT_S = 30
 ZERO_LIMIT_S = 0.05     # from the ending to the first zero, measured from outside
 FELT_S = 0.4            # time after an ending in which late forces are recorded: eight times ZERO_LIMIT_S
 FORCED_END_S = 1.2      # a second, and the time for this process to notice
-SCENE = ("_overrides:=bodies[0].spacing_m=0.008;bodies[0].material.young_modulus_pa=20000;"
-         "environment.gravity_m_per_s2=[0,0,0];styluses[0].probe.radius_m=0.012")
 TIMEOUT = "_timeout_s:=0.03"  # option of watchdogs
-HERE = os.path.dirname(os.path.abspath(__file__))
+SUPPORT = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "support")
+SCENE = "_scene:=" + os.path.join(SUPPORT, "front_wall.yaml")
+TISSUE = "_overrides:=bodies[0].position_m=[0,-0.018,-0.02]"  # where the hand feels 0.3 N
 serial = itertools.count()
 
 
@@ -48,9 +48,9 @@ class Session:
             self.master = self.start(["rosmaster", "--core", "-p", str(port)])
         self.space = "/force_endings_%d" % next(serial)
         self.environment["ROS_NAMESPACE"] = self.space
-        self.simulator = self.node("simulator", SCENE + overrides, *options)
+        self.simulator = self.node("simulator", SCENE, TISSUE + overrides, *options)
         # its interpreter starts while the tissue is created; it waits outside until then
-        self.hand = self.start([sys.executable, os.path.join(os.path.dirname(HERE), "support", "hand.py"), wrenches] + ([kind] if kind else []),
+        self.hand = self.start([sys.executable, os.path.join(SUPPORT, "hand.py"), wrenches] + ([kind] if kind else []),
                                stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         wait_ready(self.simulator)
         self.hand.stdin.write("press\n")

@@ -20,7 +20,7 @@ from viscera.srv import Step
 LIMIT_S = 20
 RATE_HZ = 100
 ANGLE = 1e-6                       # rad: rounding of a float
-OUTSIDE, IN_WALL = -0.1, -0.055    # y of the tip, m: in front of the heart's front wall, and in it
+OUTSIDE, IN_WALL = -0.1, -0.055    # y of the tip, m: in front of the block's front wall, and in it
 
 
 class JawsTest(unittest.TestCase):

@@ -28,7 +28,7 @@ class RvizMouseTest(unittest.TestCase):
     def setUpClass(cls):
         cls.screen = Screen()
         cls.sender = None
-        cls.rviz = rviz(CONFIG, lambda: cls.screen.find(MOUSE_SIGN) and cls.sent_ball())
+        cls.rviz = rviz(CONFIG, lambda: cls.screen.find(MOUSE_SIGN) and cls.sent_ball(), 30)  # a pose with each
         cls.pose = Latest("left/measured_cp", PoseStamped)
         cls.pressed = {1: [], 2: []}
         cls.buttons = [Latest("left/button%d" % b, Joy, lambda joy, b=b: cls.pressed[b].append(joy.buttons[0]),

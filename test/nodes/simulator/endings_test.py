@@ -22,7 +22,7 @@ from viscera.msg import SurfaceVertices
 REFUSAL_LIMIT_S = 20
 END_LIMIT_S = 30
 serial = itertools.count()
-COARSE = "_overrides:=bodies[0].spacing_m=0.008"
+SCENE = "_scene:=" + os.path.join(roslib.packages.get_pkg_dir("viscera"), "test/nodes/support/front_wall.yaml")
 
 
 NO_EGL = {"__EGL_VENDOR_LIBRARY_FILENAMES": "/dev/null"}
@@ -85,7 +85,7 @@ class EndingsTest(unittest.TestCase):
         self.assertRefused("stylus_replay", ["_strokes:=nowhere"], "~strokes", "nowhere")
 
     def test_interrupt_ends_the_simulator_well(self):
-        process = start("simulator", [COARSE])
+        process = start("simulator", [SCENE])
         wait_ready(process)
         process.send_signal(signal.SIGINT)
         output = process.communicate(timeout=END_LIMIT_S)[0]
@@ -93,7 +93,7 @@ class EndingsTest(unittest.TestCase):
 
     def test_without_egl_the_processor_steps_and_there_are_no_pictures(self):
         rospy.init_node("endings_test", disable_signals=True)
-        process = start("simulator", [COARSE], more=NO_EGL)
+        process = start("simulator", [SCENE], more=NO_EGL)
         try:
             said = wait_ready(process)
             surface, picture = Latest("surface", SurfaceVertices), Latest("camera/image_raw", Image)
@@ -113,13 +113,13 @@ class EndingsTest(unittest.TestCase):
         self.assertEqual(len([line for line in warnings if "no EGL device" in line]), 1, output)
 
     def test_without_egl_a_scene_that_asks_for_the_gpu_is_refused(self):
-        self.assertRefused("simulator", [COARSE + ";solver.backend=gpu"], "no EGL device", "solver.backend: auto", more=NO_EGL)
+        self.assertRefused("simulator", [SCENE, "_overrides:=solver.backend=gpu"], "no EGL device", "solver.backend: auto", more=NO_EGL)
 
     def test_lost_master_ends_the_simulator_with_an_error(self):
         port = free_port()
         master = subprocess.Popen(["rosmaster", "--core", "-p", str(port)], stdout=subprocess.DEVNULL,
                                   stderr=subprocess.DEVNULL)
-        process = start("simulator", [COARSE], "http://localhost:%d" % port)
+        process = start("simulator", [SCENE], "http://localhost:%d" % port)
         try:
             wait_ready(process)
             view = rosgraph.Master("/endings_test", "http://localhost:%d" % port)

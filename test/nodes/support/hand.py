@@ -2,7 +2,7 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
 """hand.py [WRENCHES [KIND]]: a stylus with a device, as a separate process. After a line on its standard input it
-presses the probe of `left` into the heart, tries again if there was no force, holds it there, and records every wrench
+presses the probe of `left` into the tissue, tries again if there was no force, holds it there, and records every wrench
 that it receives.
 
 It prints `touching` once it has a lasting force, and `let go` at the first zero after that. When its input ends, it
@@ -19,7 +19,7 @@ import drivers
 import rospy
 from geometry_msgs.msg import PoseStamped, WrenchStamped
 
-OUTSIDE_Y_M, DEEP_Y_M = -0.1, -0.05   # in front of the heart's front wall, and behind it
+OUTSIDE_Y_M, DEEP_Y_M = -0.1, -0.05   # in front of the tissue's front wall, and behind it
 APPROACH_S = 0.3
 LASTS_S = 0.3       # without a break; there may be some while the simulator makes its first images
 RATE_HZ = 200
