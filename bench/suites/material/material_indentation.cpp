@@ -19,7 +19,7 @@ constexpr double kReactionLimit = 1e-3;  ///< not in issue 3
 /// four nodes, which all sink with it, this much stiffer.
 constexpr double kThinLeast = 0.6, kThinMost = 5;
 /// Nodes at several springs under a thin tip keep a small part of their approach and are moved back in every substep.
-/// Small waves travel down to the plate, so its force is a mean over ticks (docs/material.md, Thin probes).
+/// Small waves travel down to the plate, so its force is a mean over ticks (docs/verification.md, Indentation).
 constexpr int kThinTicks = 100;
 
 struct Indentation {

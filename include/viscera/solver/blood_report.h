@@ -8,7 +8,7 @@
 
 namespace VISCERA_PUBLIC viscera {
 
-/// Blood from cut vessels since the last reset (docs/lessons/bleeding.md). bled_ml is the sum of on_tissue_ml and
+/// Blood from cut vessels since the last reset (docs/lessons/instruments.md). bled_ml is the sum of on_tissue_ml and
 /// dripped_ml.
 struct BloodReport {
   double bled_ml = 0;

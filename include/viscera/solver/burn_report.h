@@ -8,7 +8,7 @@
 
 namespace VISCERA_PUBLIC viscera {
 
-/// Effects of tools of mode cautery since the last reset (docs/lessons/cautery.md). given_j is the sum of the four
+/// Effects of tools of mode cautery since the last reset (docs/lessons/instruments.md). given_j is the sum of the four
 /// members below it.
 struct BurnReport {
   double given_j = 0;        ///< heat from tips [J]

@@ -25,7 +25,7 @@ struct Between {
 using FeelTissue = std::function<std::optional<Between>(size_t stylus, const StylusMotion& motion, double mouth_rad)>;
 
 /// Jaws of one stylus, tick by tick: how far the user or a button has closed them, what keeps them apart, and how far
-/// the held tissue has slid (docs/lessons/clips.md).
+/// the held tissue has slid (docs/lessons/instruments.md).
 class VISCERA_PUBLIC Gripper {
  public:
   /// Advances by a tick. Sets the openings of the motion and, for jaws that grip, its hold_begins and hold_ended. In a

@@ -63,7 +63,7 @@ template <class V>
 void visitFields(V& v, BleedingConfig& c) {
   v.number("flow_ml_per_min", c.flow_ml_per_min, {0, 1e4}, "ml/min",
            "blood flow from a stump that is cut clean through; a smaller wound bleeds by its share of the cross "
-           "section (docs/lessons/bleeding.md); 0: no bleeding, and no cost");
+           "section (docs/lessons/instruments.md); 0: no bleeding, and no cost");
   v.number("calibre_m", c.calibre_m, {0, 1}, "m",
            "diameter of a vessel with that flow; 0: from the volume of the part over the distance between its ends, "
            "which is wrong for a part that bends or branches");

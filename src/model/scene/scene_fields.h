@@ -124,7 +124,7 @@ void visitFields(V& v, StylusConfig& c) {
   v.group("grasper", c.grasper, "grasper: two jaws that hold the nodes around the tip, up to their friction");
   v.group("clip", c.clip, "clip: two jaws that set a clip on the tissue between them once they have closed");
   v.group("cautery", c.cautery,
-          "cautery: a probe with a tip that burns the tissue that it touches (docs/lessons/cautery.md)");
+          "cautery: a probe with a tip that burns the tissue that it touches (docs/lessons/instruments.md)");
   v.number("shaft_length_m", c.shaft_length_m, {0.001, 1}, "m",
            "length of the drawn shaft, from the tip back; its thickness is a twentieth of that, and tissue does not "
            "touch it");

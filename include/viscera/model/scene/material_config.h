@@ -29,7 +29,7 @@ struct TearConfig {
   double toughness_j_per_m2 = 0;  ///< work per area [J/m2]; 0: springs stretch without limit
 };
 
-/// Bleeding of tissue that is cut, for example of a vessel (docs/lessons/bleeding.md).
+/// Bleeding of tissue that is cut, for example of a vessel (docs/lessons/instruments.md).
 struct BleedingConfig {
   double flow_ml_per_min = 0;  ///< flow out of a stump [ml/min]; 0: none
   double calibre_m = 0;        ///< calibre of the vessel that is cut through [m]; 0: from its volume over its length

@@ -69,7 +69,7 @@ struct ClipConfig {
   int magazine = 20;            ///< number of clips
 };
 
-/// Heated tip, which pushes like a probe while it burns (docs/lessons/cautery.md).
+/// Heated tip, which pushes like a probe while it burns (docs/lessons/instruments.md).
 struct CauteryConfig {
   double radius_m = 0.003;  ///< radius of the tip [m]
   double power_w = 30;      ///< power into the tissue that it touches [W]

@@ -18,7 +18,7 @@
 namespace viscera {
 
 /// Blood that flows out of cut vessels, down the tissue and off it, until clips or burns stop it
-/// (docs/lessons/bleeding.md). It exerts no forces. Exists only if some part bleeds.
+/// (docs/lessons/instruments.md). It exerts no forces. Exists only if some part bleeds.
 class Bleeding : public TissueProcess {
  public:
   /// @param model  must outlive it   @param gravity_m_per_s2  tissue frame   @param tick_s  length of a tick [s]

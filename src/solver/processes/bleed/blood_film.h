@@ -12,8 +12,8 @@
 
 namespace viscera {
 
-/// Blood on the surface of tissue at rest, as a film that flows down it (docs/lessons/bleeding.md 2). All blood given
-/// is on the tissue or has dripped off.
+/// Blood on the surface of tissue at rest, as a film that flows down it (docs/lessons/instruments.md, The film). All
+/// blood given is on the tissue or has dripped off.
 class BloodFilm {
  public:
   /// @param model, graph  as of Vessels; must outlive it   @param gravity_m_per_s2  tissue frame

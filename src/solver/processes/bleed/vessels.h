@@ -10,7 +10,8 @@
 
 namespace viscera {
 
-/// Parts of bodies that bleed where they are cut, as graphs of their nodes (docs/lessons/bleeding.md 1).
+/// Parts of bodies that bleed where they are cut, as graphs of their nodes (docs/lessons/instruments.md, Which cuts
+/// bleed).
 class Vessels {
  public:
   /// @param model, graph  must outlive them; the graph is for a conductivity of 1, so the conductance of a link is its

@@ -19,7 +19,7 @@ namespace viscera {
 
 struct Scene;
 
-/// Effects of hot tips on tissue (docs/lessons/cautery.md). Tips heat tissue where they touch it. Coagulated tissue
+/// Effects of hot tips on tissue (docs/lessons/instruments.md). Tips heat tissue where they touch it. Coagulated tissue
 /// shrinks and stiffens, by impulses after each substep. Tissue that boils dry separates. Exists only if a stylus has
 /// mode cautery.
 class Burns : public TissueProcess {

@@ -13,7 +13,7 @@
 namespace viscera {
 
 /// Additional forces of coagulated springs compared to fresh ones, as impulses after each substep: implicit Euler of
-/// these forces alone, which is stable with any substep (docs/lessons/cautery.md 4).
+/// these forces alone, which is stable with any substep (docs/lessons/instruments.md, Shrinking and stiffening).
 class BurntSprings {
  public:
   static constexpr double kStiffened = 3;  ///< stiffness over the fresh one when fully coagulated

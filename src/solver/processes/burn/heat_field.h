@@ -12,7 +12,7 @@
 
 namespace viscera {
 
-/// Constants of soft tissue, with their sources in docs/lessons/cautery.md 2.
+/// Constants of soft tissue, with their sources in docs/lessons/instruments.md, Constants of heat.
 struct HeatConstants {
   double body_c = 37;
   double conductivity_w_per_m_k = 0.52;

@@ -27,7 +27,7 @@ struct BurntSpring {
 /// Returns all springs of a model that carry tissue, without those against bending.
 std::vector<BurntSpring> springsOf(const Model& model);
 
-/// Conduction of heat through tissue at rest, by finite volumes around the nodes (docs/lessons/cautery.md 1).
+/// Conduction of heat through tissue at rest, by finite volumes around the nodes (docs/lessons/instruments.md, Heat).
 struct HeatGraph {
   struct Link {
     uint32_t a = 0, b = 0;  ///< slots in the solver's buffers

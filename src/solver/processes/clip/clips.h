@@ -16,7 +16,7 @@
 
 namespace viscera {
 
-/// Clips (docs/lessons/clips.md): each holds two sides of tissue together, node by node, with impulses after each
+/// Clips (docs/lessons/instruments.md): each holds two sides of tissue together, node by node, with impulses after each
 /// substep that conserve linear and angular momentum. Blades that touch one remove it.
 class Clips : public TissueProcess {
  public:
