@@ -3,7 +3,7 @@
 //
 // deferred_lighting.frag - lights a pixel of tissue from the four samples of tissue_g_buffer.frag: once, if all show the same
 // surface, or with SEVERAL each by itself.
-// GRAIN, DETAIL and features of appearance: as in tissue.frag.   Owner: render/deferred_lighting.h
+// GRAIN, DETAIL, MARKS and features of appearance: as in tissue.frag.   Owner: render/deferred_lighting.h
 #include "layout.h"
 #include "layout/seen.h"
 #include "g_buffer_code.glsl"
@@ -16,6 +16,9 @@
 #endif
 #ifdef GRAIN
 #include "grain.glsl"
+#endif
+#ifdef MARKS
+#include "marks.glsl"
 #endif
 
 uniform vec4 lens;       // fx, fy, cx, cy of the image [px]
@@ -78,6 +81,9 @@ vec3 lit(vec2 pixel, float depth, vec3 rest, vec3 rest_x, vec3 rest_y, bool rest
   vec3 slopes = texture(grain_slopes, rest / kFinePeriod_m).xyz * (255.0 / 127.0) - (128.0 / 127.0);
   slopes *= (1.0 - kFilled * film) * reliefOf(alpha) * steepest_grain / kFinePeriod_m;
   n = onRelief(n, dot(slopes, rest_x), dot(slopes, rest_y), position_x, position_y);
+#endif
+#ifdef MARKS
+  addMarks(rest, rest_x, rest_y, alpha, wall, albedo, roughness);
 #endif
   return tissueLight(position_m, n, albedo, roughness, shade, front || alpha < 0.5);
 }

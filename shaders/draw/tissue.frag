@@ -7,6 +7,7 @@
 // body.
 // REST: vertices have their rest position. GRAIN: variation from place to place, layers of walls (grain.glsl). DETAIL:
 // textures (detail.glsl).
+// MARKS: marks on the surface (marks.glsl), with REST.
 // FILM, WALL_GRAIN (grain.glsl), CONTACTS (tissue_light.glsl), LENS_LIGHT (shading.glsl): features of appearance.
 #include "layout.h"
 #include "shading.glsl"
@@ -18,6 +19,10 @@
 #ifdef GRAIN
 #include "grain.glsl"
 in float patches;
+#endif
+#if defined(MARKS) && defined(REST)
+#include "layout/seen.h"
+#include "marks.glsl"
 #endif
 #ifdef DETAIL
 layout(binding = kUnitShownCharts) uniform usamplerBuffer shown_charts;  // of every drawn triangle
@@ -56,6 +61,9 @@ void main() {
   addGrain(grain, film, rest.xyz, color.a, wall, rest.w, albedo, roughness, shade);
   float relief_m = reliefAt(grain, color.a, wall, film);
   n = onRelief(n, dFdx(relief_m), dFdy(relief_m), position_x, position_y);
+#endif
+#if defined(MARKS) && defined(REST)
+  addMarks(rest.xyz, rest_x, rest_y, color.a, wall, albedo, roughness);
 #endif
   image = vec4(tissueLight(position_m, n, albedo, roughness, shade, gl_FrontFacing || color.a < 0.5), 1.0);
 }

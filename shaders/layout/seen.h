@@ -20,6 +20,10 @@ const uint kUnitSights = 27u;        // rg32f [image]: position in the image of 
 const uint kUnitPinhole = 28u;       // sRGB
 const uint kUnitPinholeDepths = 29u; // r32f
 const uint kUnitPinholeLabels = 30u; // r8ui
+// Texture units of shaders/draw/marks.glsl (surface/marks/mark_textures.h):
+const uint kUnitMarkCells = 31u;     // r32ui: MarkGrid::cells
+const uint kUnitMarkSegments = 32u;  // rgba32f: MarkGrid::segments
+const uint kUnitMarkStyles = 33u;    // rgba32f: linear colour, MarkPattern
 
 const uint kNoSeenChart = 0xffffffu;
 const float kDeepestSeen_m = 0.25f;  // largest depth of a wall that is stored [m]

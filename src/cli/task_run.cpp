@@ -12,7 +12,6 @@
 #include "cli/scene_lookup.h"
 #include "math/one_line.h"
 #include "tasks/task_notes.h"
-#include "tasks/task_picture.h"
 #include "tasks/verdict.h"
 #include "viscera/math/error.h"
 #include "viscera/math/state_hash.h"
@@ -43,7 +42,6 @@ void TaskRun::takePicture(const std::string& caption, const std::string& name) {
   outputs.every_image = true;
   outputs.cameras = {true};
   for (ImageFrame& image : session_.show(outputs).images) {
-    if (watch_.task()) drawTask(*watch_.task(), session_.scene().cameras[0], image);
     std::filesystem::create_directories(folder_);
     writePng(folder_ + "/" + name + ".png", image.width, image.height, image.rgb);
     taken_.push_back({caption, folder_ + "/" + name + ".png"});

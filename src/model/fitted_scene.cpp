@@ -122,6 +122,15 @@ void followSutures(const OrganFit& fit, const Scene& made, Keys& keys) {
   }
 }
 
+void followMarks(const OrganFit& fit, const Scene& made, Keys& keys) {
+  for (size_t i = 0; i < made.marks.size(); ++i) {
+    const std::string key = item("marks", i);
+    if (made.marks[i].kind != MarkKind::kLine) keys.set(key + "center_m", fit.moved(made.marks[i].center_m));
+    for (size_t k = 0; k < made.marks[i].path.size(); ++k)
+      keys.set(key + item("path", k) + "position_m", fit.moved(made.marks[i].path[k].position_m));
+  }
+}
+
 void followCameras(const OrganFit& fit, const Scene& made, Keys& keys) {
   for (size_t i = 0; i < made.cameras.size(); ++i) {
     if (!made.cameras[i].frame.empty()) continue;
@@ -216,6 +225,7 @@ FittedScene loadFittedScene(const std::string& path, const Overrides& mesh, cons
   if (is_alone) {
     followObstacles(*fit, *made, keys);
     followSutures(*fit, *made, keys);
+    followMarks(*fit, *made, keys);
     followCameras(*fit, *made, keys);
     followTools(*fit, *made, out.scene.bodies[0], keys);
   }

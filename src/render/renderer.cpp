@@ -42,6 +42,10 @@ void clearImage() {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
+int samplesOf(const CameraConfig& camera) {
+  return camera.supersampling == 0 ? kSamples : camera.supersampling;
+}
+
 /// Draws no overlays.
 struct Nothing {
   template <class View>
@@ -51,26 +55,19 @@ struct Nothing {
 }  // namespace
 
 Renderer::Renderer(const std::vector<CameraConfig>& cameras, const std::vector<StylusConfig>& styluses,
-                   const std::vector<ObstacleConfig>& obstacles, const Model* model)
-    : styluses_(styluses) {
+                   const std::vector<ObstacleConfig>& obstacles, const Model* model, bool marks)
+    : model_(model), styluses_(styluses) {
   for (const CameraConfig& camera : cameras) {
     cameras_.push_back(pinholeOf(camera));
     lenses_.push_back(camera.distortion.any() ? std::make_unique<Lens>(camera) : nullptr);
   }
-  const bool software = gpu::isSoftware();
-  const auto lightsPixels = [&](const CameraConfig& camera) {
-    return camera.supersampling == 0 && software && camera.width_px * camera.height_px <= GBuffer::kMostPixels;
-  };
-  const auto any = [this](auto asks) { return std::any_of(cameras_.begin(), cameras_.end(), asks); };
-  if (any([](const CameraConfig& camera) { return camera.light == CameraLight::kLens; }))
+  if (std::any_of(cameras_.begin(), cameras_.end(),
+                  [](const CameraConfig& camera) { return camera.light == CameraLight::kLens; }))
     light_features_.emplace_back("LENS_LIGHT");
-  std::vector<std::string> features = light_features_;
-  if (any([](const CameraConfig& camera) { return camera.contact_shadows > 0; })) features.emplace_back("CONTACTS");
-  tissue_ = std::make_unique<TissuePainter>(model, !std::all_of(cameras_.begin(), cameras_.end(), lightsPixels),
-                                            std::any_of(cameras_.begin(), cameras_.end(), lightsPixels), features);
+  makeTissue(marks);
   tools_ = std::make_unique<ToolPainter>(styluses, light_features_);
   if (!obstacles.empty()) obstacles_ = std::make_unique<ObstaclePainter>(obstacles, light_features_);
-  for (CameraConfig& camera : cameras_) {
+  for (const CameraConfig& camera : cameras_) {
     camera_poses_.push_back(opticalPose(camera));
     geometries_.emplace_back();
     targets_.emplace_back();
@@ -78,10 +75,30 @@ Renderer::Renderer(const std::vector<CameraConfig>& cameras, const std::vector<S
     if (lightsPixels(camera) && tissue_->lightsPixels()) {
       lit_targets_.back() = std::make_unique<GBuffer>(camera.width_px, camera.height_px);
     }
-    if (camera.supersampling == 0) camera.supersampling = kSamples;
-    if (!lit_targets_.back())
-      targets_.back() = std::make_unique<RenderTarget>(camera.width_px, camera.height_px, camera.supersampling);
+    if (lit_targets_.back()) continue;
+    targets_.back() = std::make_unique<RenderTarget>(camera.width_px, camera.height_px, samplesOf(camera));
   }
+}
+
+bool Renderer::lightsPixels(const CameraConfig& camera) const {
+  return camera.supersampling == 0 && gpu::isSoftware() && camera.width_px * camera.height_px <= GBuffer::kMostPixels;
+}
+
+void Renderer::makeTissue(bool marks) {
+  has_marks_ = marks;
+  std::vector<std::string> features = light_features_;
+  if (std::any_of(cameras_.begin(), cameras_.end(),
+                  [](const CameraConfig& camera) { return camera.contact_shadows > 0; }))
+    features.emplace_back("CONTACTS");
+  if (marks) features.emplace_back("MARKS");
+  const auto by_pixels = [this](const CameraConfig& camera) { return lightsPixels(camera); };
+  tissue_ = std::make_unique<TissuePainter>(model_, !std::all_of(cameras_.begin(), cameras_.end(), by_pixels),
+                                            std::any_of(cameras_.begin(), cameras_.end(), by_pixels), features);
+}
+
+void Renderer::showMarks(const std::shared_ptr<const ShownMarks>& marks) {
+  if (marks && !has_marks_ && model_) makeTissue(true);
+  if (has_marks_) tissue_->showMarks(marks);
 }
 
 Renderer::~Renderer() = default;
@@ -113,7 +130,7 @@ void Renderer::draw(size_t camera, const Model& model, const OverlayStyle& style
     if (before_tools) {
       if (strain) overlays_->drawStrain(style, mesh, view.optical_from_tissue, view.clip_from_optical);
     } else {
-      overlays_->draw(style, cameras_[camera].supersampling, view.optical_from_tissue, view.clip_from_optical);
+      overlays_->draw(style, samplesOf(cameras_[camera]), view.optical_from_tissue, view.clip_from_optical);
       if (strain && !lens) overlays_->drawLegend(style.strain_range);
     }
   });

@@ -19,6 +19,7 @@
 #include "viscera/model/scene/stylus_config.h"
 #include "viscera/render/camera.h"
 #include "viscera/solver/visible_tube.h"
+#include "viscera/surface/skin_marks.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {
@@ -52,9 +53,10 @@ class Renderer {
   /// A software rasteriser then lights tissue once per pixel that shows one surface, and four times at edges
   /// (DeferredLighting), not in every fragment of small triangles.
   /// @throws SceneError  a camera without a line of sight;  GpuError  a framebuffer that the driver refuses
-  /// @param model  of the drawn surface, for its textures; null: none
+  /// @param model  of the drawn surface, for its textures, must outlive this; null: none
+  /// @param marks  whether there will be marks; else showMarks() makes the shaders for them
   Renderer(const std::vector<CameraConfig>& cameras, const std::vector<StylusConfig>& styluses,
-           const std::vector<ObstacleConfig>& obstacles = {}, const Model* model = nullptr);
+           const std::vector<ObstacleConfig>& obstacles = {}, const Model* model = nullptr, bool marks = false);
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
@@ -71,6 +73,8 @@ class Renderer {
   void placeObstacles(const std::vector<Pose>& poses) { obstacle_poses_ = poses; }
   /// Sets the colours of surfaces for later images, one per vertex; 0: their own.
   void showColors(uint32_t colors) { shown_colors_ = colors; }
+  /// Sets the marks on tissue for later images, but not for depths and labels; null: none. Needs a current context.
+  void showMarks(const std::shared_ptr<const ShownMarks>& marks);
   /// Adds sutures to draw in later images, once they are placed. Needs a current context.
   void addTubes(const std::vector<TubeStyle>& sutures);
   void placeTubes(const VisibleTubes& shown) { visible_tubes_ = shown; }
@@ -99,6 +103,8 @@ class Renderer {
   };
   MeshView meshOf(const Surface& surface, const IndexRuns* runs) const;
   View viewOf(size_t camera) const;
+  void makeTissue(bool marks);
+  bool lightsPixels(const CameraConfig& camera) const;
   void lightFor(const CameraConfig& camera);
   double pixelOf(size_t camera) const;
   template <class DrawOver>
@@ -112,6 +118,8 @@ class Renderer {
   void drawPixels(const View& view, const MeshView& mesh, const ToolMotions& motions, bool tissue, DrawOver drawOver);
 
   std::vector<CameraConfig> cameras_;          ///< pinholes
+  const Model* model_;                         ///< null: none
+  bool has_marks_ = false;                     ///< shaders of tissue_ draw marks
   std::vector<std::unique_ptr<Lens>> lenses_;  ///< [cameras] distortion of their images; null: none
   std::vector<StylusConfig> styluses_;
   std::vector<Pose> camera_poses_;                           ///< [cameras] of the optical frames, tissue frame

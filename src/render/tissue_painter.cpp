@@ -67,7 +67,8 @@ void setShadows(const gpu::Program& program, const ToolShadows& shadows) {
 }  // namespace
 
 TissuePainter::TissuePainter(const Model* model, bool samples, bool pixels, std::vector<std::string> features)
-    : program_(gpu::Program::graphics("mesh.vert", "tissue.frag", features)) {
+    : program_(gpu::Program::graphics("mesh.vert", "tissue.frag", features)),
+      has_marks_(std::find(features.begin(), features.end(), "MARKS") != features.end()) {
   describe(inputs_);
   if (model == nullptr) return;
   const auto is_tissue = [](const Body& body) { return !body.skin.two_sided; };
@@ -75,7 +76,7 @@ TissuePainter::TissuePainter(const Model* model, bool samples, bool pixels, std:
     grain_ = std::make_unique<GrainTexture>(pixels);
   detail_ = std::make_unique<DetailTextures>(*model);
   if (!detail_->any()) detail_.reset();
-  if (!grain_ && !detail_) return;
+  if (!grain_ && !detail_ && !has_marks_) return;
   describe(tissue_inputs_);
   tissue_inputs_.describe(kRestInput, kRestInput, 4, GL_FLOAT, GL_FALSE, 0);
   if (grain_) features.emplace_back("GRAIN");
@@ -86,7 +87,7 @@ TissuePainter::TissuePainter(const Model* model, bool samples, bool pixels, std:
   if (any(&Body::specular_wetness)) features.emplace_back("FILM");
   if (any(&Body::cut_wall_texture)) features.emplace_back("WALL_GRAIN");
   if (detail_) features.emplace_back("DETAIL");
-  if (pixels) {
+  if (pixels && (grain_ || detail_)) {
     light_ = std::make_unique<DeferredLighting>(features);
     for (const gpu::Program* program : light_->programs()) {
       if (!grain_) continue;
@@ -95,13 +96,13 @@ TissuePainter::TissuePainter(const Model* model, bool samples, bool pixels, std:
     }
   }
   features.emplace_back("REST");
-  if (samples) {
+  if (samples || !light_) {
     tissue_program_ = gpu::Program::graphics("mesh.vert", "tissue.frag", features);
     depth_program_ = gpu::Program::graphics("mesh.vert", "depth.frag");
     if (grain_) setFinishes(tissue_program_, *model);
   }
   features.emplace_back("SRGB");
-  if (pixels) seen_program_ = gpu::Program::graphics("mesh.vert", "tissue_g_buffer.frag", features);
+  if (light_) seen_program_ = gpu::Program::graphics("mesh.vert", "tissue_g_buffer.frag", features);
 }
 
 void TissuePainter::lightFor(const CameraConfig& camera) {
@@ -117,6 +118,7 @@ void TissuePainter::bindAtRest(const MeshView& mesh) const {
   glVertexArrayVertexBuffer(tissue_inputs_.id(), kRestInput, mesh.rests, 0, 4 * sizeof(float));
   if (grain_) grain_->bind();
   if (detail_) detail_->bind();
+  if (marks_.any()) marks_.bind();
   glBindVertexArray(tissue_inputs_.id());
 }
 
@@ -138,6 +140,7 @@ void TissuePainter::draw(const MeshView& mesh, const ToolShadows& shadows, const
     drawParts(mesh, tissue_inputs_, [](const IndexRun&) {});
     glDepthFunc(GL_LEQUAL);
     useWith(tissue_program_, shadows, optical_from_tissue, clip_from_optical);
+    if (has_marks_) marks_.set(tissue_program_);
     drawAtRest(tissue_program_, mesh);
     glDepthFunc(GL_LESS);
   } else {
@@ -163,7 +166,10 @@ void TissuePainter::drawPixels(const GBuffer& target, const CameraConfig& camera
     drawAtRest(seen_program_, mesh);
   }
   if (pause) pause();
-  for (const gpu::Program* program : light_->programs()) setShadows(*program, shadows);
+  for (const gpu::Program* program : light_->programs()) {
+    setShadows(*program, shadows);
+    if (has_marks_) marks_.set(*program);
+  }
   if (grain_) grain_->bindSlopes();
   light_->light(target, camera, optical_from_tissue, background, pause);
 }

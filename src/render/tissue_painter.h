@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "render/renderer.h"
 #include "render/tool_shadows.h"
 #include "render/vertex_array.h"
+#include "surface/marks/mark_textures.h"
 
 namespace viscera {
 
@@ -21,10 +23,12 @@ namespace viscera {
 class TissuePainter {
  public:
   /// @param model  of the drawn textures; null: none   @param samples, pixels  makes programs for lighting per sample,
-  /// or per pixel   @param features  LENS_LIGHT, CONTACTS
+  /// or per pixel   @param features  LENS_LIGHT, CONTACTS, MARKS
   /// @throws GpuError  file, line and driver log of a shader that does not compile
   TissuePainter(const Model* model, bool samples, bool pixels, std::vector<std::string> features);
   void lightFor(const CameraConfig& camera);  ///< for drawing after this call
+  /// Sets the marks for drawing after this call, which needs feature MARKS; null: none.
+  void showMarks(const std::shared_ptr<const ShownMarks>& marks) { marks_.show(marks); }
   /// Draws into the bound framebuffer; depth test, front face and blending are the caller's.
   void draw(const MeshView& mesh, const ToolShadows& shadows, const Pose& optical_from_tissue,
             const Eigen::Matrix4f& clip_from_optical);
@@ -54,6 +58,8 @@ class TissuePainter {
   gpu::Program seen_program_;
   std::unique_ptr<DeferredLighting> light_;  ///< null: not requested, or all is cloth
   VertexArray inputs_, tissue_inputs_;
+  bool has_marks_ = false;  ///< programs have feature MARKS
+  MarkTextures marks_;
 };
 
 }  // namespace viscera

@@ -65,7 +65,7 @@ bool isSame(const Pose& a, const Pose& b) {
 InlineView::InlineView(const Model& model, const Scene& scene)
     : model_(model),
       surface_(model),
-      renderer_(eyesOf(scene.cameras), scene.styluses, scene.obstacles, &model),
+      renderer_(eyesOf(scene.cameras), scene.styluses, scene.obstacles, &model, !scene.marks.empty()),
       surface_ring_(makeRing(surface_)),
       strain_range_(scene.cameras.empty() ? CameraConfig().strain_range : scene.cameras.front().strain_range),
       reads_late_(gpu::isSoftware()) {
@@ -124,6 +124,7 @@ void InlineView::capture(const StateView& state, const RenderRequest& request, P
     all = all || (eye.draws && overlaysOf(eye.camera, request).any()) || !eye.skin.asks(displacements.has_value());
   }
   surface_.paint(request.processes.paints);
+  renderer_.showMarks(request.marks);
   if (any) follow(state, all, displacements);
   if (surface) captureSurface(state, request);
   const auto last =
@@ -186,7 +187,7 @@ bool InlineView::isRepeat(const Eye& eye, const std::optional<Drawn>& drawn, con
          looksTheSame(request.motions, drawn->motions) && isSame(eye.pose, drawn->pose) &&
          std::equal(request.obstacles.begin(), request.obstacles.end(), drawn->obstacles.begin(),
                     drawn->obstacles.end(), isSame) &&
-         request.processes == drawn->processes && overlays == drawn->overlays &&
+         request.processes == drawn->processes && request.marks == drawn->marks && overlays == drawn->overlays &&
          (!overlays.any() || request.arrows == drawn->arrows);
 }
 
@@ -256,7 +257,7 @@ void InlineView::captureGeometry(size_t e, const StateView& state, const RenderR
     if (state.moved_revision) {
       eye.measured =
           Drawn{state.moved_revision, state.cut_revision, request.motions, request.obstacles, eye.pose, Overlays{}, {},
-                request.processes};
+                request.processes,    request.marks};
     }
   } else {
     ++counters_.repeats;
@@ -294,7 +295,7 @@ void InlineView::draw(size_t e, const StateView& state, const RenderRequest& req
   eye.drawn.reset();
   if (state.moved_revision) {
     eye.drawn = Drawn{state.moved_revision, state.cut_revision, request.motions, request.obstacles, eye.pose, overlays,
-                      request.arrows,       request.processes};
+                      request.arrows,       request.processes,  request.marks};
   }
 }
 

@@ -15,6 +15,7 @@
 #include "solver/contact/environment.h"
 #include "solver/make_solver.h"
 #include "solver/processes/process.h"
+#include "surface/marks/mark_board.h"
 #include "viscera/calibration/auto_spacing.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
@@ -72,6 +73,14 @@ Session::Session(const Scene& scene, gpu::Context* context, const Progress& prog
   for (const CameraConfig& camera : scene_.cameras) {
     request_.overlays.push_back(camera.overlays);
     request_.cameras.push_back(opticalPose(camera));
+  }
+  mark_board_ = std::make_unique<MarkBoard>(*model_);
+  showMarks({});
+  for (size_t i = 0; i < scene_.marks.size(); ++i) {
+    const std::string fault = mark_board_->faultOf(i);
+    if (!fault.empty())
+      throw SceneError((scene_.file.empty() ? scene_.name : scene_.file) + ": marks[" + std::to_string(i) +
+                       "]: " + fault);
   }
   for (const StylusConfig& stylus : scene_.styluses) limiters_.emplace_back(ForceLimits::of(stylus));
   obstacle_forces_.resize(scene_.obstacles.size());
@@ -193,6 +202,12 @@ void Session::setOverlays(size_t camera, const Overlays& overlays) {
   for (SessionLog* log : logs_) log->overlaysSet(camera, overlays);
 }
 
+void Session::showMarks(const std::vector<MarkConfig>& marks) {
+  std::vector<MarkConfig> all = scene_.marks;
+  all.insert(all.end(), marks.begin(), marks.end());
+  request_.marks = mark_board_->show(all);
+}
+
 void Session::setObstacleFrame(size_t obstacle, const Pose& pose) {
   obstacles_.setFrame(obstacle, pose);
   for (SessionLog* log : logs_) log->obstacleFrameSet(obstacle, pose);
@@ -278,6 +293,7 @@ void Session::collect(Frame& frame, bool wait) {
   std::copy_if(shown.begin(), shown.end(), std::back_inserter(frame.sutures),
                [](const VisibleTube& one) { return one.part != TubeKind::kNeedle; });
   frame.needles = needleStates(*this);
+  frame.marks = request_.marks;
   collectStats(frame, wait);
   view_->collect(frame, wait);
   if (frame.surface) frame.surface->pose_received = posesOf(frame.surface->tick).newest();

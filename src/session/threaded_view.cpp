@@ -123,6 +123,7 @@ void ThreadedView::capture(Solver& solver, const RenderRequest& request, Picture
   request_.processes = request.processes;
   request_.overlays = request.overlays;
   request_.arrows = request.arrows;
+  request_.marks = request.marks;
   {
     Lock lock(mutex_);
     order_ = Order::kShow;

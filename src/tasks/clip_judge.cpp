@@ -51,8 +51,34 @@ class ClipJudge : public TaskJudge {
     return "set clips: " + std::to_string(std::count(at_.begin(), at_.end(), true)) + " of " +
            std::to_string(at_.size()) + " are in place";
   }
+  /// Returns a ring at each clip, then one where the tissue is divided.
+  std::vector<MarkConfig> marks() const override {
+    const Vector3d offset_m = goal_.clips.back().position_m - goal_.clips.front().position_m;
+    const double width_m = kRingWidth * goal_.radius_m;
+    const auto ring = [&](const Vector3d& at_m) {
+      return offset_m.isZero() ? targetMark(at_m, offset_m, goal_.radius_m)
+                               : ringMark(at_m, offset_m, kRingReach * goal_.radius_m, width_m);
+    };
+    std::vector<MarkConfig> out;
+    for (const TaskPosition& clip : goal_.clips) out.push_back(ring(clip.position_m));
+    const size_t half = goal_.clips.size() / 2;
+    out.push_back(ring((goal_.clips[half - 1].position_m + goal_.clips[half].position_m) / 2));
+    return out;
+  }
+  std::vector<MarkState> markStates() const override {
+    const bool wrong = apart_ && !clipped_first_;
+    std::vector<MarkState> out;
+    for (const bool at : at_) out.push_back(at ? MarkState::kDone : wrong ? MarkState::kWrong : MarkState::kNext);
+    out.push_back(wrong          ? MarkState::kWrong
+                  : apart_       ? MarkState::kDone
+                  : allClipped() ? MarkState::kNext
+                                 : MarkState::kLater);
+    return out;
+  }
 
  private:
+  static constexpr double kRingWidth = 0.2;  ///< over the distance within which a clip counts
+  static constexpr double kRingReach = 4;    ///< farthest surface of the tissue, over the same
   bool allClipped() const {
     return std::all_of(at_.begin(), at_.end(), [](bool at) { return at; });
   }

@@ -108,6 +108,8 @@ class CloseJudge : public TaskJudge {
     return "the wound gapes by " + fixedText(kMmPerM * gap_m_.value_or(0), 1) +
            " mm: " + fixedText(kMmPerM * goal_.gap_m, 1) + " at most";
   }
+  std::vector<MarkConfig> marks() const override { return cut_->marks(); }
+  std::vector<MarkState> markStates() const override { return cut_->markStates(); }
 
  private:
   bool isClosed() const { return gap_m_ && *gap_m_ <= goal_.gap_m; }

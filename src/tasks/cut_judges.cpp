@@ -25,7 +25,8 @@ class CoveredLine {
   CoveredLine(double length_m, double spacing_m, double corridor_m)
       : corridor_m_(corridor_m),
         length_m_(length_m),
-        done_(static_cast<size_t>(std::max(1.0, std::floor(kPositionsPerSpacing * length_m / spacing_m)))) {}
+        done_(static_cast<size_t>(std::max(1.0, std::floor(kPositionsPerSpacing * length_m / spacing_m)))),
+        strayed_(done_.size()) {}
 
   /// @param at_m, off_m  distance of each cut point along the line, and from it
   void add(const std::vector<std::pair<double, double>>& at_m_off_m, double travel_m, TaskTally& tally) {
@@ -34,7 +35,7 @@ class CoveredLine {
       tally.deviation_mm = std::max(tally.deviation_mm, kMillimetres * off_m);
       outside += off_m > corridor_m_;
       const double position = std::clamp(at_m / length_m_, 0.0, 1.0) * static_cast<double>(done_.size());
-      if (off_m <= corridor_m_) done_[std::min(done_.size() - 1, static_cast<size_t>(position))] = true;
+      (off_m <= corridor_m_ ? done_ : strayed_)[std::min(done_.size() - 1, static_cast<size_t>(position))] = true;
     }
     if (!at_m_off_m.empty())
       tally.off_path_mm +=
@@ -43,10 +44,18 @@ class CoveredLine {
   double share() const {
     return static_cast<double>(std::count(done_.begin(), done_.end(), true)) / static_cast<double>(done_.size());
   }
+  size_t positions() const { return done_.size(); }
+  /// Returns the state of each place; one next to which something was cut outside the corridor stays wrong.
+  std::vector<MarkState> states() const {
+    std::vector<MarkState> out;
+    for (size_t i = 0; i < done_.size(); ++i)
+      out.push_back(strayed_[i] ? MarkState::kWrong : done_[i] ? MarkState::kDone : MarkState::kNext);
+    return out;
+  }
 
  private:
   double corridor_m_, length_m_;
-  std::vector<bool> done_;
+  std::vector<bool> done_, strayed_;
 };
 
 Vector3d across(const Vector3d& direction, const Vector3d& normal) {
@@ -58,6 +67,12 @@ double lengthOf(const LineGoal& line) {
   for (size_t i = 1; i < line.path.size(); ++i)
     out += across(line.path[i].position_m - line.path[i - 1].position_m, line.normal.normalized()).norm();
   return out;
+}
+
+/// Returns the width of the mark along which to cut.
+double lineWidth_m(double corridor_m) {
+  constexpr double kOfCorridor = 0.4, kWidest_m = 0.0008;
+  return std::min(kOfCorridor * corridor_m, kWidest_m);
 }
 
 class LineJudge : public TaskJudge {
@@ -73,6 +88,10 @@ class LineJudge : public TaskJudge {
   double progress() const override { return std::min(1.0, covered_.share() / line_.share); }
   bool reached() const override { return covered_.share() >= line_.share; }
   std::string step() const override { return "cut along the line"; }
+  std::vector<MarkConfig> marks() const override {
+    return lineInPieces(shapesOfLine(line_).lines_m[0], normal_, covered_.positions(), lineWidth_m(line_.corridor_m));
+  }
+  std::vector<MarkState> markStates() const override { return covered_.states(); }
 
  private:
   std::pair<double, double> nearest(const Vector3d& point) const {
@@ -123,8 +142,20 @@ class DiscJudge : public TaskJudge {
   std::string step() const override {
     return covered_.share() < 1 ? "cut along the circle" : "free the disc where it still holds";
   }
+  std::vector<MarkConfig> marks() const override {
+    std::vector<Vector3d> circle;  // from the place where judge() begins to count
+    const size_t corners = kCornersOfPosition * covered_.positions();
+    for (size_t i = 0; i <= corners; ++i) {
+      const double angle = kTurn * static_cast<double>(i) / static_cast<double>(corners);
+      circle.emplace_back(disc_.center_m +
+                          disc_.radius_m * (std::cos(angle) * side_ + std::sin(angle) * normal_.cross(side_)));
+    }
+    return lineInPieces(circle, normal_, covered_.positions(), lineWidth_m(disc_.corridor_m));
+  }
+  std::vector<MarkState> markStates() const override { return covered_.states(); }
 
  private:
+  static constexpr size_t kCornersOfPosition = 4;
   static constexpr double kNearlyAll = 0.99;  // the whole circle is cut, but something still holds the disc
   const DiscGoal disc_;
   const Vector3d normal_, side_;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tasks/task_marks.h"
 #include "tasks/task_measures.h"
 #include "viscera/layout/tick_stats.h"
 #include "viscera/math/types.h"
@@ -65,7 +66,9 @@ class TaskJudge {
   virtual double gapOf(const HostState&) const { return 0; }
   virtual double progress() const = 0;  ///< 0..1
   virtual bool reached() const = 0;
-  virtual std::string step() const = 0;  ///< what the trainee has to do now
+  virtual std::string step() const = 0;                   ///< what the trainee has to do now
+  virtual std::vector<MarkConfig> marks() const = 0;      ///< marks on the tissue, always the same
+  virtual std::vector<MarkState> markStates() const = 0;  ///< [marks] now
 };
 
 }  // namespace viscera

@@ -29,6 +29,19 @@ TaskWatch::TaskWatch(Session& session, std::function<void(TaskResult&&)> ended)
   session.addLog(*this);
 }
 
+TaskWatch::~TaskWatch() {
+  session_.removeLog(*this);
+  if (task_) session_.showMarks({});
+}
+
+/// Shows the marks in their present states.
+void TaskWatch::showMarks() {
+  std::vector<MarkState> states = judge_->markStates();
+  if (states == mark_states_) return;
+  session_.showMarks(styledMarks(judge_->marks(), states));
+  mark_states_ = std::move(states);
+}
+
 void TaskWatch::begin(std::unique_ptr<TaskJudge> judge) {
   status_ = {};
   status_.step = "starts with the first tracked stylus";
@@ -38,6 +51,8 @@ void TaskWatch::begin(std::unique_ptr<TaskJudge> judge) {
     session_.solver().readCuts(cuts_);
     cut_watch_->fresh(cuts_);  // earlier cuts do not belong to this task
   }
+  mark_states_.clear();
+  showMarks();
   base_tick_ = session_.tick();
   base_blood_ml_ = seenBlood(session_).bled_ml;
   stepped_.clear();
@@ -115,6 +130,7 @@ void TaskWatch::judge(const TaskTick& tick) {
   count(tick);
   cuts_m_.insert(cuts_m_.end(), tick.cuts_m.begin(), tick.cuts_m.end());
   judge_->judge(tick, status_.tally);
+  showMarks();
   status_.progress = judge_->progress();
   status_.step = judge_->step();
   status_.penalties_s = 0;

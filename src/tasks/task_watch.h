@@ -47,12 +47,13 @@ struct TaskResult {
 };
 
 /// Log that judges the tasks of a session (Session::recordTask()), tick by tick and in order. The same ticks give the
-/// same score, however late measurements arrive. After a reset, a task begins again.
+/// same score, however late measurements arrive. After a reset, a task begins again. It shows the marks
+/// of its task on the tissue (Session::showMarks()).
 class TaskWatch : public SessionLog {
  public:
   /// @param session  must outlive this   @param ended  receives each task that has ended; may be null
   explicit TaskWatch(Session& session, std::function<void(TaskResult&&)> ended = {});
-  ~TaskWatch() override { session_.removeLog(*this); }
+  ~TaskWatch() override;
   TaskWatch(const TaskWatch&) = delete;
   TaskWatch& operator=(const TaskWatch&) = delete;
 
@@ -71,6 +72,7 @@ class TaskWatch : public SessionLog {
  private:
   bool isOpen() const { return task_ && status_.state <= TaskPhase::kRunning; }
   void begin(std::unique_ptr<TaskJudge> judge);
+  void showMarks();
   void judgeNoted();
   void judge(const TaskTick& tick);
   void count(const TaskTick& tick);
@@ -82,6 +84,7 @@ class TaskWatch : public SessionLog {
   std::optional<TaskConfig> task_;
   std::unique_ptr<TaskJudge> judge_;
   std::optional<CutWatch> cut_watch_;
+  std::vector<MarkState> mark_states_;  ///< of the marks that are shown
   CutState cuts_;
   TaskStatus status_;
   uint64_t base_tick_ = 0;    ///< measurements up to this tick belong to earlier ticks

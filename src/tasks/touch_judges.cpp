@@ -26,7 +26,8 @@ double gapTo(const Vector3d& position_m, const StylusMotion& motion, const Stylu
 
 class TouchJudge : public TaskJudge {
  public:
-  TouchJudge(const TouchGoal& goal, Styluses styluses) : goal_(goal), styluses_(std::move(styluses)) {}
+  TouchJudge(const TouchGoal& goal, Styluses styluses)
+      : goal_(goal), styluses_(std::move(styluses)), wrong_(goal.targets.size()) {}
 
   void judge(const TaskTick& tick, TaskTally& tally) override {
     for (size_t s = 0; s < styluses_.size(); ++s) {
@@ -40,9 +41,10 @@ class TouchJudge : public TaskJudge {
       if (contact.at && (here == *contact.at || here == kNowhere)) continue;
       contact.at = here;
       if (here == due_) {
-        ++due_;
+        wrong_[due_++] = false;
       } else {
         ++tally.wrong_touches;
+        if (here != kNowhere && here > due_) wrong_[here] = true;
       }
     }
   }
@@ -51,6 +53,23 @@ class TouchJudge : public TaskJudge {
   std::string step() const override {
     return "touch target " + std::to_string(std::min(due_ + 1, goal_.targets.size())) + " of " +
            std::to_string(goal_.targets.size());
+  }
+  std::vector<MarkConfig> marks() const override {
+    std::vector<MarkConfig> out;
+    for (const TaskPosition& target : goal_.targets)
+      out.push_back(targetMark(target.position_m, Vector3d::Zero(), goal_.radius_m));
+    return out;
+  }
+  /// Returns wrong for a target that was touched when it was another's turn, until its own.
+  std::vector<MarkState> markStates() const override {
+    std::vector<MarkState> out;
+    for (size_t i = 0; i < wrong_.size(); ++i) {
+      out.push_back(wrong_[i]   ? MarkState::kWrong
+                    : i < due_  ? MarkState::kDone
+                    : i == due_ ? MarkState::kNext
+                                : MarkState::kLater);
+    }
+    return out;
   }
 
  private:
@@ -75,6 +94,7 @@ class TouchJudge : public TaskJudge {
   const Styluses styluses_;
   std::array<Contact, layout::kMaxStyluses> contacts_{};
   size_t due_ = 0;
+  std::vector<bool> wrong_;  ///< [targets]
 };
 
 class LiftJudge : public TaskJudge {
@@ -112,6 +132,13 @@ class LiftJudge : public TaskJudge {
   bool reached() const override { return done_; }
   std::string step() const override {
     return !held_ ? "take hold of the tissue at the mark" : high_s_ > 0 ? "keep it there" : "lift it";
+  }
+  std::vector<MarkConfig> marks() const override { return {targetMark(goal_.center_m, up_, goal_.radius_m)}; }
+  /// Returns wrong while tissue is held elsewhere.
+  std::vector<MarkState> markStates() const override {
+    const bool elsewhere =
+        std::any_of(holds_.begin(), holds_.end(), [](const Hold& hold) { return hold.held && !hold.counts; });
+    return {done_ ? MarkState::kDone : elsewhere ? MarkState::kWrong : MarkState::kNext};
   }
 
  private:

@@ -53,6 +53,7 @@ struct Extremes {
 namespace gpu {
 class Context;
 }
+class MarkBoard;
 
 struct SessionOptions {
   /// CPU threads that step the tissue, shared between sessions (makeThreadPool); null: solver.threads of its own.
@@ -88,6 +89,9 @@ class VISCERA_PUBLIC Session {
   /// @param camera  < scene().cameras.size()
   void setOverlays(size_t camera, const Overlays& overlays);
   const Overlays& overlays(size_t camera) const { return request_.overlays[camera]; }
+  /// Shows marks on the tissue in addition to those of the scene, from the next step or show() on, until the next call;
+  /// a reset keeps them. They change no state. One that meets no surface is not shown.
+  void showMarks(const std::vector<MarkConfig>& marks);
   /// Sets the mode of a stylus from the next step on, with no button pressed or while one is; a reset keeps it. The
   /// stylus releases what it holds. @param stylus  < scene().styluses.size()
   /// @throws SceneError  the mode cuts or erases, and the scene was made without: none of its styluses did
@@ -183,6 +187,7 @@ class VISCERA_PUBLIC Session {
   std::unique_ptr<Solver> solver_;
   std::string backend_note_;
   std::unique_ptr<View> view_;
+  std::unique_ptr<MarkBoard> mark_board_;
   RenderRequest request_;  ///< what is shown of the last tick
   std::vector<ForceLimiter> limiters_;
   layout::TickStats stats_{};

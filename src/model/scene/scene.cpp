@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/model/scene/scene.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
@@ -165,6 +166,21 @@ void requireNeedle(const std::string& file, const SutureConfig& suture) {
     throw SceneError(where + "'needle.cutting_n' must be at most 'needle.puncture_n'");
 }
 
+void requireMark(const std::string& where, const Scene& scene, const MarkConfig& mark) {
+  const auto is_named = [&](const BodyConfig& body) { return body.name == mark.body; };
+  if (!mark.body.empty() && std::none_of(scene.bodies.begin(), scene.bodies.end(), is_named))
+    throw SceneError(where + "'body' must be empty or the name of a body of the scene; found '" + mark.body + "'");
+  if (mark.kind == MarkKind::kRing && mark.normal.isZero())
+    throw SceneError(where + "'normal' must not be zero for kind ring");
+  if (mark.kind != MarkKind::kLine) return;
+  double length_m = 0;
+  for (size_t i = 1; i < mark.path.size(); ++i)
+    length_m += (mark.path[i].position_m - mark.path[i - 1].position_m).norm();
+  if (length_m == 0)
+    throw SceneError(where + "'path' must contain two or more positions that differ, for kind line; found " +
+                     std::to_string(mark.path.size()));
+}
+
 /// Checks that a stylus in mode needle has a needle to take.
 void requireNeedles(const std::string& file, const Scene& scene) {
   for (const SutureConfig& suture : scene.sutures) {
@@ -205,6 +221,8 @@ void requireConsistent(const std::string& file, const Scene& scene) {
     requireNeedle(file, suture);
   }
   requireNeedles(file, scene);
+  for (size_t i = 0; i < scene.marks.size(); ++i)
+    requireMark(file + ": marks[" + std::to_string(i) + "]: ", scene, scene.marks[i]);
   try {
     requireFeatures(scene);
   } catch (const SceneError& error) {

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "model/scene/mark_fields.h"
 #include "model/scene/scene_fields.h"
 #include "viscera/model/scene/scene.h"
 
 namespace viscera {
 
-// The sections of a scene file; their keys are in scene_fields.h, body_fields.h and suture_fields.h.
+// The sections of a scene file; their keys are in scene_fields.h, body_fields.h, mark_fields.h and suture_fields.h.
 
 template <class V>
 void visitFields(V& v, Scene& c) {
@@ -21,6 +22,8 @@ void visitFields(V& v, Scene& c) {
   v.group("solver", c.solver, "time stepping");
   v.list("sutures", c.sutures, 8,
          "sutures, which do not stretch: on obstacles, in the grip of styluses and through tissue");
+  v.list("marks", c.marks, kMostMarks,
+         "marks on the surface of tissue, which move with it; images of depths and labels do not show them");
 }
 
 }  // namespace viscera

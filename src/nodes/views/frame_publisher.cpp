@@ -11,6 +11,17 @@
 #include "render/renderer.h"
 
 namespace viscera::nodes {
+
+namespace {
+
+/// Returns whether the marks of all pieces exist.
+bool isOf(const std::vector<MarkPiece>& pieces, const ShownMarks& marks) {
+  return std::all_of(pieces.begin(), pieces.end(),
+                     [&](const MarkPiece& piece) { return piece.mark < marks.styles.size(); });
+}
+
+}  // namespace
+
 FramePublisher::FramePublisher(ros::NodeHandle node, const Scene& scene, const PublishOptions& options,
                                std::function<void(std::exception_ptr)> failed)
     : tissue_frame_(scene.environment.tissue_frame),
@@ -21,6 +32,7 @@ FramePublisher::FramePublisher(ros::NodeHandle node, const Scene& scene, const P
       sutures_(node, scene),
       needles_(node, scene),
       failed_(std::move(failed)),
+      has_marks_(!scene.marks.empty()),
       image_viewers_(kPictureKinds * scene.cameras.size(), 0) {
   for (const CameraConfig& camera : scene.cameras)
     cameras_.push_back(std::make_unique<CameraPublisher>(node, camera, options.frame_prefix, scene.solver.tick_hz));
@@ -72,7 +84,7 @@ void FramePublisher::start(const std::shared_ptr<const VisibleTopology>& skin) {
 FrameRequest FramePublisher::beginTick() {
   tick_stamp_ = ros::Time::now();
   FrameRequest outputs;
-  outputs.surface = surface_.isWanted() && surface_throttle_.pick();
+  outputs.surface = (surface_.isWanted() || areMarksViewed()) && surface_throttle_.pick();
   outputs.strain = outputs.surface && surface_.isStrainWanted();
   for (const auto& camera : cameras_) {
     const bool due = camera->pick();
@@ -97,7 +109,8 @@ ros::Time FramePublisher::stampOf(uint64_t tick) const {
 FrameRequest FramePublisher::stills(bool changed, bool aimed) {
   tick_stamp_ = ros::Time::now();
   FrameRequest outputs;
-  const uint32_t before = std::exchange(surface_viewers_, surface_.viewers());
+  const uint32_t before =
+      std::exchange(surface_viewers_, surface_.viewers() + (has_marks_ ? scene_markers_.viewers() : 0));
   outputs.surface = surface_viewers_ > (changed ? 0 : before);
   outputs.strain = outputs.surface && surface_.isStrainWanted();
   for (size_t c = 0; c < cameras_.size(); ++c) {
@@ -118,6 +131,7 @@ void FramePublisher::addTo(const Session& session, Frame& frame) {
 void FramePublisher::deliver(Frame&& frame, const StylusSamples& samples) {
   stamps_[frame.tick % stamps_.size()] = {tick_stamp_, frame.tick};
   putCameraFrames(frame);
+  has_marks_ = frame.marks != nullptr;
   const bool scene_due = scene_markers_.isDue(), sutures_due = sutures_.isWanted(), needles_due = needles_.isWanted();
   if (!scene_due && !sutures_due && !needles_due && !frame.surface && frame.images.empty()) return;
   {
@@ -128,6 +142,7 @@ void FramePublisher::deliver(Frame&& frame, const StylusSamples& samples) {
     if (frame.surface) {
       const ros::Time stamp = stampOf(frame.surface->tick);
       slots_.surface = {stamp, std::move(frame.surface)};
+      slots_.marks = frame.marks;
     }
     for (ImageFrame& image : frame.images) {
       const size_t slot = kPictureKinds * image.camera + static_cast<size_t>(image.kind);
@@ -188,10 +203,16 @@ void FramePublisher::send(Slots&& slots) {
   if (slots.skin) surface_.start(slots.skin->value, slots.skin->stamp);
   if (slots.surface) {
     surface_.publish(*slots.surface->value, slots.surface->stamp);
-    recordSent(surface_rate_, surface_latency_, slots.surface->value->pose_received);
+    if (surface_.isWanted()) recordSent(surface_rate_, surface_latency_, slots.surface->value->pose_received);
+    mark_pieces_.clear();
+    if (slots.marks && scene_markers_.isWanted()) mark_pieces_ = markPieces(*slots.marks, *slots.surface->value);
   }
   surface_.publishDue();
-  if (slots.scene) scene_markers_.publish(slots.scene->value, slots.scene->stamp);
+  if (slots.scene) {
+    SceneStyle& addTo = slots.scene->value;
+    if (addTo.marks && isOf(mark_pieces_, *addTo.marks)) addTo.mark_pieces = mark_pieces_;
+    scene_markers_.publish(addTo, slots.scene->stamp);
+  }
   if (slots.sutures) sutures_.publish(*slots.sutures);
   if (slots.needles) needles_.publish(*slots.needles);
   for (size_t i = 0; i < slots.images.size(); ++i) {

@@ -89,11 +89,13 @@ class FramePublisher {
     std::optional<Stamped<SceneStyle>> scene;
     std::optional<Sutures> sutures;
     std::optional<Needles> needles;
+    std::shared_ptr<const ShownMarks> marks;  ///< marks on `surface`
   };
 
   void putCameraFrames(const Frame& frame);
   void broadcastStaticFrames(const Scene& scene, const std::string& frame_prefix);
   ros::Time stampOf(uint64_t tick) const;
+  bool areMarksViewed() const { return has_marks_ && scene_markers_.isWanted(); }
   Slots emptySlots() const;
   void main();
   void sendUntilStopped();
@@ -122,9 +124,12 @@ class FramePublisher {
   ros::Time tick_stamp_;
   std::array<Stamped<uint64_t>, kStampedTicks> stamps_;
   HeldNodes held_;
+  bool has_marks_ = false;               ///< marks are on the tissue: scene_markers needs its surface
   uint32_t surface_viewers_ = 0;         ///< number of viewers at the last call of stills()
   std::vector<uint32_t> image_viewers_;  ///< [cameras * kPictureKinds]
   ros::Time frames_stamp_;               ///< stamp of the last camera frames
+
+  std::vector<MarkPiece> mark_pieces_;  ///< on the last surface; used on the thread that publishes
 
   std::mutex latency_mutex_;
   std::vector<LatencyMeter> image_latency_;

@@ -42,6 +42,7 @@ class SceneMarkerPublisher {
 
   /// Returns whether there are subscribers. Thread-safe.
   bool isWanted() const { return publisher_.getNumSubscribers() > 0; }
+  uint32_t viewers() const { return publisher_.getNumSubscribers(); }  ///< number of subscribers; thread-safe
   /// Returns whether there are subscribers and the next message is due by the steady clock, also while paused.
   bool isDue();
   /// Sets the largest rate. Called on the thread that calls isDue().

@@ -28,6 +28,7 @@ constexpr double kLeastArrow_m = 1e-4;
 constexpr double kLeastSuture_m = 5e-4;  ///< least width of a line [m]; rviz loses lines that are thinner than a pixel
 constexpr double kArrowWidth = 2.5;      ///< width in radii of the shaft: forces are mostly along it
 constexpr double kHeldPoint_m = 1.5e-3;
+constexpr size_t kMarkWidths = 8;        ///< widths of the lines of marks: a marker has lines of one width
 constexpr double kSceneMarkersHead = 2;  ///< width and length of an arrow's head, relative to its width
 
 geometry_msgs::Point toPoint(const Vector3d& p_m) {
@@ -72,6 +73,7 @@ std::vector<Vector3d> pointsOf(const ToolShape& shape) {
 
 SceneStyle styleOf(const Frame& frame, const StylusSamples& samples) {
   SceneStyle style{frame.tools, frame.obstacles, frame.reactions, frame.sutures, frame.held_m, frame.needles};
+  style.marks = frame.marks;
   for (size_t s = 0; s < samples.size(); ++s)
     style.in_tf[s] = samples[s].valid && frame.tools[s].present && isSame(samples[s].pose, frame.tools[s].to);
   return style;
@@ -135,6 +137,7 @@ MarkerArray SceneMarkers::at(const SceneStyle& style, const ros::Time& stamp) co
     addParts("obstacles", kMostParts * i, obstacles_[i].parts, style.obstacles[i], "", stamp, out);
   addTubes(style, stamp, out);
   addNeedles(style, stamp, out);
+  addMarks(style, stamp, out);
   addNames(style, stamp, out);
   addText("", stamp, out);
   return out;
@@ -261,6 +264,33 @@ void SceneMarkers::addTubes(const SceneStyle& style, const ros::Time& stamp, Mar
     const bool is_clip = there && clip && style.sutures[i].part == TubeKind::kClip;
     const TubeStyle& how = is_clip ? *clip : sutures_[there ? style.sutures[i].suture : 0];
     addLine("sutures", i, how, there ? style.sutures[i].positions_m : kNone, stamp, out);
+  }
+}
+
+/// Adds the lines of marks, one marker for each width; the last one also has all wider ones.
+void SceneMarkers::addMarks(const SceneStyle& style, const ros::Time& stamp, MarkerArray& out) const {
+  std::vector<float> widths_m;
+  for (const MarkPiece& piece : style.mark_pieces) widths_m.push_back(piece.width_m);
+  std::sort(widths_m.begin(), widths_m.end());
+  widths_m.erase(std::unique(widths_m.begin(), widths_m.end()), widths_m.end());
+  const size_t first = out.markers.size(), count = std::min(kMarkWidths, widths_m.size());
+  for (size_t i = 0; i < kMarkWidths; ++i) {
+    Marker& marker = out.markers.emplace_back(this->marker("marks", i, stamp));
+    marker.type = Marker::LINE_LIST;
+    marker.action = i < count ? Marker::ADD : Marker::DELETE;
+    if (i < count) marker.scale.x = static_cast<double>(widths_m[i]);
+    marker.color.a = 1;
+  }
+  for (const MarkPiece& piece : style.mark_pieces) {
+    const auto width = std::lower_bound(widths_m.begin(), widths_m.end(), piece.width_m) - widths_m.begin();
+    Marker& marker = out.markers[first + std::min(static_cast<size_t>(width), count - 1)];
+    std_msgs::ColorRGBA color;
+    const Vector3f& of_mark = style.marks->styles[piece.mark].color;
+    color.r = of_mark.x(), color.g = of_mark.y(), color.b = of_mark.z(), color.a = 1;
+    for (const Vector3f& end_m : {piece.from_m, piece.to_m}) {
+      marker.points.push_back(toPoint(end_m.cast<double>()));
+      marker.colors.push_back(color);
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "viscera/layout/limits.h"
 #include "viscera/model/scene/stylus_config.h"
 #include "viscera/session/frame.h"
+#include "viscera/surface/skin_marks.h"
 #include "viscera/tools/stylus.h"
 
 namespace viscera {
@@ -32,6 +34,8 @@ struct SceneStyle {
   std::array<std::vector<Vector3d>, layout::kMaxStyluses> held_m = {};  ///< see Frame
   std::vector<NeedleState> needles = {};
   std::array<bool, layout::kMaxStyluses> in_tf = {};  ///< whether the tool's pose is that of its frame in tf
+  std::shared_ptr<const ShownMarks> marks = {};       ///< marks on the tissue; null: none
+  std::vector<MarkPiece> mark_pieces = {};            ///< their lines on a recent surface
 };
 /// Returns the contents of a frame. @param samples  samples that determine the tool frames in tf
 SceneStyle styleOf(const Frame& frame, const StylusSamples& samples);
@@ -47,11 +51,10 @@ struct Label {
 void partLabels(std::vector<Label>& labels, double height_m);
 
 /// Everything that the camera shows in addition to the tissue, as markers for rviz: tools and obstacles as meshes,
-/// sutures and needles as lines, forces as arrows, held nodes as points, names. While there is no tissue, a text shows
-/// the progress instead. The namespaces are `tools`, `obstacles`, `sutures`, `needles`, `forces`, `held`, `names` and
-/// `preparing`.
-/// Absent objects are sent as DELETE, so any array is complete. The mesh of a tool is in the tool's tf frame if the
-/// tool's pose is that of the frame, and moves with it.
+/// sutures, needles and marks on the tissue as lines, forces as arrows, held nodes as points, names. While there is no
+/// tissue, a text shows the progress instead. The namespaces are `tools`, `obstacles`, `sutures`, `needles`, `marks`,
+/// `forces`, `held`, `names` and `preparing`. Absent objects are sent as DELETE, so any array is complete. The mesh of
+/// a tool is in the tool's tf frame if the tool's pose is that of the frame, and moves with it.
 class SceneMarkers {
  public:
   SceneMarkers(const Scene& scene, const PublishOptions& options);
@@ -87,6 +90,7 @@ class SceneMarkers {
   void addNeedles(const SceneStyle& style, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
   void addTubes(const SceneStyle& style, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
   void addText(const std::string& text, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
+  void addMarks(const SceneStyle& style, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
   void addNames(const SceneStyle& style, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
 
   const std::string frame_;

@@ -99,6 +99,27 @@ TEST(SceneMarkers, FingersStandAsFarOpenAsTheirTool) {
   EXPECT_NEAR(width_m(0.6), kLength_m * std::sin(0.3), kFinger_m);
 }
 
+TEST(SceneMarkers, MarksOnTissueAreLinesInTheirColoursOneMarkerPerWidth) {
+  auto marks = std::make_shared<ShownMarks>();
+  marks->styles = {{Vector3f(1, 0, 0), MarkPattern::kSolid}, {Vector3f(0, 0.5F, 1), MarkPattern::kDouble}};
+  SceneStyle marked = style();
+  marked.marks = marks;
+  marked.mark_pieces = {{0, Vector3f(0, 0, 0), Vector3f(0.01F, 0, 0), 0.002F},
+                        {1, Vector3f(0, 0, 0), Vector3f(0, 0.01F, 0), 0.001F},
+                        {1, Vector3f(0, 0.01F, 0), Vector3f(0, 0.02F, 0), 0.001F}};
+  const auto lines = shown(markersOf(marked), "marks");
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(lines[0].type, Marker::LINE_LIST);
+  EXPECT_EQ(lines[0].header.frame_id, "room/tissue");
+  EXPECT_FLOAT_EQ(lines[0].scale.x, 0.001F);
+  ASSERT_EQ(lines[0].points.size(), 4U);
+  ASSERT_EQ(lines[0].colors.size(), 4U);
+  EXPECT_FLOAT_EQ(lines[0].colors[0].g, 0.5F);
+  EXPECT_FLOAT_EQ(lines[1].points[1].x, 0.01F);
+  EXPECT_FLOAT_EQ(lines[1].colors[0].r, 1);
+  EXPECT_TRUE(shown(markersOf(style()), "marks").empty());
+}
+
 TEST(SceneMarkers, ATextStandsInThePlaceOfTheTissueUntilThereIsSome) {
   Scene seen = scene();
   CameraConfig camera;

@@ -253,6 +253,24 @@ class SceneViewTest(unittest.TestCase):
         wait_until(lambda: not seen["tools"] and not seen["forces"], LIMIT_S, "end of the tool")
         markers.stop()
 
+    def test_marks_on_the_cloth_are_lines_that_move_with_it(self):
+        rospy.ServiceProxy("reset", Trigger)()
+        seen = {}
+        markers = Latest("scene_markers", MarkerArray, lambda message: self.note(message, seen))
+        line = list(wait_until(lambda: seen.get("marks"), LIMIT_S, "mark").values())[0]
+        self.assertEqual((line.type, line.header.frame_id), (Marker.LINE_LIST, "tissue"))
+        self.assertAlmostEqual(line.scale.x, 0.002, delta=1e-6)
+        self.assertAlmostEqual(line.colors[0].b, 0.91, delta=1e-6)
+        for axis, low, high in (("x", -0.06, -0.02), ("y", 0.05, 0.05)):
+            places = [getattr(point, axis) for point in line.points]
+            self.assertAlmostEqual(min(places), low, delta=1e-4)
+            self.assertAlmostEqual(max(places), high, delta=1e-4)
+        self.left.move((-0.04, 0.05, ABOVE_M), (-0.04, 0.05, CLOTH_M), 1)
+        wait_until(lambda: min(point.z for point in list(seen["marks"].values())[0].points) < CLOTH_M - 0.01, LIMIT_S,
+                   "mark on a cloth that is pushed")
+        self.left.position = None
+        markers.stop()
+
     def test_meshes_of_tools_are_sent_once_and_to_each_who_comes(self):
         arrays = []
         markers = Latest("scene_markers", MarkerArray, arrays.append, queue_size=1000)

@@ -10,6 +10,7 @@
 #include "viscera/model/scene/body_config.h"
 #include "viscera/model/scene/camera_config.h"
 #include "viscera/model/scene/environment_config.h"
+#include "viscera/model/scene/mark_config.h"
 #include "viscera/model/scene/organ_fit.h"
 #include "viscera/model/scene/overrides.h"
 #include "viscera/model/scene/solver_config.h"
@@ -33,6 +34,7 @@ struct Scene {
   EnvironmentConfig environment;
   SolverConfig solver;
   std::vector<SutureConfig> sutures;
+  std::vector<MarkConfig> marks;
   std::string folder;           ///< folder of the scene file: relative mesh files are looked up here
   std::string file;             ///< scene file, for errors; empty for a scene that was not loaded from a file
   std::optional<OrganFit> fit;  ///< no key: fit to an organ that the file was not made for, see fitted_scene.h
