@@ -22,6 +22,11 @@ constexpr double kJudged_m_per_s = 0.005;
 /// free.
 constexpr double kSoftenTime_s = 0.02, kStiffenTime_s = 5;
 constexpr double kLeastShare = 0.1;
+/// Energy owed to the user from which forces of fast motion are reduced, and at which they are by most [J].
+constexpr double kOwedFree_j = 2e-4, kOwedMost_j = 7e-4;
+/// Speed that pokes exceed. Slower motion keeps its forces, since a light device that is held oscillates otherwise
+/// [m/s].
+constexpr double kPoke_m_per_s = 0.02;
 /// Largest product of stiffness and delay, from a pose to its force, for fast motion: above it, the loop oscillates
 /// before the oscillation is measured [N s/m].
 constexpr double kBearable_n_s_per_m = 5;
@@ -103,6 +108,8 @@ void HapticServo::judge() {
   approach(acceleration2_, acceleration_.squaredNorm(), dt, kVelocityWindow_s);
   const bool free = !(last_.force_n.squaredNorm() > 0);
   if (free) approach(share_, 1.0, dt, kStiffenTime_s);
+  const double most_share = 1 - (1 - kLeastShare) * owedShare();
+  if (share_ > most_share) approach(share_, most_share, dt, kSoftenTime_s);
   if (!(speed2_ > kJudged_m_per_s * kJudged_m_per_s)) return;
   const double omega2 = acceleration2_ / speed2_;
   const double k = device_stiffness_n_per_m();
@@ -145,6 +152,17 @@ double HapticServo::device_stiffness_n_per_m() const {
   return config_.motion_scale * config_.force_scale * last_.stiffness_n_per_m.norm();
 }
 
+/// Returns how far forces of fast motion are reduced until the user has given what is owed, 0..1.
+double HapticServo::owedShare() const {
+  return std::clamp((passivity_.owed_j() - kOwedFree_j) / (kOwedMost_j - kOwedFree_j), 0.0, 1.0);
+}
+
+/// Returns how far motion is that of a poke and not that of a hold, 0..1.
+double HapticServo::fastShare() const {
+  const double v2 = velocity_.squaredNorm(), poke2 = kPoke_m_per_s * kPoke_m_per_s;
+  return v2 * v2 / (v2 * v2 + poke2 * poke2);
+}
+
 double HapticServo::late_s() const {
   return lead_s_ + between_poses_s_;
 }
@@ -157,7 +175,8 @@ Reaction HapticServo::step(const Vector3d& tip_m, double pose_time_s, double now
   const double force2 = last_.force_n.squaredNorm();
   const double k = force2 > 0 ? last_.force_n.dot(last_.stiffness_n_per_m * last_.force_n) / force2 : 0;
   stored_j_ = k > 0 ? config_.force_scale / config_.motion_scale * 0.5 * force2 / k : 0;
-  return {softened(last_.force_n), last_.torque_nm, false};
+  const double owed = 1 - kOwedMost_j / std::max(passivity_.owed_j(), kOwedMost_j), gain = 1 - owed * fastShare();
+  return {gain * softened(last_.force_n), last_.torque_nm, false};
 }
 
 Vector3d HapticServo::damped(const Vector3d& limited_n, double now_s) {
@@ -167,7 +186,8 @@ Vector3d HapticServo::damped(const Vector3d& limited_n, double now_s) {
   const double least_kg =
       speed2_ > 0 && acceleration2_ > 0 ? share_ * device_stiffness_n_per_m() * speed2_ / acceleration2_ : 0;
   const double sure = 0.5 * least_kg / late_s();
-  return passivity_.damped(velocity_, config_.force_scale * limited_n, stored_j_, pose_time_s_, now_s, share_, sure) /
+  const double strength = std::max(share_, owedShare() * fastShare());
+  return passivity_.damped(velocity_, config_.force_scale * limited_n, stored_j_, pose_time_s_, now_s, strength, sure) /
          config_.force_scale;
 }
 

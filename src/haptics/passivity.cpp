@@ -16,6 +16,9 @@ constexpr double kStoredMargin = 1.25;
 /// Number of forces per period: the evaluated force, and one that a limit allows between two evaluations.
 constexpr double kForcesPerPeriod = 2;
 
+/// Time constant after which energy that is owed is forgotten: a user who only holds does not pay for it.
+constexpr double kForgottenTime_s = 5;
+
 }  // namespace
 
 SentForces::SentForces(double span_s, double period_s)
@@ -63,6 +66,7 @@ std::optional<Vector3d> PassivityControl::moved(const Vector3d& offset_m, double
   energy_j_ += given_j;
   least_j_ = std::min(least_j_, energy_j_);
   budget_j_ += given_j;
+  if (budget_j_ < 0) budget_j_ *= std::exp(-(to_s - from_s) / kForgottenTime_s);
   return acted_n;
 }
 

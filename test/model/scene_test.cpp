@@ -174,6 +174,7 @@ TEST(Scene, KeysThatOnlyTogetherMakeNoSenseAreRefusedByName) {
       {"bodies: [{name: a, fixed: [{min_m: [1, 0, 0]}]}]\n", {"body 'a' fixed[0]", "'min_m'", "'max_m'"}},
       {"bodies: [{name: a, fixed: [{shape: plane, normal: [0, 0, 0]}]}]\n", {"body 'a' fixed[0]", "'normal'"}},
       {"bodies: [{name: a, fixed: [{}, {shape: part}]}]\n", {"body 'a' fixed[1]", "'part'"}},
+      {"bodies: [{name: a, fixed: [{part: rim}]}]\n", {"body 'a' fixed[0]", "'part'", "'shape: part'"}},
   });
 }
 

@@ -54,6 +54,8 @@ class VISCERA_PUBLIC HapticServo {
   void judge();
   double device_stiffness_n_per_m() const;
   double late_s() const;
+  double owedShare() const;
+  double fastShare() const;
   Vector3d softened(const Vector3d& wanted_n);
 
   HapticServoConfig config_;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -78,9 +79,10 @@ class VISCERA_PUBLIC PassivityControl {
   /// Sets the remaining energy to zero, because tracking was lost or the user may be another one.
   void clear();
 
-  double energy_j() const { return energy_j_; }          ///< energy given by the user [J]; < 0: active
-  double least_j() const { return least_j_; }            ///< smallest energy_j so far [J]
-  double damping_n_s_per_m() const { return damping_; }  ///< alpha of the last force [N s/m]
+  double energy_j() const { return energy_j_; }                ///< energy given by the user [J]; < 0: active
+  double least_j() const { return least_j_; }                  ///< smallest energy_j so far [J]
+  double owed_j() const { return std::max(-budget_j_, 0.0); }  ///< energy that the user has been given in advance [J]
+  double damping_n_s_per_m() const { return damping_; }        ///< alpha of the last force [N s/m]
 
  private:
   PassivityLimits limits_;

@@ -54,6 +54,8 @@ void requireFixed(const std::string& where, const FixedConfig& fixed) {
   if (fixed.shape == FixedShape::kPlane && fixed.normal.norm() == 0)
     throw SceneError(where + ": 'normal' must not be zero");
   if (fixed.shape == FixedShape::kPart && fixed.part.empty()) throw SceneError(where + ": 'part' must name a part");
+  if (fixed.shape != FixedShape::kPart && !fixed.part.empty())
+    throw SceneError(where + ": 'part' has no effect without 'shape: part'; add it, or remove 'part'");
 }
 
 /// Checks that every pixel of a lens has one line of sight, not much farther out than a pinhole's.

@@ -29,7 +29,7 @@ LIMIT_S = 60           # software rendering on a busy machine
 class RvizSimulatorsTest(unittest.TestCase):
     def setUp(self):
         self.screen = Screen()
-        self.rviz = rviz(CONFIG, lambda: self.screen.find(MOUSE_SIGN))
+        self.rviz = rviz(CONFIG, lambda: self.screen.find(MOUSE_SIGN) and self.screen.draws())
         self.simulators = []
 
     def tearDown(self):
@@ -48,12 +48,19 @@ class RvizSimulatorsTest(unittest.TestCase):
         wait_until(seen, LIMIT_S, what)
         self.screen.keep(what.replace(" ", "_") + ".ppm")
 
+    def expect_ball(self, is_there, what):
+        try:
+            wait_until(lambda: bool(self.screen.ball()) == is_there, LIMIT_S, what)
+        except AssertionError as error:
+            self.screen.keep("no_%s.ppm" % what.replace(" ", "_"))
+            raise AssertionError("%s; rviz, which returned %s, said: %s" % (error, self.rviz.process.poll(), self.rviz.output))
+
     def test_none_one_two_and_one_that_comes_again(self):
         self.expect(False, False, "panel without a simulator")
         self.assertIsNone(self.screen.ball())
         first = self.start()
         self.expect(True, False, "panel of a simulator")
-        wait_until(self.screen.ball, LIMIT_S, "ball")
+        self.expect_ball(True, "ball of the first simulator")
         second = self.start()
         self.expect(True, True, "warning of two simulators")
         first.end()
@@ -65,13 +72,13 @@ class RvizSimulatorsTest(unittest.TestCase):
         self.expect(False, False, "panel after the last one was killed")
         # A simulator that has no surface yet: the surface of the dead one disappears.
         silent = rospy.Publisher("surface", SurfaceVertices, queue_size=1)
-        wait_until(lambda: not self.screen.ball(), LIMIT_S, "view without the ball of the one that died")
+        self.expect_ball(False, "view without the ball of the one that died")
         time.sleep(1)
         self.assertIsNone(self.screen.ball(), "the surface of the one that died has come again")
         silent.unregister()
         self.start()
         self.expect(True, False, "panel of one that was started again")
-        wait_until(self.screen.ball, LIMIT_S, "ball again")
+        self.expect_ball(True, "ball of the one that was started again")
         self.rviz.process.send_signal(2)
         self.assertEqual(self.rviz.process.wait(LIMIT_S), 0, self.rviz.output)
 

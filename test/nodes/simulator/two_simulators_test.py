@@ -32,7 +32,18 @@ class TwoSimulatorsTest(unittest.TestCase):
         cls.tf = [Latest(topic, TFMessage, cls.on_tf) for topic in ("/tf", "/tf_static")]
         wait_until(lambda: all(hand.get_num_connections() for hand in cls.hands.values()), READY_LIMIT_S, "simulators")
         threading.Thread(target=cls.send, daemon=True).start()
+        wait_until(lambda: cls.frames_expected().keys() <= cls.parents.keys(), READY_LIMIT_S, "frames")
         time.sleep(WATCHED_S)
+
+    @staticmethod
+    def frames_expected():
+        """Returns the parents of each frame."""
+        expected = {}
+        for side in SIDES:
+            expected[side + "/tissue"] = {"world"}
+            expected[side + "/left_tool"] = {side + "/tissue"}
+            expected[side + "/camera_optical_frame"] = {side + "/tissue"}
+        return expected
 
     @classmethod
     def send(cls):
@@ -53,12 +64,7 @@ class TwoSimulatorsTest(unittest.TestCase):
             cls.places[transform.child_frame_id].add(round(transform.transform.translation.x, 6))
 
     def test_each_has_a_tree_of_its_own_below_the_world(self):
-        expected = {}
-        for side in SIDES:
-            expected[side + "/tissue"] = {"world"}
-            expected[side + "/left_tool"] = {side + "/tissue"}
-            expected[side + "/camera_optical_frame"] = {side + "/tissue"}
-        self.assertEqual(dict(self.parents), expected)
+        self.assertEqual(dict(self.parents), self.frames_expected())
 
     def test_each_frame_has_one_sender(self):
         for frame, senders in self.senders.items():

@@ -18,6 +18,7 @@ END_LIMIT_S = 10
 START_LIMIT_S = 40  # software rendering on a busy machine
 MOUSE_SIGN = (240, 228, 66)  # of the button of viscera/Mouse, in the toolbar
 BALL_PIXELS = 10000
+BACKGROUND = (32, 36, 40)  # of the scene, in config/viscera_plugin.rviz
 SIGN_PIXELS = 40  # of the icons of 16 by 16 pixels, without their smooth edges
 
 # An rviz without panels, with only the display, and its largest frame rate.
@@ -98,6 +99,10 @@ class Screen:
         if len(rows) < BALL_PIXELS:
             return None
         return VIEW[1].start + int(columns.mean()), VIEW[0].start + int(rows.mean())
+
+    def draws(self):
+        """Returns whether rviz has drawn its scene, of which most is background."""
+        return (self.picture()[VIEW] == BACKGROUND).all(axis=2).mean() > 0.5
 
     def click(self, x, y, button=1):
         self.do("mousemove", x, y)
