@@ -9,7 +9,7 @@ import time
 
 import rospy
 import rostest
-from force_session import END_LIMIT_S, FELT_S, ForceCase, Session
+from force_session import END_LIMIT_S, FELT_S, HEART, ForceCase, Session
 from sensor_msgs.msg import Image
 from simulator_watch import Latest, wait_until
 from std_srvs.srv import Trigger
@@ -58,7 +58,7 @@ class ForcePausesTest(ForceCase):
     def test_pause_releases_before_a_picture_is_drawn(self):
         """While paused, a viewer receives an image of the current state, which takes long to draw here."""
         rospy.init_node("force_pauses_test", anonymous=True, disable_signals=True)
-        with Session(overrides=";cameras[0].width_px=2048;cameras[0].height_px=1536") as session:
+        with Session(scene=(HEART[0], HEART[1] + ";cameras[0].width_px=2048;cameras[0].height_px=1536")) as session:
             session.wait_touch()
             pictures = Latest(session.space + "/camera/image_raw", Image)
             wait_until(lambda: pictures.count >= 2, END_LIMIT_S, "pictures")

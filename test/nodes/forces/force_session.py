@@ -23,6 +23,9 @@ TIMEOUT = "_timeout_s:=0.03"  # option of watchdogs
 SUPPORT = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "support")
 SCENE = "_scene:=" + os.path.join(SUPPORT, "front_wall.yaml")
 TISSUE = "_overrides:=bodies[0].position_m=[0,-0.018,-0.02]"  # where the hand feels 0.3 N
+# The heart, for a test of its pictures.
+HEART = ("_scene:=heart", "_overrides:=bodies[0].spacing_m=0.008;bodies[0].material.young_modulus_pa=20000;"
+         "environment.gravity_m_per_s2=[0,0,0];styluses[0].probe.radius_m=0.012")
 serial = itertools.count()
 
 
@@ -37,7 +40,7 @@ class Session:
     kind: kind of the stylus's driver, a class of drivers.py with options for the simulator
     job: nodes are in process groups of their own, like a shell's jobs, so that signals of a terminal stop them"""
 
-    def __init__(self, own_master=False, wrenches="left/body/servo_cf", kind=None, options=(), overrides="", job=False):
+    def __init__(self, own_master=False, wrenches="left/body/servo_cf", kind=None, options=(), scene=(SCENE, TISSUE), job=False):
         self.job = job
         self.environment = dict(os.environ, ROSCONSOLE_STDOUT_LINE_BUFFERED="1")
         self.processes = []
@@ -48,7 +51,7 @@ class Session:
             self.master = self.start(["rosmaster", "--core", "-p", str(port)])
         self.space = "/force_endings_%d" % next(serial)
         self.environment["ROS_NAMESPACE"] = self.space
-        self.simulator = self.node("simulator", SCENE, TISSUE + overrides, *options)
+        self.simulator = self.node("simulator", *scene, *options)
         # its interpreter starts while the tissue is created; it waits outside until then
         self.hand = self.start([sys.executable, os.path.join(SUPPORT, "hand.py"), wrenches] + ([kind] if kind else []),
                                stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)

@@ -36,7 +36,7 @@ class RvizSessionTest(unittest.TestCase):
         cls.tick = Latest("tick", Tick, lambda message: cls.ticks.append(message.tick))
         cls.watch = SimulatorWatch()
         cls.screen = Screen()
-        cls.rviz = rviz(CONFIG, lambda: cls.screen.find(PAUSE), 30)
+        cls.rviz = rviz(CONFIG, lambda: cls.screen.find(PAUSE))
 
     @classmethod
     def tearDownClass(cls):

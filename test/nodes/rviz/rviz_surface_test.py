@@ -46,7 +46,7 @@ class RvizSurfaceTest(unittest.TestCase):
     def pixels(self):
         """Returns the numbers of pixels of the surface and of cut walls: red, bright and dark."""
         self.assertIsNone(self.rviz.process.poll(), "rviz has ended: " + self.rviz.output)
-        red, green, blue = (self.screen.picture()[VIEW][:, :, i] for i in range(3))
+        red, green, blue = (self.screen.picture(VIEW)[:, :, i] for i in range(3))
         skin = (red > 1.5 * green) & (green > 1.05 * blue - 3) & (red > 40) & (green > 0.25 * red)
         walls = (red > 3 * green) & (red > 3 * blue) & (red > 30) & (red < 140)
         return int(skin.sum()), int(walls.sum())
@@ -86,10 +86,10 @@ class RvizSurfaceTest(unittest.TestCase):
         colors = [0xffd02020] * len(sender.points)
         sender.vertices(3, colors=colors[1:])  # fewer than vertices
         sender.vertices(3, colors=colors)
-        self.expect(lambda skin, walls: skin < FEW and blue(self.screen.picture()[VIEW]) > MANY, "ball with colors of its vertices")
+        self.expect(lambda skin, walls: skin < FEW and blue(self.screen.picture(VIEW)) > MANY, "ball with colors of its vertices")
         self.screen.keep("colors.ppm")
         sender.vertices(3)
-        self.expect(lambda skin, walls: skin > MANY and blue(self.screen.picture()[VIEW]) < FEW, "ball with the color of its body")
+        self.expect(lambda skin, walls: skin > MANY and blue(self.screen.picture(VIEW)) < FEW, "ball with the color of its body")
 
         # In the colours of the scene, and flat: its top is seen from the side.
         sender.topology(4, body_colors=[SCENE_COLOR], wound_colors=[SCENE_COLOR])
@@ -98,7 +98,7 @@ class RvizSurfaceTest(unittest.TestCase):
         scene_color = [SCENE_COLOR >> shift & 0xff for shift in (0, 8, 16)]
 
         def is_seen():
-            shares = self.screen.picture()[VIEW][MIDDLE].mean(axis=(0, 1)) / scene_color
+            shares = self.screen.picture(VIEW)[MIDDLE].mean(axis=(0, 1)) / scene_color
             return min(shares) > LEAST_LIGHT and max(shares) < MOST_LIGHT
         wait_until(is_seen, LIMIT_S, "flat disc in the color of the scene")
         self.screen.keep("flat.ppm")

@@ -66,14 +66,18 @@ class Screen:
                             "QT_QPA_PLATFORM": "xcb", "QT_LOGGING_RULES": "*=false"}
         os.environ.update(self.environment)
 
-    def picture(self):
-        """Returns [height, width, 3] red, green, blue, 0..255."""
+    def pixels(self):
+        """Returns [height, width, 4] blue, green, red and nothing, as bytes."""
         with open(os.path.join(self.folder.name, "Xvfb_screen0"), "rb") as file:
             dump = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)  # xwd, with a header of big-endian words
             words = struct.unpack(">25I", dump[:100])
             begin, line, colors = words[0], words[12], words[19]
             pixels = numpy.frombuffer(dump[:], numpy.uint8, self.height * line, begin + 12 * colors)
-        return pixels.reshape(self.height, line // 4, 4)[:, :self.width, 2::-1].astype(int)
+        return pixels.reshape(self.height, line // 4, 4)[:, :self.width]
+
+    def picture(self, part=(slice(None), slice(None))):
+        """Returns [height, width, 3] red, green, blue, 0..255, of a part of the rows and columns."""
+        return self.pixels()[part][:, :, 2::-1].astype(int)
 
     def save(self, path):
         """Writes a PPM file."""
@@ -88,13 +92,15 @@ class Screen:
     def find(self, color, least=SIGN_PIXELS):
         """Returns the centre (x, y) of the pixels of exactly this colour; None if there are fewer than in an icon of a
         button."""
-        rows, columns = numpy.nonzero((self.picture() == color).all(axis=2))
+        red, green, blue = color
+        words = numpy.ascontiguousarray(self.pixels()).view("<u4")[:, :, 0]  # compared as one number: this is polled
+        rows, columns = numpy.nonzero(words & 0xffffff == red << 16 | green << 8 | blue)
         return (int(numpy.median(columns)), int(numpy.median(rows))) if len(rows) >= least else None
 
     def ball(self):
         """Returns the centre (x, y) of the red pixels in the scene, such as the ball of stand_in_simulator.py; None if
         there are none."""
-        picture = self.picture()[VIEW]
+        picture = self.picture(VIEW)
         rows, columns = ((picture[:, :, 0] > 1.5 * picture[:, :, 1]) & (picture[:, :, 0] > 40)).nonzero()
         if len(rows) < BALL_PIXELS:
             return None
