@@ -5,7 +5,9 @@
 #include <zlib.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -126,7 +128,7 @@ class PageDecoder {
     for (int shift = 0; shift < 32; shift += 8) bits |= static_cast<uint32_t>(byte()) << shift;
     float out;
     static_assert(sizeof out == sizeof bits);
-    memcpy(&out, &bits, sizeof out);
+    std::memcpy(&out, &bits, sizeof out);
     return out;
   }
   size_t readTriangles(Moment& now) {
@@ -150,6 +152,20 @@ class PageDecoder {
     now.triangles = kept;
     return vertices;
   }
+  std::vector<uint16_t> readNumbers(size_t count) {
+    std::vector<uint16_t> out;
+    for (size_t i = 0; i < count; ++i) {
+      const uint8_t pair = static_cast<uint8_t>(bytes_.at(at_ + i / 2));
+      out.push_back(i % 2 ? pair >> 4 : pair & 15);
+    }
+    at_ += (count + 1) / 2;
+    std::vector<size_t> in_full;
+    for (size_t i = 0; i < count; ++i)
+      if (out[i] == 15) in_full.push_back(i);
+    for (const size_t i : in_full) out[i] = byte();
+    for (const size_t i : in_full) out[i] = static_cast<uint16_t>(out[i] | byte() << 8);
+    return out;
+  }
   void readSurface(Moment& now) {
     const uint8_t flags = byte();
     const size_t known = now.vertices(), vertices = flags & 1 ? readTriangles(now) : known;
@@ -161,28 +177,28 @@ class PageDecoder {
       }
       now.colors = colors;
     }
-    std::map<uint32_t, uint32_t> neighbour;
+    std::map<size_t, std::set<uint32_t>> smaller;
     for (const auto& triangle : now.triangles) {
       for (size_t a = 0; a < 3; ++a)
         for (size_t b = 0; b < 3; ++b)
-          if (triangle[b] < triangle[a]) {
-            const auto found = neighbour.emplace(triangle[a], triangle[b]).first;
-            found->second = std::max(found->second, triangle[b]);
-          }
+          if (triangle[b] < triangle[a]) smaller[triangle[a]].insert(triangle[b]);
     }
     std::vector<uint16_t> steps(3 * vertices);
     for (size_t axis = 0; axis < 3; ++axis) {
+      const std::vector<uint16_t> numbers = readNumbers(vertices);
       for (size_t v = 0; v < vertices; ++v) {
-        const uint32_t low = static_cast<uint8_t>(bytes_.at(at_ + v)),
-                       high = static_cast<uint8_t>(bytes_.at(at_ + vertices + v)), bits = high << 8 | low;
-        int value = static_cast<int>(bits >> 1) ^ -static_cast<int>(bits & 1);
+        int value = static_cast<int>(numbers[v] >> 1) ^ -static_cast<int>(numbers[v] & 1);
         if (v < known) value += now.steps[axis * known + v];
-        const auto next = neighbour.find(static_cast<uint32_t>(v));
-        if (next != neighbour.end())
-          value += steps[axis * vertices + next->second] - (v < known ? now.steps[axis * known + next->second] : 0);
+        const auto found = smaller.find(v);
+        if (found != smaller.end()) {
+          const auto last = std::prev(found->second.end());
+          const size_t one = *last, other = found->second.size() > 1 ? *std::prev(last) : one;
+          int sum = steps[axis * vertices + one] + steps[axis * vertices + other];
+          if (v < known) sum -= now.steps[axis * known + one] + now.steps[axis * known + other];
+          value += static_cast<int>(std::floor((sum + 1) / 2.0));
+        }
         steps[axis * vertices + v] = static_cast<uint16_t>(value);
       }
-      at_ += 2 * vertices;
     }
     now.steps = steps;
   }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint32_t kNoNeighbour = UINT32_MAX;
 constexpr uint8_t kNewTriangles = 1, kNewColors = 2;  // bits of a frame's first byte
-constexpr double kRoom = 0.5;                         // around the first mesh, in its largest edge length
+constexpr uint16_t kLong = 15;                        // half a byte that stands for a number stored in full
 
 Eigen::AlignedBox3d boxOf(const VisibleMesh& mesh) {
   Eigen::AlignedBox3d box;
@@ -22,6 +22,32 @@ Eigen::AlignedBox3d boxOf(const VisibleMesh& mesh) {
     if (position_m.allFinite()) box.extend(position_m);
   }
   return box;
+}
+
+/// Keeps the two largest of different indices. @param kept  larger first; in, out
+void addNeighbour(uint32_t index, std::array<uint32_t, 2>& kept) {
+  if (kept[0] == kNoNeighbour) {
+    kept = {index, index};
+  } else if (index > kept[0]) {
+    kept = {index, kept[0]};
+  } else if (index < kept[0] && (kept[1] == kept[0] || index > kept[1])) {
+    kept[1] = index;
+  }
+}
+
+/// Appends numbers: half a byte each where it is below kLong, and the others in full behind them.
+void putNumbers(const std::vector<uint16_t>& numbers, PageBytes& out) {
+  std::vector<uint16_t> in_full;
+  for (size_t i = 0; i < numbers.size(); i += 2) {
+    uint8_t pair = 0;
+    for (size_t k = i; k < std::min(i + 2, numbers.size()); ++k) {
+      pair = static_cast<uint8_t>(pair | std::min(numbers[k], kLong) << (k == i ? 0 : 4));
+      if (numbers[k] >= kLong) in_full.push_back(numbers[k]);
+    }
+    out.putByte(pair);
+  }
+  for (const uint16_t number : in_full) out.putByte(static_cast<uint8_t>(number));
+  for (const uint16_t number : in_full) out.putByte(static_cast<uint8_t>(number >> 8));
 }
 
 int32_t clampedStep(double steps) {
@@ -34,8 +60,8 @@ int32_t clampedStep(double steps) {
 PageGrid PageGrid::around(const VisibleMesh& mesh) {
   const Eigen::AlignedBox3d box = boxOf(mesh);
   if (box.isEmpty()) return {};
-  const double edge_m = std::max(box.sizes().maxCoeff(), 1e-6), room_m = kRoom * edge_m;
-  return {box.min() - Vector3d::Constant(room_m), (edge_m + 2 * room_m) / kSteps};
+  const double step_m = std::max(box.sizes().maxCoeff(), 1e-6) / kPerEdge;
+  return {box.center() - Vector3d::Constant(kSteps / 2 * step_m), step_m};
 }
 
 Eigen::Vector3i PageGrid::nearest(const Vector3d& position_m) const {
@@ -98,14 +124,14 @@ void SurfaceCoder::putTriangles(const VisibleTopology& topology, std::vector<Tri
 /// Finds the vertices that are shown, and the neighbour that predicts each.
 void SurfaceCoder::connect() {
   const size_t vertices = last_.topology->vertices;
-  neighbours_.assign(vertices, kNoNeighbour);
+  neighbours_.assign(vertices, {kNoNeighbour, kNoNeighbour});
   is_shown_.assign(vertices, false);
   for (const Triangle& triangle : last_.triangles) {
     for (size_t c = 0; c < 3; ++c) {
       const uint32_t v = triangle[c];
       is_shown_[v] = true;
       for (const uint32_t other : {triangle[(c + 1) % 3], triangle[(c + 2) % 3]}) {
-        if (other < v && (neighbours_[v] == kNoNeighbour || other > neighbours_[v])) neighbours_[v] = other;
+        if (other < v) addNeighbour(other, neighbours_[v]);
       }
     }
   }
@@ -123,24 +149,23 @@ void SurfaceCoder::putColors(const State& before, const std::vector<uint32_t>& c
 void SurfaceCoder::putPositions(const State& before, const VisibleMesh& mesh, PageBytes& out) {
   const size_t vertices = mesh.vertices(), known = before.vertices();
   std::vector<uint16_t> steps(3 * vertices);
-  std::vector<uint16_t> planes(vertices);
+  std::vector<uint16_t> numbers(vertices);
   for (size_t axis = 0; axis < 3; ++axis) {
     uint16_t* const now = steps.data() + axis * vertices;
     const uint16_t* const then = before.steps.data() + axis * known;
     for (size_t v = 0; v < vertices; ++v) {
-      const uint32_t n = neighbours_[v];
       int32_t expected = v < known ? then[v] : 0;
-      if (n != kNoNeighbour) expected += now[n] - (v < known ? then[n] : 0);
+      const auto [a, b] = neighbours_[v];
+      if (a != kNoNeighbour) expected += (now[a] + now[b] - (v < known ? then[a] + then[b] : 0) + 1) >> 1;
       const double position =
           (static_cast<double>(mesh.positions_m[3 * v + axis]) - grid_.origin_m[static_cast<int>(axis)]) / grid_.step_m;
       now[v] = is_shown_[v] && std::isfinite(position)
                    ? static_cast<uint16_t>(std::lround(std::clamp(position, 0.0, PageGrid::kSteps)))
                    : static_cast<uint16_t>(expected);
       const auto off = static_cast<int16_t>(now[v] - expected);
-      planes[v] = static_cast<uint16_t>(static_cast<uint16_t>(off) << 1 ^ (off < 0 ? 0xffff : 0));
+      numbers[v] = static_cast<uint16_t>(static_cast<uint16_t>(off) << 1 ^ (off < 0 ? 0xffff : 0));
     }
-    for (const uint16_t value : planes) out.putByte(static_cast<uint8_t>(value));
-    for (const uint16_t value : planes) out.putByte(static_cast<uint8_t>(value >> 8));
+    putNumbers(numbers, out);
   }
   last_.steps = std::move(steps);
 }

@@ -14,19 +14,20 @@ namespace viscera {
 
 /// Positions that a page can express: 65536 along each axis, in equal steps.
 struct PageGrid {
+  static constexpr double kPerEdge = 4096;  ///< steps along the largest edge of the box of a session's first mesh
   static constexpr double kSteps = 65535;
   Vector3d origin_m = Vector3d::Zero();
   double step_m = 1;
 
-  /// Returns the grid around the shown vertices of a mesh, with room for them to move by half its size.
+  /// Returns the grid around the shown vertices of a mesh, with room for them to move.
   static PageGrid around(const VisibleMesh& mesh);
   /// Returns the nearest step along each axis, of any size. @param position_m  tissue frame
   Eigen::Vector3i nearest(const Vector3d& position_m) const;
 };
 
 /// Encodes the surface meshes of a session, frame after frame, as docs/page.md describes. Positions are differences
-/// from the frame before, and of these from a neighbouring vertex. A key frame has differences from the base instead,
-/// so that decoding can begin there.
+/// from the frame before, and of these from two neighbouring vertices. A key frame has differences from the base
+/// instead, so that decoding can begin there.
 class SurfaceCoder {
  public:
   /// Begins with a mesh as the base. @param colors  [vertices] RGBA8, red in the low byte
@@ -56,8 +57,9 @@ class SurfaceCoder {
 
   PageGrid grid_;
   State base_, last_;
-  std::vector<uint32_t> neighbours_;  ///< [vertices] connected vertex with the largest smaller index, or kNone
-  std::vector<bool> is_shown_;        ///< [vertices]
+  /// [vertices] the two connected vertices with the largest smaller indices; twice the only one; or kNoNeighbour
+  std::vector<std::array<uint32_t, 2>> neighbours_;
+  std::vector<bool> is_shown_;  ///< [vertices]
   bool has_new_triangles_ = false;
 };
 

@@ -43,7 +43,7 @@ void StylusInput::subscribe(ros::NodeHandle& node) {
   } else {
     pose_ = listenToPoses(node, port, 1, [this](const DevicePose& pose, const std::string& sender) {
       const std::string& topic = mailbox_.device().pose.topic;
-      if (senders_.note(sender, std::chrono::steady_clock::now()))
+      if (senders_.record(sender, std::chrono::steady_clock::now()))
         ROS_WARN("%s: several nodes send poses, and the tool jumps between them: %s", topic.c_str(), rivals().c_str());
       onPose(pose, topic);
     });

@@ -67,11 +67,20 @@ function readTriangles(reader, before) {
   return {corners, kinds, vertices, neighbours: neighboursOf(corners, vertices)};
 }
 
-/** Returns for each vertex the connected vertex with the largest smaller index, which predicts its motion. */
+/** Returns for each vertex the two connected vertices with the largest smaller indices, which predict its motion. */
 function neighboursOf(corners, vertices) {
-  const out = new Uint32Array(vertices).fill(NONE);
+  const out = new Uint32Array(2 * vertices).fill(NONE);
   const note = (v, other) => {
-    if (other < v && (out[v] === NONE || other > out[v])) out[v] = other;
+    if (other >= v) return;
+    const first = out[2 * v], second = out[2 * v + 1];
+    if (first === NONE) {
+      out[2 * v] = out[2 * v + 1] = other;
+    } else if (other > first) {
+      out[2 * v] = other;
+      out[2 * v + 1] = first;
+    } else if (other < first && (second === first || other > second)) {
+      out[2 * v + 1] = other;
+    }
   };
   for (let i = 0; i < corners.length; i += 3) {
     const a = corners[i], b = corners[i + 1], c = corners[i + 2];
@@ -95,15 +104,22 @@ function readPositions(reader, before, neighbours, vertices) {
   for (let axis = 0; axis < 3; ++axis) {
     const now = out.subarray(axis * vertices, (axis + 1) * vertices);
     const then = before.steps.subarray(axis * known, (axis + 1) * known);
-    const low = reader.at, high = low + vertices;
+    const pairs = reader.at, full = pairs + ((vertices + 1) >> 1);
+    let longs = 0, long = 0;
+    for (let at = pairs; at < full; ++at) longs += ((bytes[at] & 15) === 15) + (bytes[at] >> 4 === 15);
     for (let v = 0; v < vertices; ++v) {
-      const bits = bytes[low + v] | bytes[high + v] << 8, n = neighbours[v];
+      let bits = v & 1 ? bytes[pairs + (v >> 1)] >> 4 : bytes[pairs + (v >> 1)] & 15;
+      if (bits === 15) {
+        bits = bytes[full + long] | bytes[full + longs + long] << 8;
+        ++long;
+      }
+      const a = neighbours[2 * v], b = neighbours[2 * v + 1];
       let value = (bits >>> 1) ^ -(bits & 1);
       if (v < known) value += then[v];
-      if (n !== NONE) value += now[n] - (v < known ? then[n] : 0);
+      if (a !== NONE) value += (now[a] + now[b] - (v < known ? then[a] + then[b] : 0) + 1) >> 1;
       now[v] = value;
     }
-    reader.at = high + vertices;
+    reader.at = full + 2 * longs;
   }
   return out;
 }
