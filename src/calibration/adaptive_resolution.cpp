@@ -56,7 +56,7 @@ double AdaptiveResolution::wanted_m() const {
   return spacing_m_ * std::max(kLeast, std::pow(wanted_factor_ / std::max(mean(factors_), 1e-3), 0.25));
 }
 
-std::string AdaptiveResolution::note(double real_time_factor, uint64_t tick) {
+std::string AdaptiveResolution::record(double real_time_factor, uint64_t tick) {
   const std::lock_guard<std::mutex> lock(mutex_);
   said_ = said_ && tick >= tick_;
   tick_ = tick;

@@ -23,7 +23,7 @@ class AdaptiveResolution {
   void begin(const Scene& asked, const Scene& chosen);
   /// Takes a reading, once a second while ticks are made. Repeats a report after a reset.
   /// @param tick  since the start or the last reset   @returns a message to report now, or nothing
-  std::string note(double real_time_factor, uint64_t tick);
+  std::string record(double real_time_factor, uint64_t tick);
   /// Returns the scene with lattices that would keep up: computing time goes with the fourth power of the inverse
   /// spacing.
   /// @param asked  of begin()

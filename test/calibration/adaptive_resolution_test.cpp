@@ -34,7 +34,7 @@ Scene chosen(double spacing_m) {
 std::string run(AdaptiveResolution& adaptive_resolution, double factor, int seconds = AdaptiveResolution::kReadings,
                 uint64_t tick = 1) {
   std::string said;
-  for (int s = 0; s < seconds; ++s) said += adaptive_resolution.note(factor, tick);
+  for (int s = 0; s < seconds; ++s) said += adaptive_resolution.record(factor, tick);
   return said;
 }
 
@@ -42,7 +42,7 @@ TEST(AdaptiveResolution, SaysOnceWhatSpacingWouldKeepUp) {
   AdaptiveResolution adaptive_resolution;
   adaptive_resolution.begin(automatic(), chosen(kSpacing_m));
   EXPECT_EQ(run(adaptive_resolution, kFactor, AdaptiveResolution::kReadings - 1), "");
-  EXPECT_TRUE(says(adaptive_resolution.note(kFactor, 1), {"5 mm is too fine", "service coarsen"}));
+  EXPECT_TRUE(says(adaptive_resolution.record(kFactor, 1), {"5 mm is too fine", "service coarsen"}));
   EXPECT_EQ(run(adaptive_resolution, kFactor), "");
   EXPECT_EQ(run(adaptive_resolution, 1), "");
   EXPECT_NE(run(adaptive_resolution, kFactor), "");  // it was fast enough in between

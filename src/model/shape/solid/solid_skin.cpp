@@ -1,9 +1,13 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
+// Visible, so that a program shares all static data of these templates with OpenVDB's library. It always shares the
+// flags in inline functions; if it did not share the names that they guard, the library would take its own for set.
+#pragma GCC visibility push(default)
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Filter.h>
 #include <openvdb/tools/Morphology.h>
 #include <openvdb/tools/VolumeToMesh.h>
+#pragma GCC visibility pop
 
 #include <algorithm>
 #include <cmath>
