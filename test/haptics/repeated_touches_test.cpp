@@ -46,44 +46,44 @@ Outcome touch(const Touched& how, const std::function<double(double)>& hand_m, d
   const auto at = [](double time_s) {
     return SteadyTime(std::chrono::hours(1)) + std::chrono::microseconds(std::llround(1e6 * time_s));
   };
-  ForceLoop::Hands hands;
-  hands[0].tracked = hands[0].listens = true;
+  ForceLoop::Inputs inputs;
+  inputs[0].tracked = inputs[0].accepts_force = true;
   Outcome out;
   ForceLoop::Ticks ticks;
   TickContact& contact = ticks[0].contact;
   ticks[0].tracked = true;
-  Vector3d told = Vector3d::Zero(), last = device.measured_m();
+  Vector3d sent_n = Vector3d::Zero(), last = device.measured_m();
   double next_pose_s = 0, next_tick_s = 0, answer_s = 1e9;
   for (int i = 0; i * kTouchPeriod_s < end_s; ++i) {
     const double now_s = i * kTouchPeriod_s;
     if (now_s + 0.5 * kTouchPeriod_s >= next_pose_s) {
       next_pose_s += 1 / how.poses_hz;
-      hands[0].tip_m = device.measured_m();
-      hands[0].told = at(now_s);
+      inputs[0].tip_m = device.measured_m();
+      inputs[0].pose_time = at(now_s);
     }
     if (now_s >= next_tick_s) {
       next_tick_s += kTouchTick_s;
       answer_s = now_s + 0.5 * kTouchTick_s;
       contact = {};
       contact.from_m = last;
-      contact.to_m = last = hands[0].tip_m;
+      contact.to_m = last = inputs[0].tip_m;
       const double push_n = -how.stiff_n_per_m * 0.5 * (contact.from_m.z() + contact.to_m.z());
       if (push_n > 0) contact.kind = TickContact::Kind::kPushes;
       contact.reaction.force_n = {0, 0, std::max(push_n, 0.0)};
       ticks[0].reaction = contact.reaction;
     }
     if (now_s >= answer_s) {
-      loop.put(ticks, hands, at(now_s));
+      loop.put(ticks, inputs, at(now_s));
       answer_s = 1e9;
     }
     if (at(now_s) >= loop.due()) {
-      told = loop.next(hands, at(now_s))[0].force_n;
-      loop.sent({told}, at(now_s));
+      sent_n = loop.next(inputs, at(now_s))[0].force_n;
+      loop.sent({sent_n}, at(now_s));
     }
-    device.step(told, {0, 0, hand_m(now_s)});
+    device.step(sent_n, {0, 0, hand_m(now_s)});
     out.least_j = std::min(out.least_j, device.energy_j());
-    if (now_s < kPokeWay_m / kPokeSpeed_m_per_s * 2) out.first_n = std::max(out.first_n, told.norm());
-    if (now_s >= end_s - kTouchLook_s) out.held_n += told.norm() * kTouchPeriod_s / kTouchLook_s;
+    if (now_s < kPokeWay_m / kPokeSpeed_m_per_s * 2) out.first_n = std::max(out.first_n, sent_n.norm());
+    if (now_s >= end_s - kTouchLook_s) out.held_n += sent_n.norm() * kTouchPeriod_s / kTouchLook_s;
   }
   return out;
 }

@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-constexpr int kTicks = 12;
+constexpr int kModeTicks = 12;
 
 class ToolModes : public OnSceneBackend {
  protected:
@@ -62,14 +62,14 @@ TEST_P(ToolModes, CutsOnlyWhereTheSceneWasMadeForThem) {
 TEST_P(ToolModes, TheSameChangesAtTheSameTicksGiveTheSameState) {
   const auto hash = [this](int at) {
     Session session(scene(), context_);
-    for (int t = 1; t <= kTicks; ++t) {
+    for (int t = 1; t <= kModeTicks; ++t) {
       if (t == at) session.setToolMode(0, ToolSwitch::kButton1, ToolMode::kGrab);
       session.step(pull(t), {});
     }
     return session.stateHash();
   };
   EXPECT_EQ(hash(3), hash(3));
-  EXPECT_NE(hash(3), hash(kTicks + 1));
+  EXPECT_NE(hash(3), hash(kModeTicks + 1));
 }
 
 }  // namespace

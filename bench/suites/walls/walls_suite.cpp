@@ -120,6 +120,7 @@ HangingOrgan hang(const Organ& organ, const OrganFile& file, double nu, double s
   out.settled = settledError(model, scene, solver, organ.load, out.settle);
   for (Body& body : model.bodies) {
     body.material.walls = Walls::kRows;
+    addRowGhosts(body);
     out.in_walls += wallCells(body).size();
   }
   if (out.in_walls > 0) out.settled_rows = settledError(model, scene, solver, organ.load, out.settle_rows);
