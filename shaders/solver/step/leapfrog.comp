@@ -96,6 +96,14 @@ vec3 added(uint of, vec3 sum, vec3 increment) {
 #endif
 }
 
+/// Advances a node: ((1 - g) v + kick a) / (1 + g), as v and an increment. Rounding of 1 - g would act as drag, the same in every
+/// substep.
+void advance(uint slot, BodyParams body, vec3 acceleration, vec3 u, vec3 v, OUT(vec3) u_next, OUT(vec3) v_next) {
+  float g = 0.5f * body.mass_damping_per_s * kick_s;
+  v_next = added(2u * slot + 1u, v, (kick_s * acceleration - (2.0f * g) * v) / (1.0f + g));
+  u_next = added(2u * slot, u, dt_s * v_next);
+}
+
 #ifdef WALLS
 /// Advances a ghost: only the second difference of its fixed node acts on it.
 void stepGhost(uint slot, NodeBits bits) {
@@ -105,12 +113,8 @@ void stepGhost(uint slot, NodeBits bits) {
   vec3 u = xyz(stateAt(displacement, int(slot))), u_next = u, v_next = vec3(0.0f);
   if (isWithinRow(of_fixed, axis)) {
     BodyParams body = bodies[bodyOf(bits)];
-    vec3 v = xyz(stateAt(velocity, int(slot)));
     vec3 force = -xyz(stateAt(cell_forces, int(cellVector(fixed_node, kCellVectors + axis))));
-    float g = 0.5f * body.mass_damping_per_s * kick_s;
-    vec3 acceleration = force / nodeMass(fixed_node, of_fixed, body);
-    v_next = added(2u * slot + 1u, v, (kick_s * acceleration - (2.0f * g) * v) / (1.0f + g));
-    u_next = added(2u * slot, u, dt_s * v_next);
+    advance(slot, body, force / nodeMass(fixed_node, of_fixed, body), u, xyz(stateAt(velocity, int(slot))), u_next, v_next);
     fallAsleep(bits, u, u_next, v_next);
   }
   next_displacement[slot] = vec4(u_next, 0.0f);
@@ -139,11 +143,8 @@ void main() {
   vec3 v = xyz(stateAt(velocity, int(slot)));
   float mass = nodeMass(slot, bits, body);
   vec3 acceleration = elasticForce(slot, bits, body, u, v) / mass + gravity;
-
-  // ((1 - g) v + kick a) / (1 + g), as v and an increment: rounding of 1 - g would act as drag, the same in every substep.
-  float g = 0.5f * body.mass_damping_per_s * kick_s;
-  vec3 v_next = added(2u * slot + 1u, v, (kick_s * acceleration - (2.0f * g) * v) / (1.0f + g));
-  vec3 u_next = added(2u * slot, u, dt_s * v_next);
+  vec3 u_next, v_next;
+  advance(slot, body, acceleration, u, v, u_next, v_next);
 #ifdef TOOLS
   resolveContacts(slot, bits, mass, u, u_next, v_next);
   if (mayFeelEdges(slot, bits, restPosition(slot) + u_next)) {
