@@ -19,7 +19,7 @@ INTEGRATE = "*Integrate.MatchesReferenceAtEverySize*"
 SKIN_REST = "SkinMapping.RestPoseComesBackToFloatRounding"
 SKIN_LIKE = "SkinMapping.AgreesWithTheReferenceAtEverySize"
 SUITES = "AccuracySuite.ReachesEveryLimitInItsShortForm"
-UPDATE = "vec3 u_next = added(2u * slot, u, dt_s * v_next);"
+UPDATE = "u_next = added(2u * slot, u, dt_s * v_next);"
 
 MUTATIONS = [
     Mutation("half_force", LEAPFROG, "force += (k * s.extension) * s.direction;",
@@ -34,14 +34,14 @@ MUTATIONS = [
     Mutation("no_volume", MATERIAL, "const double bulk = nu == 0.25 ? 0 : (lambda_over_mu - 1) * mu * h * h * h;",
              "const double bulk = 0 * lambda_over_mu * h * h * h;", "test_solver", "ReferenceOracle.TensionTests*"),
     Mutation("positions", LEAPFROG, UPDATE,
-             "vec3 u_next = (restPosition(slot) + u) + dt_s * v_next - restPosition(slot);", "test_solver", INTEGRATE),
+             "u_next = (restPosition(slot) + u) + dt_s * v_next - restPosition(slot);", "test_solver", INTEGRATE),
     Mutation("position_differences", LEAPFROG, UPDATE,
-             "vec3 u_next = (restPosition(slot) + u) + dt_s * v_next - restPosition(slot);\n"
+             "u_next = (restPosition(slot) + u) + dt_s * v_next - restPosition(slot);\n"
              "  v_next = ((restPosition(slot) + u_next) - (restPosition(slot) + u)) / dt_s;", "test_solver", INTEGRATE),
-    Mutation("printed_order", LEAPFROG, UPDATE, "vec3 u_next = (u + dt_s * v) + dt_s * (v_next - v);", "test_solver",
+    Mutation("printed_order", LEAPFROG, UPDATE, "u_next = (u + dt_s * v) + dt_s * (v_next - v);", "test_solver",
              "*PaperErrors.IncrementsAreSummed*"),
     Mutation("velocity_differences", LEAPFROG, UPDATE,
-             "vec3 u_next = u + dt_s * v_next;\n  v_next = (u_next - u) / dt_s;", "test_solver", INTEGRATE),
+             "u_next = u + dt_s * v_next;\n  v_next = (u_next - u) / dt_s;", "test_solver", INTEGRATE),
     Mutation("never_compensated", "src/solver/tissue/features.cpp",
              "features.compensated = isCompensated(scene.solver, dt_s);",
              "features.compensated = dt_s < 0 && scene.solver.compensated;", "test_solver",
