@@ -39,7 +39,7 @@ TEST(WallThickness, ErrorsAreThoseThatWereMeasured) {
   EXPECT_NEAR(expectedWallError(1).most, 0.174, 1e-9);
   EXPECT_NEAR(expectedWallError(1).least, 0.036, 1e-9);
   EXPECT_NEAR(expectedWallError(6).most, 0.022 / 4, 1e-9);
-  EXPECT_NEAR(expectedWallError(1, Walls::kRows).most, 0.066, 1e-9);
+  EXPECT_NEAR(expectedWallError(1, Walls::kRows).most, 0.041, 1e-9);
   EXPECT_NEAR(expectedWallError(cellsForWallError(0.05, Walls::kRows), Walls::kRows).most, 0.05, 1e-6);
   EXPECT_GT(expectedWallError(0.2).most, expectedWallError(0.53).most);
   EXPECT_NEAR(expectedWallError(cellsForWallError(0.05)).most, 0.05, 1e-6);

@@ -24,19 +24,20 @@ struct WallError {
   double cells, bowl, tube;
 };
 using WallErrors = std::array<WallError, 6>;
-/// Errors measured against CalculiX at nu 0.3 (`viscera bench walls`; docs/verification.md). From one cell on, the
-/// tube's error is assumed to fall as the square of the spacing. With rows, the error at three cells is assumed to be
-/// half of that at two.
+/// Errors measured against CalculiX at nu 0.3, with rows at nu 0.45 (`viscera bench walls`; docs/verification.md). From
+/// one cell on, the tube's error is assumed to fall as the square of the spacing, and errors above the largest number
+/// of cells and below the least one to change so. With rows, the error at three cells is assumed to be half of that at
+/// two.
 constexpr WallErrors kCellErrors = {{{0.53, 0.315, 0.095},
                                      {0.75, 0.254, 0.056},
                                      {1, 0.174, 0.036},
                                      {1.5, 0.104, 0.016},
                                      {2, 0.063, 0.009},
                                      {3, 0.022, 0.004}}};
-constexpr WallErrors kRowErrors = {{{0.53, 0.127, 0.048},
-                                    {0.75, 0.109, 0.024},
-                                    {1, 0.066, 0.007},
-                                    {1.5, 0.036, 0.003},
+constexpr WallErrors kRowErrors = {{{0.53, 0.062, 0.048},
+                                    {0.75, 0.06, 0.024},
+                                    {1, 0.041, 0.007},
+                                    {1.5, 0.033, 0.003},
                                     {2, 0.021, 0.002},
                                     {3, 0.01, 0.001}}};
 
@@ -90,10 +91,10 @@ std::optional<WallThickness> wallThickness(const Body& body) {
 
 WallErrorRange expectedWallError(double cells, Walls walls) {
   const WallErrors& errors = walls == Walls::kRows ? kRowErrors : kCellErrors;
-  const WallError& last = errors.back();
-  if (cells >= last.cells) {
-    const double finer = std::pow(last.cells / cells, 2);
-    return {last.tube * finer, last.bowl * finer};
+  if (cells <= errors.front().cells || cells >= errors.back().cells) {
+    const WallError& known = cells <= errors.front().cells ? errors.front() : errors.back();
+    const double coarser = std::pow(known.cells / cells, 2);
+    return {std::min(1.0, known.tube * coarser), std::min(1.0, known.bowl * coarser)};
   }
   size_t i = 1;
   while (errors[i].cells < cells) ++i;
