@@ -23,7 +23,7 @@ constexpr double kJudged_m_per_s = 0.005;
 constexpr double kSoftenTime_s = 0.02, kStiffenTime_s = 5;
 constexpr double kLeastShare = 0.1;
 /// Energy owed to the user from which forces of fast motion are reduced, and at which they are by most [J].
-constexpr double kOwedFree_j = 2e-4, kOwedMost_j = 7e-4;
+constexpr double kOwedFree_j = 5e-4, kOwedMost_j = 1e-3;
 /// Speed that pokes exceed. Slower motion keeps its forces, since a light device that is held oscillates otherwise
 /// [m/s].
 constexpr double kPoke_m_per_s = 0.02;
