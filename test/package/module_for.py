@@ -6,7 +6,6 @@
 BUILD: a Ninja build of the module viscera_python. TOP: a root with Python, its headers and those of pybind11. OUT: the folder for
 the package. Only the sources of src/python are compiled, with the commands of the build; the rest is that of the build.
 """
-import glob
 import importlib.machinery
 import importlib.util
 import os
@@ -34,16 +33,19 @@ def wheel_script(sources):
 
 def main():
     sources, build, top, out = (pathlib.Path(text).resolve() for text in sys.argv[1:5])
-    (include,) = glob.glob(str(top / "usr/include/python3.[0-9]*"))
+    (python,) = [path.name for path in (top / "usr/include").glob("python3.[0-9]*")]
+    headers = out / "include"  # these alone: those of the C library are this machine's
+    for folder in (python, "pybind11", f"x86_64-linux-gnu/{python}"):
+        shutil.copytree(top / "usr/include" / folder, headers / folder)
     package = out / "viscera"
     shutil.copytree(sources / "src/python/viscera", package)
     shutil.copytree(sources / "config", package / "share/viscera/config")
-    module = package / f"_viscera.cpython-3{include.rsplit('.', 1)[1]}-x86_64-linux-gnu.so"
+    module = package / f"_viscera.cpython-{python.replace('python', '').replace('.', '')}-x86_64-linux-gnu.so"
     compiling, linking = commands(build)
     assert compiling, f"{build}: no command compiles src/python"
     running = []
     for number, line in enumerate(compiling):
-        line = re.sub(r"-isystem /usr/include/python3\.\d+", f"-isystem {include} -isystem {top}/usr/include/pybind11/..", line)
+        line = re.sub(r"-isystem /usr/include/python3\.\d+", f"-isystem {headers}/{python} -isystem {headers}", line)
         place = re.search(r" -o (\S+)", line).group(1)
         line = re.sub(r" -MD -MT \S+ -MF \S+", "", line).replace(f" -o {place}", f" -o {out}/{number}.o")
         linking = linking.replace(f" {place}", f" {out}/{number}.o")
