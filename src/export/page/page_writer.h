@@ -25,7 +25,7 @@ struct PageStatus {
   }
 };
 
-/// Writes one HTML file that shows a session in a browser, from any side and at any time (docs/page.md). The file has
+/// Writes one HTML file that shows a session in a browser, from any side and at any time (docs/replay.md). The file has
 /// everything that it needs. Memory does not grow with the length of the session, except for 30 bytes per frame.
 class PageWriter {
  public:
