@@ -7,7 +7,7 @@
 
 namespace viscera {
 
-/// Bytes of a block of a page (docs/replay.md), little-endian on every machine.
+/// Bytes of a block of a page (page_writer.h), little-endian on every machine.
 class PageBytes {
  public:
   void putByte(uint8_t value) { bytes_ += static_cast<char>(value); }

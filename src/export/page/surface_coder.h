@@ -29,7 +29,7 @@ struct PageGrid {
 /// these from two neighbouring vertices. A key frame has differences from the base instead, so that decoding can begin
 /// there.
 ///
-/// The first surface of a block (docs/replay.md, Format of a page) refers to the base, each later one to the surface
+/// The first surface of a block (page_writer.h) refers to the base, each later one to the surface
 /// before it; the base refers to an empty surface. "Before" is that surface. A surface has, in this order:
 /// * Flags, a byte: 1, triangles differ from those before; 2, colours differ.
 /// * Triangles, if they differ. Counts: vertices; removed triangles, then for each the count of triangles since the
