@@ -17,7 +17,8 @@
 
 namespace viscera::test {
 
-/// Decoder of pages after docs/page.md, independent of the writer and of the viewer in the page.
+/// Decoder of pages after the text in page_writer.h and surface_coder.h, independent of the writer and of the viewer in
+/// the page.
 class PageDecoder {
  public:
   struct Tube {

@@ -12,7 +12,7 @@
 
 namespace viscera::cli {
 
-/// Page of a session (docs/page.md): a surface mesh with tools at the rate of the options, and marks of events. The
+/// Page of a session (docs/replay.md): a surface mesh with tools at the rate of the options, and marks of events. The
 /// file appears with finish(), and not at all after an error.
 class Page {
  public:

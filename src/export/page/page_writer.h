@@ -25,8 +25,28 @@ struct PageStatus {
   }
 };
 
-/// Writes one HTML file that shows a session in a browser, from any side and at any time (docs/page.md). The file has
+/// Writes one HTML file that shows a session in a browser, from any side and at any time (docs/replay.md). The file has
 /// everything that it needs. Memory does not grow with the length of the session, except for 30 bytes per frame.
+///
+/// Format. A block is an element <script type="text/plain" id="bN"> with base64 of zlib data (RFC 1950). Numbers are
+/// little-endian; counts and signed counts are those of PageBytes. The element "index" is JSON:
+/// * format, rate_hz, newton_m: 1; frames per simulated second; length of a force arrow [m/N].
+/// * times: time of each frame [s].
+/// * scenes: names of bodies, tools and cameras; poses of cameras; width and colour of tubes.
+/// * bases: block, scene, and the grid: origin and step [m].
+/// * blocks: block, base and the number of frames; at most 3 s each.
+/// * shapes: block of a rigid shape: vertices (position, normal, RGBA: 28 bytes each), then indices (4 bytes), of which
+///   "solid" are opaque.
+/// * marks: kind, text, from and to [s].
+/// * lines, statuses: lists of [first frame, value]: lines of a task; its name, step and score.
+///
+/// A base is one surface (SurfaceCoder). A new one begins with each scene, after each jump of the state, and where a
+/// vertex leaves the grid (PageGrid). A block of frames has for each frame:
+/// * A surface.
+/// * Tubes: their count; for each its style and number of points as counts, a byte, and three signed counts per point,
+///   in steps of the grid. Byte 1: minus the point of the same tube in the last frame; 0: minus the point before it.
+/// * Tools: their count; for each its shape as a count, position [m] and quaternion x, y, z, w as float32.
+/// * Forces: the count of tools; the force on each [N], then the tip of each [m], three float32 each.
 class PageWriter {
  public:
   /// Begins the file. @param rate_hz  frames per simulated second, for the player   @throws Error  it cannot be written

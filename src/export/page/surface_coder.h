@@ -25,9 +25,26 @@ struct PageGrid {
   Eigen::Vector3i nearest(const Vector3d& position_m) const;
 };
 
-/// Encodes the surface meshes of a session, frame after frame, as docs/page.md describes. Positions are differences
-/// from the frame before, and of these from two neighbouring vertices. A key frame has differences from the base
-/// instead, so that decoding can begin there.
+/// Encodes the surface meshes of a session, frame after frame. Positions are differences from the frame before, and of
+/// these from two neighbouring vertices. A key frame has differences from the base instead, so that decoding can begin
+/// there.
+///
+/// The first surface of a block (page_writer.h) refers to the base, each later one to the surface
+/// before it; the base refers to an empty surface. "Before" is that surface. A surface has, in this order:
+/// * Flags, a byte: 1, triangles differ from those before; 2, colours differ.
+/// * Triangles, if they differ. Counts: vertices; removed triangles, then for each the count of triangles since the
+///   last removed one; added triangles. An added triangle is a byte (0 surface, 1 wall of a cut) and three signed
+///   counts: each corner minus the last one, the first minus the first of the last added triangle. Removed triangles
+///   leave the list, which keeps its order, and added ones follow.
+/// * Colours, if they differ: four planes (red, green, blue, alpha) of one byte per vertex, minus the colour before.
+/// * Positions. For x, y and z: half a byte per vertex, the lower half first; 15 stands for a longer number. Then the
+///   low bytes of all longer numbers, then their high bytes.
+///
+/// The number of a position is 16 bits with the sign in the lowest bit, modulo 65536: the steps of the vertex minus the
+/// expected ones. A vertex that was there before is expected to move by the mean of its two neighbours' steps, a new
+/// one to be at their mean: half of the sum plus one, rounded down. The neighbours are the two vertices with the
+/// largest numbers below its own that share a triangle, or twice the only one. Without neighbours, the vertex is
+/// expected where it was, or at 0. Vertices of no triangle are stored as expected.
 class SurfaceCoder {
  public:
   /// Begins with a mesh as the base. @param colors  [vertices] RGBA8, red in the low byte

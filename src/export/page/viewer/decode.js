@@ -1,5 +1,5 @@
 'use strict';
-// Decoding of a page's blocks (docs/page.md): surface meshes, tubes, placed tools and forces of each frame.
+// Decoding of a page's blocks (page_writer.h, surface_coder.h): surface meshes, tubes, placed tools and forces of each frame.
 const NONE = 0xffffffff;
 
 /** Returns the bytes of a block, decompressed. */
