@@ -65,7 +65,7 @@ TEST_F(ErrorLines, CommandLineIsRefusedInOneLineToo) {
 TEST_F(ErrorLines, VersionIsNoError) {
   const auto result = viscera({"--version"});
   EXPECT_EQ(result.status, 0);
-  EXPECT_TRUE(says(result.out, {"viscera 0."}));
+  EXPECT_TRUE(says(result.out, {"viscera 1."}));
 }
 
 TEST_F(ErrorLines, MemoryThatDoesNotSufficeSaysWhatFor) {

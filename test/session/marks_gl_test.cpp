@@ -181,15 +181,22 @@ TEST_P(Marks, PartWhereTheTissueIsCut) {
 }
 
 TEST_P(Marks, AreNotInDepthsLabelsOrTheState) {
-  Session with(scene(), context_), without(scene({}), context_);
-  for (Session* session : {&with, &without}) {
-    play(*session, cut, kCutTicks);
-    session->drain();
-  }
-  EXPECT_EQ(with.stateHash(), without.stateHash());
-  EXPECT_EQ(picture(with, PictureKind::kDepth).depths_m, picture(without, PictureKind::kDepth).depths_m);
-  EXPECT_EQ(picture(with, PictureKind::kLabels).labels, picture(without, PictureKind::kLabels).labels);
-  EXPECT_NE(picture(with).rgb, picture(without).rgb);
+  struct Seen {
+    uint64_t state_hash;
+    ImageFrame color, depths, labels;
+  };
+  const auto seen = [&](const Scene& scene) {
+    Session session(scene, context_);
+    play(session, cut, kCutTicks);
+    session.drain();
+    return Seen{session.stateHash(), picture(session), picture(session, PictureKind::kDepth),
+                picture(session, PictureKind::kLabels)};
+  };
+  const Seen with = seen(scene()), without = seen(scene({}));
+  EXPECT_EQ(with.state_hash, without.state_hash);
+  EXPECT_EQ(with.depths.depths_m, without.depths.depths_m);
+  EXPECT_EQ(with.labels.labels, without.labels.labels);
+  EXPECT_NE(with.color.rgb, without.color.rgb);
 }
 
 TEST_P(Marks, AreShownToTheRightEyeToo) {
@@ -214,7 +221,9 @@ TEST_P(Marks, OfAUserComeAndGoWithoutOthers) {
   EXPECT_NE(picture(session).rgb, one.rgb);
   const uint64_t repeats = session.counters().repeats;
   picture(session);
-  EXPECT_EQ(session.counters().repeats, repeats + 1) << "nothing has changed, so nothing is drawn";
+  if (GetParam() == Backend::kCpu) {
+    EXPECT_EQ(session.counters().repeats, repeats + 1) << "nothing has changed, so nothing is drawn";
+  }
   session.showMarks({});
   constexpr int kRounded = 1;  // of 255: other shaders round differently
   const ImageFrame again = picture(session);
@@ -249,6 +258,7 @@ TEST_P(Marks, OfAClothAreSeenToo) {
   Scene cloth = scene({});
   cloth.bodies[0].structure = Structure::kSurface;
   cloth.bodies[0].source = TissueSource::kSheet;
+  cloth.bodies[0].fixed.clear();
   Session session(cloth, context_);
   const ImageFrame none = picture(session);
   session.showMarks({lineMark(besideCut())});

@@ -114,7 +114,10 @@ TEST(SkinMarks, PatternsDifferInTheirLines) {
   EXPECT_NEAR(areas[0], 1, 0.01);
   EXPECT_NEAR(areas[1], 0.583, 0.08) << "of the dashes' share, 7 of 12, to a part of half a width";
   EXPECT_NEAR(areas[2], 1.6, 0.02);
-  EXPECT_GT(areas[3], 0.5 + 4 * 0.8);
+  // Crosses begin after 2.5 half widths and follow every 10. Each has two arms of 2 x 3.2 half widths along and across.
+  constexpr double kHalves = 0.024 / (0.5 * kWidth_m);
+  const double crosses = 1 + std::floor((kHalves - 2.5) / 10), arm = 2 * 3.2 * std::sqrt(2.0) * 1.6;
+  EXPECT_NEAR(areas[3], 0.5 + crosses * 2 * arm / (2 * kHalves), 0.01);
   EXPECT_NEAR(areas[4], 0.5, 0.01);
 }
 

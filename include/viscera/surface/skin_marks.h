@@ -7,11 +7,12 @@
 #include <memory>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 #include "viscera/model/scene/mark_config.h"
 #include "viscera/surface/visible_mesh.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 /// Point on a surface mesh at rest.
 struct SkinPoint {

@@ -136,6 +136,7 @@ std::string TaskSwitch::start(Session& session, const TaskConfig& task, const st
   const std::lock_guard<std::mutex> lock(mutex_);
   last_ = task;
   if (!trainee.empty()) trainee_ = trainee;
+  has_started_ = true;
   state_.report.clear();
   return task.title;
 }
@@ -169,7 +170,8 @@ void TaskSwitch::measured(const Session&, uint64_t tick, const layout::TickStats
 
 void TaskSwitch::notice() {
   if (!watch_) return;
-  const bool turned = watch_->task() && state_.state != messageState(watch_->status().state);
+  const bool turned =
+      std::exchange(has_started_, false) || (watch_->task() && state_.state != messageState(watch_->status().state));
   if (!turned && !isPast(noticed_, kTaskPeriod_s)) return;
   noticed_ = TaskClock::now();
   const std::lock_guard<std::mutex> lock(mutex_);

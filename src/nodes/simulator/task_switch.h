@@ -71,6 +71,7 @@ class TaskSwitch : public SessionLog {
   std::vector<ToolTally> tallies_;
   std::vector<std::string> styluses_;
   std::string trainee_;
+  bool has_started_ = false;  ///< a task was started that is not published yet
   double tick_s_, peak_strain_ = 0;
   uint64_t measured_tick_ = 0;
   uint32_t springs_cut_ = 0;

@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "viscera/api.h"
 #include "viscera/math/types.h"
 
-namespace viscera {
+namespace VISCERA_PUBLIC viscera {
 
 enum class MarkKind { kLine, kCircle, kRing, kTarget };
 
