@@ -131,6 +131,9 @@ obstacles:
     frame: arm
     friction: 0.409
     restitution: 0.411
+marks:
+  - {body: organ, kind: ring, path: [{position_m: [0.414, 0.415, 0.416]}], center_m: [0.417, 0.418, 0.419],
+     normal: [0.421, 0.422, 0.423], radius_m: 0.0424, width_m: 0.00425, color: [0.426, 0.427, 0.428], pattern: crossed}
 solver: {tick_hz: 90, integrator: leapfrog, dt_fraction: 0.91, dt_fraction_strained: 0.41, measured_limit: false, start: equilibrium, substeps: 93, iterations: 94,
          compensated: true, stability_monitor: false, recovery_s: 0.95, sleep_distance_m: 0.96, sleep_speed_m_per_s: 0.0097, max_substeps: 92,
          device: 3, backend: cpu, threads: 2, real_time_factor: 1.97}
@@ -383,6 +386,16 @@ TEST(SceneKeys, EveryKeyOfTheEnvironmentReachesItsField) {
   EXPECT_EQ(obstacle.frame, "arm");
   EXPECT_EQ(obstacle.friction, 0.409);
   EXPECT_EQ(obstacle.restitution, 0.411);
+  const MarkConfig& mark = scene.marks.at(0);
+  EXPECT_EQ(mark.body, "organ");
+  EXPECT_EQ(mark.kind, MarkKind::kRing);
+  EXPECT_EQ(mark.path.at(0).position_m, Vector3d(0.414, 0.415, 0.416));
+  EXPECT_EQ(mark.center_m, Vector3d(0.417, 0.418, 0.419));
+  EXPECT_EQ(mark.normal, Vector3d(0.421, 0.422, 0.423));
+  EXPECT_EQ(mark.radius_m, 0.0424);
+  EXPECT_EQ(mark.width_m, 0.00425);
+  EXPECT_EQ(mark.color, Vector3d(0.426, 0.427, 0.428));
+  EXPECT_EQ(mark.pattern, MarkPattern::kCrossed);
   const SutureConfig& suture = scene.sutures.at(0);
   EXPECT_EQ(suture.name, "suture");
   EXPECT_EQ(suture.material, SutureMaterial::kSilk);
