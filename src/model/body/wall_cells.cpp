@@ -112,6 +112,11 @@ double thicknessAt(const CellGrid& grid, const Vector3d& position, const Vector3
   return std::min(sum, kThick);
 }
 
+/// Least share of the tissue around a fixed node, weighted by the square of its cells' rows, for which the node gets
+/// ghosts. A ghost has the mass of its node, so its frequency falls with this share. A ghost that is hardly coupled
+/// would take long to come to rest and change little.
+constexpr double kLeastCoupled = 0.25;
+
 /// Bricks of a lattice by their coordinates, and new ones beyond its bounds.
 class BrickGrid {
  public:
@@ -212,17 +217,24 @@ std::vector<WallCell> wallCells(const Body& body) {
 
 void addRowGhosts(Body& body) {
   Lattice& lattice = body.lattice;
-  std::vector<uint32_t> fixed;
+  std::map<uint32_t, double> coupled;  // of fixed nodes: sum of their cells' shares times the square of rows
   for (const WallCell& wall : wallCells(body)) {
+    const double share = fillOf(lattice, wall.cell).share * wall.rows * wall.rows;
     forEachCorner(lattice, wall.cell, [&](const Vector3i& /*corner*/, uint32_t slot) {
-      if (isFixed(lattice.nodes[slot])) fixed.push_back(slot);
+      if (isFixed(lattice.nodes[slot])) coupled[slot] += share;
     });
   }
-  std::sort(fixed.begin(), fixed.end());
-  fixed.erase(std::unique(fixed.begin(), fixed.end()), fixed.end());
-  if (fixed.empty()) return;
+  if (coupled.empty()) return;
+  std::map<uint32_t, double> all;  // the sum of their cells' shares
+  for (const uint32_t cell : lattice.active_slots) {
+    if (lattice.cell_labels[cell] == 0) continue;
+    forEachCorner(lattice, cell, [&](const Vector3i& /*corner*/, uint32_t slot) {
+      if (isFixed(lattice.nodes[slot])) all[slot] += fillOf(lattice, cell).share;
+    });
+  }
   BrickGrid grid(lattice);
-  for (const uint32_t slot : fixed) {
+  for (const auto& [slot, share] : coupled) {
+    if (share < kLeastCoupled * all.at(slot)) continue;
     for (int axis = 0; axis < 3; ++axis) {
       const int out = springOut(lattice, slot, axis);
       if (out < 0) continue;

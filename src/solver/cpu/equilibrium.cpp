@@ -133,11 +133,15 @@ class Relaxation {
         influences_(bodyInfluences(model, tissue)),
         reference_u_(3 * lattice_.slotCount()),
         reference_a_(3 * lattice_.slotCount()),
+        masses_kg_(lattice_.strengths.mass),
         parts_(lattice_.brickCount()) {
     const simd::Kernels kernels = kernelsOrThrow({});
     if (features_.network) network_ = std::make_unique<CpuNetwork>(lattice_, pool, features_, kernels);
     stepper_ = makeCpuStepper(Integrator::kLeapfrog, 0, lattice_, {pool, sleep_, network_.get(), features_, kernels});
     for (const layout::vec4& a : influences_) pushed_ = pushed_ || a.x != 0 || a.y != 0 || a.z != 0;
+    for (size_t slot = 0; slot < masses_kg_.size(); ++slot) {
+      if (isGhost(lattice_.store.nodes[slot])) masses_kg_[slot] = 0;
+    }
     for (const uint32_t slot : lattice_.store.active) {
       if (lattice_.strengths.mobility[slot] <= 0) continue;
       const double mass_kg = static_cast<double>(lattice_.strengths.mass[slot]);
@@ -255,7 +259,7 @@ class Relaxation {
   /// Sums over a brick. Accelerations and displacements are those at the beginning of the substep.
   Sums sumBrick(size_t brick, float kick_s, float g, bool renews) {
     const CpuState& state = lattice_.state;
-    const float* mass = &lattice_.strengths.mass[brick * layout::kBrickSlots];
+    const float* mass = &masses_kg_[brick * layout::kBrickSlots];
     const size_t at = 3 * layout::kBrickSlots * brick;
     const float *u = &state.displacement[1 - state.current][at], *before = &state.velocity[1 - state.current][at];
     const float* after = &state.velocity[state.current][at];
@@ -287,6 +291,9 @@ class Relaxation {
   /// [3 * slots] displacement [m] and acceleration [m/s2] of an earlier substep, from which the stiffness along the
   /// motion is estimated. Many substeps are between, since rounding errors are as large as the change in one.
   AlignedVector<float> reference_u_, reference_a_;
+  /// [slots] weights of the sums; 0 for ghosts. Where ghosts alternate in sign along a clamp, nothing resists them, so
+  /// their slow motion says nothing about the tissue.
+  AlignedVector<float> masses_kg_;
   std::vector<Sums> parts_;  ///< [bricks]
   std::unique_ptr<CpuNetwork> network_;
   std::unique_ptr<CpuStepper> stepper_;
