@@ -91,8 +91,8 @@ void visitFields(V& v, MaterialConfig& c) {
            "auto is neo_hookean for structure lattice with integrator leapfrog and weights cell, else springs");
   v.choice("walls", c.walls, {{"cells", Walls::kCells}, {"rows", Walls::kRows}},
            "law neo_hookean: bending model of walls below three cells that are oblique to the lattice: cells uses the "
-           "corners of their cells; rows uses rows of nodes, with a third to a half of the error, at three to six "
-           "times the time for such cells (docs/physics.md#thin-walls, docs/material.md)");
+           "corners of their cells; rows uses rows of nodes, with a seventh to a half of the error, at about twice the "
+           "time for such cells (docs/physics.md#thin-walls, docs/material.md)");
   v.numberOrAuto("stiffening", c.stiffening, c.stiffens_as_tissue, {0, 100}, "1",
                  "law neo_hookean: b of the shear energy mu/(2 b) (exp(b (I1 - 3)) - 1), by which tissue stiffens as "
                  "it is stretched: by exp(b (I1 - 3)), at most 20 times; 0: no stiffening, and no cost; auto: that of "
