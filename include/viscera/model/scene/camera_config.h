@@ -17,6 +17,12 @@ enum class CameraLight {
   kLens,  ///< at the lens, like an endoscope's: a cone that fades with the square of the distance
 };
 
+/// Preset of a scene's appearance, for values that the scene does not give.
+enum class Look {
+  kPlain,     ///< defaults of the keys
+  kEndoscope  ///< light at the lens, wet tissue, contact shadows, two samples along each axis of a pixel
+};
+
 struct CameraConfig {
   std::string name = "camera";
   Vector3d position_m = Vector3d(0, -0.3, 0.1);

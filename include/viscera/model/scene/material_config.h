@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "viscera/api.h"
@@ -64,6 +65,7 @@ struct PartConfig {
   FractureConfig cut = {};
   PrestressConfig prestress = {};
   BleedingConfig bleeding = {};
+  std::optional<Vector3d> color = {};  ///< red, green, blue; without: that of the body
 };
 
 /// Layer of a wound's wall: its colour down to a depth below the surface, and its toughness.

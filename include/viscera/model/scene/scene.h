@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "viscera/api.h"
+#include "viscera/model/scene/attachment_config.h"
 #include "viscera/model/scene/body_config.h"
 #include "viscera/model/scene/camera_config.h"
 #include "viscera/model/scene/environment_config.h"
@@ -35,6 +36,8 @@ struct Scene {
   SolverConfig solver;
   std::vector<SutureConfig> sutures;
   std::vector<MarkConfig> marks;
+  std::vector<AttachmentConfig> attachments;
+  Look look = Look::kPlain;
   std::string folder;           ///< folder of the scene file: relative mesh files are looked up here
   std::string file;             ///< scene file, for errors; empty for a scene that was not loaded from a file
   std::optional<OrganFit> fit;  ///< no key: fit to an organ that the file was not made for, see fitted_scene.h

@@ -89,7 +89,9 @@ struct StylusConfig {
   GrasperConfig grasper;
   ClipConfig clip;
   CauteryConfig cautery;
-  double shaft_length_m = 0.12;  ///< length of the drawn shaft, from the tip back [m]; nothing collides with it
+  double shaft_length_m = 0.12;  ///< length of the shaft, from the tip back [m]
+  double shaft_radius_m = 0;     ///< radius of the shaft [m]; 0: a fortieth of its length
+  bool shaft_contact = false;    ///< tissue is pushed by the whole shaft, not by the tip alone
   double jaw_closing_s = 0.2;    ///< time from open to closed, for jaws that a button closes [s]
   double max_force_n = 5;
   double max_force_rate_n_per_s = 100;
