@@ -62,8 +62,8 @@ struct BodyConfig {
   int skin_faces = 0;       ///< number of faces of the surface mesh; 0: all that it has
   int detail_px = 2048;
   double skin_spacing_m = 0;  ///< spacing of the surface mesh [m]; 0: as the lattice
-  Phantom phantom = Phantom::kHeart;
-  int phantom_seed = 0;  ///< variant of the anatomy, for Phantom::kGallbladder
+  Anatomy phantom = Anatomy::kHeart;
+  int phantom_seed = 0;  ///< variant of the anatomy, for Anatomy::kGallbladder
   double phantom_length_m = 0.1;
   double phantom_wall_scale = 1;
   Vector3d box_size_m = Vector3d::Constant(0.05);

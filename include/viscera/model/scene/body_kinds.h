@@ -9,7 +9,7 @@ namespace VISCERA_PUBLIC viscera {
 // Values of the keys of a body.
 
 enum class TissueSource { kPhantom, kMesh, kBox, kSheet, kBall, kLabels };
-enum class Phantom { kHeart, kGallbladder };
+enum class Anatomy { kHeart, kGallbladder };
 enum class Structure { kLattice, kExplicit, kSurface };
 enum class SkinSource { kAuto, kInput, kVolume };
 enum class Mapping { kAuto, kOneToOne, kConstant, kInterpolated, kAlongNormal };  ///< see docs/surface.md
