@@ -446,7 +446,7 @@ TEST(SceneKeys, TableHoldsEveryKeyOnceAndNoOther) {
   for (const std::string& key : listed) EXPECT_EQ(accepted.count(key), 1u) << key << " is missing in this test's scene";
 }
 
-TEST(SceneKeys, EveryRowTellsAllAboutItsKey) {
+TEST(SceneKeys, EveryRowIsComplete) {
   for (const auto& row : tableRows(sceneKeysTable())) {
     ASSERT_EQ(row.size(), 6u) << row.at(1);  // nothing precedes the first bar
     EXPECT_GT(row[2].size(), 2u) << row[1] << " has no type";
