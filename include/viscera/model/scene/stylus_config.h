@@ -75,7 +75,7 @@ struct CauteryConfig {
   double power_w = 30;      ///< power into the tissue that it touches [W]
 };
 
-/// Motion of an instrument whose shaft passes through a point of the body wall (docs/lessons/instruments.md#trocars).
+/// Motion of an instrument with a shaft that passes a point of the body wall (docs/lessons/instruments.md#trocars).
 enum class TrocarMotion {
   kNone,    ///< no trocar
   kHandle,  ///< the handle follows the pose: sideways motion rotates the shaft about the point, reversed at the tip
