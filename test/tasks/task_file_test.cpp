@@ -54,6 +54,13 @@ TEST(TaskFile, ErrorsNameFileLineKeyAndWhatIsAccepted) {
   EXPECT_TRUE(names(errorOf(task + "pass_score: 301\n"), {"'pass_score' must be 0 .. 300"}));
   EXPECT_TRUE(names(errorOf("a: [\n"), {"task.yaml:2"}));
   EXPECT_TRUE(names(errorOf("7\n"), {"task.yaml: a task must be a map"}));
+  EXPECT_TRUE(names(errorOf("scene: a\nkind: detach\n"), {"'detach' is missing"}));
+  EXPECT_TRUE(names(errorOf("scene: a\nkind: operation\n"), {"'operation' is missing"}));
+  EXPECT_TRUE(names(errorOf("scene: a\nkind: operation\noperation: {stages: []}\n"), {"'operation.stages' must be"}));
+  EXPECT_TRUE(names(errorOf("scene: a\nkind: operation\noperation: {stages: [{kind: lift}]}\n"),
+                    {"'operation.stages[0]': 'lift' is missing"}));
+  EXPECT_TRUE(names(errorOf("scene: a\nkind: operation\noperation: {stages: [{kind: operation}]}\n"),
+                    {"'operation.stages[0].kind'", "detach"}));
 }
 
 TEST(TaskFile, KindsStandInTheOrderOfTheirGoals) {

@@ -22,7 +22,9 @@ class ClipJudge : public TaskJudge {
         joint_(model, goal.clips.front().position_m, goal.clips.back().position_m) {}
   bool usesCuts() const override { return true; }
   bool usesClips() const override { return true; }
-  bool isApart(const CutState& cuts) const override { return joint_.isApart(cuts); }
+  bool judgesAlways() const override { return true; }
+  bool claims(const Vector3d& clip_m) const override { return nearest(clip_m).second <= goal_.radius_m; }
+  uint32_t piecesApart(const CutState& cuts) const override { return joint_.isApart(cuts) ? 1 : 0; }
   void judge(const TaskTick& tick, TaskTally& tally) override {
     std::fill(at_.begin(), at_.end(), false);
     size_t bad = tick.clips.empty + tick.clips.taken_off;
@@ -37,8 +39,8 @@ class ClipJudge : public TaskJudge {
     }
     tally.bad_clips = static_cast<double>(bad);
     // Tissue divided without clips on both sides has bled; later clips do not make up for it.
-    if (tick.apart && !apart_) clipped_first_ = allClipped();
-    apart_ = apart_ || tick.apart;
+    if (tick.apart != 0 && !apart_) clipped_first_ = allClipped();
+    apart_ = apart_ || tick.apart != 0;
   }
   double progress() const override {
     const auto clipped = static_cast<double>(std::count(at_.begin(), at_.end(), true));
