@@ -65,11 +65,14 @@ struct CloseGoal {
   int throws = 3;
 };
 
-/// Clip tissue at two or more positions, and divide it between the innermost two.
+/// Clip tissue at two or more positions, and divide it between two of them.
 struct ClipGoal {
   bool given = false;
-  std::vector<TaskPosition> clips;  ///< an even number, in their order along the tissue
+  std::vector<TaskPosition> clips;  ///< in their order along the tissue
+  int divide_after = 0;             ///< number of clips before the division; 0: half of them
   double radius_m = 0.003;
+
+  size_t before() const { return divide_after > 0 ? static_cast<size_t>(divide_after) : clips.size() / 2; }
 };
 
 /// Cut tissue until no path leads from a position to tissue that is held in space.

@@ -71,9 +71,9 @@ void visitFields(V& v, CloseGoal& c) {
 template <class V>
 void visitFields(V& v, ClipGoal& c) {
   v.given(c.given);
-  v.list(
-      "clips", c.clips, kMostTaskPositions,
-      "positions of the clips, an even number in their order along the tissue, which is to be divided in the middle");
+  v.list("clips", c.clips, kMostTaskPositions, "positions of the clips, in their order along the tissue");
+  v.integer("divide_after", c.divide_after, {0, kMostTaskPositions},
+            "number of clips before the place where the tissue is to be divided; 0: half of them, of an even number");
   v.number("radius_m", c.radius_m, kTaskWidth, "m",
            "distance from a position within which a clip counts as placed there");
 }

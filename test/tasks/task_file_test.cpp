@@ -46,6 +46,10 @@ TEST(TaskFile, ErrorsNameFileLineKeyAndWhatIsAccepted) {
   EXPECT_TRUE(names(errorOf("scene: a\nkind: clip_and_divide\n"), {"'clip_and_divide' is missing"}));
   EXPECT_TRUE(names(errorOf("scene: a\nkind: clip_and_divide\nclip_and_divide: {clips: [{}]}\n"),
                     {"'clip_and_divide.clips'", "even number"}));
+  EXPECT_EQ(errorOf("scene: a\nkind: clip_and_divide\nclip_and_divide: {clips: [{}, {}, {}], divide_after: 2}\n"), "");
+  EXPECT_TRUE(
+      names(errorOf("scene: a\nkind: clip_and_divide\nclip_and_divide: {clips: [{}, {}, {}], divide_after: 3}\n"),
+            {"'clip_and_divide.divide_after'", "0 .. 2"}));
   EXPECT_TRUE(names(errorOf("scene: a\nkind: close_wound\nclose_wound: {path: [{}]}\n"), {"'close_wound.path'"}));
   EXPECT_TRUE(names(errorOf("scene: a\nkind: close_wound\nclose_wound: {knots: 0}\n"), {"task.yaml:3", "1 .. 64"}));
   EXPECT_TRUE(names(errorOf("kind: lift\nlift: {}\n"), {"task.yaml: ", "'scene' must name"}));
