@@ -16,7 +16,10 @@ namespace {
 
 const Vector3d kPoint_m(0.01, -0.02, 0.1);
 constexpr double kShaft_m = 0.3;
-constexpr double kPasses_m = 1e-4;  ///< largest distance of the shaft from the point
+constexpr double kPasses_m = 1e-9;  ///< largest distance of the shaft from the point at the ends of ticks
+/// The same in the middle of a tick in which the tip moves by 4 mm, 1 cm or more from the point: its path is straight,
+/// and the shaft turns evenly, so they part by up to (4 mm)^2 / (8 x 1 cm).
+constexpr double kPassesBetween_m = 2e-4;
 constexpr double kSameWork = 0.01;  ///< relative difference of the works at device and tip
 
 StylusConfig stylusWith(const std::string& follows) {
@@ -38,7 +41,10 @@ class TrocarTest : public ::testing::TestWithParam<const char*> {
   bool atHandle() const { return std::string(GetParam()) == "handle"; }
   double random(double most) { return std::uniform_real_distribution<double>(-most, most)(source_); }
   Vector3d randomVector(double most) { return {random(most), random(most), random(most)}; }
-  Pose randomPose() { return {randomVector(0.05), rotationFromDegrees({random(30), random(30), random(180)})}; }
+  /// @param most_twist_deg  about the shaft
+  Pose randomPose(double most_twist_deg = 180) {
+    return {randomVector(0.05), rotationFromDegrees({random(30), random(30), random(most_twist_deg)})};
+  }
   Pose moved(const Pose& pose, const Vector3d& by_m) const { return {pose.position_m + by_m, pose.orientation}; }
 
   const StylusConfig stylus_;
@@ -72,21 +78,22 @@ TEST_P(TrocarTest, TwistStays) {
   }
 }
 
+/// Poses jump, except for the twist, which devices do not turn by much in a tick.
 TEST_P(TrocarTest, ShaftPassesThePointWithinTicksAndWhereTheTipIsSpeedLimited) {
-  constexpr double kTravel_m = 0.004;
+  constexpr double kTravel_m = 0.004, kTwist_deg = 5;
   Tools tools({stylus_}, {kTravel_m});
   StylusSamples samples;
   samples[0].valid = true;
   int limited = 0;
   for (int t = 0; t < 200; ++t) {
-    samples[0].pose = t % 20 == 0 ? randomPose() : moved(samples[0].pose, randomVector(0.002));
+    samples[0].pose = t % 20 == 0 ? randomPose(kTwist_deg) : moved(samples[0].pose, randomVector(0.002));
     const StylusMotion motion = tools.advance(samples)[0];
     limited += motion.speed_limited;
     if (t == 0) continue;
     for (const double share : {0.0, 0.5, 1.0}) {
       const Pose within{motion.from.position_m + share * (motion.to.position_m - motion.from.position_m),
                         motion.from.orientation.slerp(share, motion.to.orientation)};
-      EXPECT_LT(missOf(within), kPasses_m) << "tick " << t;
+      EXPECT_LT(missOf(within), share == 0.5 ? kPassesBetween_m : kPasses_m) << "tick " << t;
     }
   }
   EXPECT_GT(limited, 5);
