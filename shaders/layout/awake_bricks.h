@@ -4,6 +4,7 @@
 // Selection of the bricks that are stepped, shared by shaders/solver/step/awake_bricks.comp and its owner.
 #ifndef VISCERA_LAYOUT_AWAKE_BRICKS_H
 #define VISCERA_LAYOUT_AWAKE_BRICKS_H
+#include "viscera/layout/limits.h"
 #include "viscera/layout/types.h"
 
 #ifdef __cplusplus
@@ -13,6 +14,9 @@ namespace viscera::layout {
 const uint kNeverMoves = 0u;   // SleepingBrick::kind: no node of the brick can move
 const uint kMayMove = 1u;
 const uint kNeverSleeps = 2u;  // explicit connections
+
+const uint kShaftBoxes = 4u;  // boxes along a shaft: one of all of a slanting shaft would hold much of an organ
+const uint kMostToolBoxes = kMaxStyluses * (1u + kShaftBoxes);  // boxes of all tools in a tick
 
 // State of sleep of a brick of 4x4x4 nodes.
 struct SleepingBrick {

@@ -59,13 +59,15 @@ AT(SpringEnds, b, 4);
 AT(SpringEnds, link_a, 8);
 AT(SpringEnds, link_b, 12);
 
-SIZE(ToolMotion, 128);
+SIZE(ToolMotion, 256);
 AT(ToolMotion, to, 16);
 AT(ToolMotion, orientation, 32);
 AT(ToolMotion, blade_from, 48);
 AT(ToolMotion, blade_to, 64);
 AT(ToolMotion, info, 80);
 AT(ToolMotion, timing, 96);
+AT(ToolMotion, shaft_from, 112);
+AT(ToolMotion, shaft_far_to, 160);
 static_assert(kMaxStyluses * sizeof(ToolMotion) % 256 == 0, "a substep's tools begin where a uniform block may");
 
 SIZE(ObstacleMotion, 128);

@@ -34,7 +34,8 @@ TickContact Session::contactOf(size_t stylus, const Reaction& raw) const {
   out.anew = !before.present || before.mode != motion.mode;
   out.from_m = motion.from.position_m;
   out.to_m = motion.to.position_m;
-  const bool acts = motion.present && !(motion.feels_m > 0) && raw.force_n.allFinite() && raw.torque_nm.allFinite();
+  const bool feels = motion.feels_m > 0 && !kindOf(motion.mode).does(kHolds);  // a grip acts, its shaft may not yet
+  const bool acts = motion.present && !feels && raw.force_n.allFinite() && raw.torque_nm.allFinite();
   if (!acts || stats_.touched[stylus] + stats_.grabbed[stylus] == 0) return out;
   out.reaction = raw;
   const StylusPull& pull = solver_->pull(static_cast<uint32_t>(stylus));

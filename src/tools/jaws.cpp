@@ -82,6 +82,8 @@ StylusMotion Gripper::ofHeld(const StylusMotion& motion) const {
   StylusMotion out = motion;
   out.from.position_m += motion.from.orientation * slid_before_m_;
   out.to.position_m += motion.to.orientation * slid_m_;
+  out.slid_from_m = slid_before_m_;
+  out.slid_to_m = slid_m_;
   return out;
 }
 

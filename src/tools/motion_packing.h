@@ -14,6 +14,10 @@ struct StylusConfig;
 /// Returns the effects of a stylus on tissue in a tick, bits of ToolEffect: scissors that do not close cut nothing.
 uint32_t effectsOf(const StylusMotion& motion);
 
+/// Returns the rotation of a shaft that tissue meets over a tick, as a vector along its axis of rotation [rad]; zero of
+/// other shafts.
+Vector3d turnOfShaft(const StylusMotion& motion);
+
 /// Returns ToolMotion.info of a mode: its number, and its effects on tissue (ToolEffect).
 layout::uvec4 toolInfo(ToolMode mode);
 

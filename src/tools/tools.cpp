@@ -13,6 +13,8 @@ namespace viscera {
 
 namespace {
 
+constexpr double kShaftGrows_m_per_s = 0.1;  ///< speed of a hand that draws back a blade
+
 ToolSwitch switchOf(const StylusSample& sample) {
   if (sample.button2) return ToolSwitch::kButton2;
   return sample.button1 ? ToolSwitch::kButton1 : ToolSwitch::kIdle;
@@ -45,7 +47,8 @@ ToolMotions Tools::advance(const StylusSamples& samples, const FeelTissue& betwe
     motion.from = last_[i].valid ? last_[i].pose : motion.to;
     if (!last_[i].valid) inside_[i] = limits_.feel_radius_m > 0;
     changeMode(i, motion);
-    holdBack(motion);
+    moveShaft(i, motion);
+    holdBack(configs_[i], motion);
     if (motion.speed_limited) motion.to = trocar.throughPoint(motion.to);
     close(i, now.jaw_rad, between, motion);
     feel(i, motion);
@@ -92,17 +95,37 @@ void Tools::pulled(size_t stylus, const StylusMotion& motion, const Vector3d& fo
   if (kind.grips) fingers_[stylus].pulled(motion, force_n, kind.grip(configs_[stylus]).max_force_n);
 }
 
-void Tools::holdBack(StylusMotion& motion) const {
+/// Moves the near end of a shaft that tissue meets to where that of the mode is: back at once, forward slowly, so that
+/// it does not appear in the tissue around a blade or a jaw.
+void Tools::moveShaft(size_t stylus, StylusMotion& motion) {
+  const StylusConfig& config = configs_[stylus];
+  if (!config.shaft_contact || !motion.present) return;
+  const double goal_m = shaftBegin(config, kindOf(motion.mode));
+  double& now_m = shaft_m_[stylus];
+  motion.shaft_from_m = last_[stylus].valid ? std::max(now_m, goal_m) : goal_m;
+  motion.shaft_to_m = now_m = std::max(goal_m, motion.shaft_from_m - kShaftGrows_m_per_s * limits_.tick_s);
+}
+
+/// Limits the speed of a tip, and of the far end of a shaft that tissue meets.
+void Tools::holdBack(const StylusConfig& config, StylusMotion& motion) const {
   const Vector3d travel = motion.to.position_m - motion.from.position_m;
   const double length = travel.norm();
   motion.speed_limited = length > limits_.max_travel_m;
   if (motion.speed_limited) motion.to.position_m = motion.from.position_m + limits_.max_travel_m / length * travel;
+  if (motion.shaft_to_m < 0) return;
+  const Vector3d end(0, 0, config.shaft_length_m);
+  const double swing_m = (motion.to * end - motion.from * end).norm();
+  if (swing_m <= limits_.max_travel_m) return;
+  motion.speed_limited = true;
+  motion.to = interpolate(motion.from, motion.to, limits_.max_travel_m / swing_m);
 }
 
 void Tools::feel(size_t stylus, StylusMotion& motion) const {
   const ToolKind& kind = kindOf(motion.mode);
-  if (!inside_[stylus] || !kind.does(kPushes)) return;
-  motion.feels_m = std::max(limits_.feel_radius_m, kind.reach_m(configs_[stylus]));
+  const bool shaft = motion.shaft_to_m >= 0;
+  if (!inside_[stylus] || !(shaft || kind.does(kPushes))) return;
+  motion.feels_m = std::max({limits_.feel_radius_m, kind.does(kPushes) ? kind.reach_m(configs_[stylus]) : 0,
+                             shaft ? shaftRadius(configs_[stylus]) : 0});
 }
 
 void Tools::setMode(size_t stylus, ToolSwitch when, ToolMode mode) {
@@ -132,6 +155,8 @@ void Tools::persist(Archive& archive) {
   archive.value(forgotten_);
   for (const ToolMode mode : mode_) requireMode(archive, mode);
   for (Gripper& fingers : fingers_) fingers.persist(archive);
+  for (size_t i = 0; i < configs_.size(); ++i)
+    if (configs_[i].shaft_contact) archive.value(shaft_m_[i]);
 }
 
 void Tools::reset() {
@@ -140,6 +165,7 @@ void Tools::reset() {
   inside_ = {};
   forgotten_ = {};
   fingers_ = {};
+  shaft_m_ = {};
 }
 
 }  // namespace viscera

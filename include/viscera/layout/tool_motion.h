@@ -28,7 +28,8 @@ const uint kToolPushes = 1u;  // pushes nodes out of a swept sphere at the tip
 const uint kToolHolds = 2u;  // holds the nodes that it took when it began
 const uint kToolCuts = 4u;  // cuts the springs that its blade crosses
 const uint kToolErases = 8u;  // erases the springs of the nodes near its blade
-const uint kToolFeels = 16u;  // only counts the nodes within its reach and leaves them alone; for a tool that pushes
+const uint kToolFeels = 16u;  // only counts the nodes within its reach and leaves them alone; for a tip or shaft that pushes
+const uint kToolShaft = 32u;  // pushes nodes out of its shaft, a swept capsule
 
 // Motion of one stylus over one substep, tissue frame.
 struct ToolMotion {
@@ -39,7 +40,11 @@ struct ToolMotion {
   vec4 blade_to;     // xyz far end of the blade at the end [m]
   uvec4 info;  // x mode; y effects on tissue: kTool... bits
   vec4 timing;  // x length of the previous substep [s]; 0 where there was none
-  uvec4 pad;  // pads two styluses to 256 bytes, the coarsest alignment of a uniform block
+  vec4 shaft_from;      // xyz near end of the shaft's axis at the start [m]; w its radius [m]
+  vec4 shaft_to;        // xyz near end of the shaft's axis at the end [m]
+  vec4 shaft_far_from;  // xyz far end of the shaft's axis at the start [m]; differs from the near end
+  vec4 shaft_far_to;    // xyz far end of the shaft's axis at the end [m]
+  uvec4 pad[5];  // pads a stylus to 256 bytes, the coarsest alignment of a uniform block
 };
 
 #ifdef __cplusplus

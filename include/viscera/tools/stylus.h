@@ -41,10 +41,15 @@ struct StylusMotion {
   bool hold_begins = false;               ///< this tick is the first of a mode that holds
   ToolMode hold_ended = ToolMode::kNone;  ///< holding mode that ended at the start of this tick
   /// > 0: the stylus appeared and has not been outside tissue since. It pushes nothing, and looks for tissue within
-  /// this radius [m].
+  /// this radius of its tip, and of the axis of its shaft [m].
   double feels_m = 0;
   /// Opening of a tool's jaws at the start and the end of the tick [rad].
   double opens_from_rad = 0, opens_to_rad = 0;
+  /// Distance from the tip to the near end of the shaft's axis at the start and the end of the tick [m]; below 0:
+  /// tissue does not meet the shaft.
+  double shaft_from_m = -1, shaft_to_m = -1;
+  /// Part of the positions of `from` and `to` by which held tissue has slid in the jaws, stylus frame [m].
+  Vector3d slid_from_m = Vector3d::Zero(), slid_to_m = Vector3d::Zero();
   bool speed_limited = false;  ///< the tip was faster than tissue can follow: `to` lags behind the pose, and catches up
 };
 using ToolMotions = std::array<StylusMotion, layout::kMaxStyluses>;

@@ -58,7 +58,8 @@ class VISCERA_PUBLIC Tools {
  private:
   void changeMode(size_t stylus, StylusMotion& motion);
   void close(size_t stylus, float angle_rad, const FeelTissue& between, StylusMotion& motion);
-  void holdBack(StylusMotion& motion) const;
+  void moveShaft(size_t stylus, StylusMotion& motion);
+  void holdBack(const StylusConfig& config, StylusMotion& motion) const;
   void feel(size_t stylus, StylusMotion& motion) const;
 
   std::vector<StylusConfig> configs_;
@@ -68,6 +69,7 @@ class VISCERA_PUBLIC Tools {
   std::array<bool, layout::kMaxStyluses> inside_{};  ///< may be inside: it has appeared and was not found outside yet
   std::array<bool, layout::kMaxStyluses> forgotten_{};  ///< its mode begins again
   std::array<Gripper, layout::kMaxStyluses> fingers_;
+  std::array<double, layout::kMaxStyluses> shaft_m_{};  ///< StylusMotion::shaft_to_m of styluses with shaft_contact
 };
 
 }  // namespace viscera

@@ -70,19 +70,27 @@ void addContact(uint slot, float owner, vec4 side, vec3 offset, float friction) 
   }
 }
 
+#ifdef TOOLS
+/// Gives a node a contact with a probe or a shaft in which it would end. With both of one stylus it has the first contact alone.
+void findSphere(uint slot, float owner, ToolMotion motion, vec3 x, vec3 x_next, float below) {
+  vec3 travel = xyz(motion.to) - xyz(motion.from);
+  if (distance(x_next, xyz(motion.to)) >= max(motion.from.w + below, 0.0f) + length(travel)) return;
+  if (!sideOfProbe(motion, x, x_next, below).inside) return;
+  ProbeSide side = sideOfProbe(motion, x, x, below);
+  addContact(slot, owner, vec4(side.normal, side.depth), travel, 0.0f);
+}
+#endif
+
 /// Gives a node a contact with everything in which an increment would end.
 void findContacts(uint slot, vec3 u, vec3 du) {
   vec3 x = restPosition(slot) + u, x_next = x + du;
   float below = surfaceDepth(slot);
 #ifdef TOOLS
   for (uint s = 0u; s < kMaxStyluses; ++s) {
-    ToolMotion motion = tool_motions[s];
-    if ((motion.info.y & (kToolPushes | kToolFeels)) != kToolPushes) continue;
-    vec3 travel = xyz(motion.to) - xyz(motion.from);
-    if (distance(x_next, xyz(motion.to)) >= max(motion.from.w + below, 0.0f) + length(travel)) continue;
-    if (!sideOfProbe(motion, x, x_next, below).inside) continue;
-    ProbeSide side = sideOfProbe(motion, x, x, below);
-    addContact(slot, float(1u + s), vec4(side.normal, side.depth), travel, 0.0f);
+    if (pushesByTip(tool_motions[s])) findSphere(slot, float(1u + s), tool_motions[s], x, x_next, below);
+#ifdef SHAFTS
+    if (pushesByShaft(tool_motions[s])) findSphere(slot, float(1u + s), shaftNear(tool_motions[s], x_next), x, x_next, below);
+#endif
   }
 #endif
 #ifdef OBSTACLES

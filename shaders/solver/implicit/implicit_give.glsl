@@ -38,12 +38,15 @@ void giveContacts(uint slot, float mass, INOUT(vec3) v_next) {
 #endif
 
 #ifdef TOOLS
-/// Counts the nodes with tissue within reach of a probe that only feels.
+/// Counts the nodes with tissue within reach of a probe or a shaft that only feels.
 void feel(uint slot, vec3 x) {
   for (uint s = 0u; s < kMaxStyluses; ++s) {
     ToolMotion motion = tool_motions[s];
-    if ((motion.info.y & kToolPushes) == 0u || (motion.info.y & kToolFeels) == 0u) continue;
-    if (isFelt(motion, slot, surfaceDepth(slot), x)) giveMomentum(s, slot, vec3(0.0f));
+    if ((motion.info.y & kToolFeels) == 0u) continue;
+    if ((motion.info.y & kToolPushes) != 0u && isFelt(motion, slot, surfaceDepth(slot), x)) giveMomentum(s, slot, vec3(0.0f));
+#ifdef SHAFTS
+    if ((motion.info.y & kToolShaft) != 0u && isFelt(shaftNear(motion, x), slot, surfaceDepth(slot), x)) giveMomentum(s, slot, vec3(0.0f));
+#endif
   }
 }
 #endif

@@ -130,8 +130,8 @@ void ask(uint b) {
 
 #ifdef WAKE_NEAR
 layout(std430, binding = kBindDisplacementIn) readonly buffer DisplacementIn { vec4 displacement[]; };
-uniform vec3 box_low[kMaxStyluses];   // tissue frame [m]
-uniform vec3 box_high[kMaxStyluses];
+uniform vec3 box_low[kMostToolBoxes];   // tissue frame [m]
+uniform vec3 box_high[kMostToolBoxes];
 uniform uint box_count;
 
 float largestDisplacement(uint b) {
@@ -213,8 +213,15 @@ layout(std430, binding = kBindNodes) readonly buffer NodesBuffer { NodeBits node
 layout(std430, binding = kBindDisplacementOut) readonly buffer DisplacementOut { vec4 next_displacement[]; };
 layout(std140, binding = kBindToolMotions) uniform ToolMotionsBlock { ToolMotion tool_motions[kMaxStyluses]; };
 uniform float deepest_m;  // largest depth of a node below the surface by which it is touched
+#include "solver/tools/touch.glsl"
 
-/// Returns whether one of its nodes is held or within reach of a probe.
+bool isWithinReach(ToolMotion m, vec3 x) {
+  float reach = m.from.w + deepest_m + distance(xyz(m.from), xyz(m.to));
+  vec3 off = x - xyz(m.to);
+  return dot(off, off) < reach * reach;
+}
+
+/// Returns whether one of its nodes is held or within reach of a probe or a shaft.
 bool touched(uint b) {
   uint first = sleeping[b].first_node;
   bool found = false;
@@ -224,9 +231,10 @@ bool touched(uint b) {
     found = found || (nodes[slot].lo & kGrabMask) != 0u;
     for (uint s = 0u; s < kMaxStyluses; ++s) {
       ToolMotion m = tool_motions[s];
-      float reach = m.from.w + deepest_m + distance(xyz(m.from), xyz(m.to));
-      vec3 off = x - xyz(m.to);
-      found = found || ((m.info.y & kToolPushes) != 0u && dot(off, off) < reach * reach);
+      found = found || ((m.info.y & kToolPushes) != 0u && isWithinReach(m, x));
+#ifdef SHAFTS
+      found = found || ((m.info.y & kToolShaft) != 0u && isWithinReach(shaftNear(m, x), x));
+#endif
     }
   }
   return found;

@@ -22,10 +22,19 @@ uniform float most_speed;     // m/s; infinite if the integrator permits high sp
 uniform float most_energy_j;  // without the work of the tick's tools
 uniform float energy_margin;  // factor on that work
 uniform vec3 tip_speed[kMaxStyluses];  // of the tools, mean over the tick [m/s]
+#ifdef SHAFTS
+uniform vec3 spin[kMaxStyluses];  // of the same [rad/s]; 0 without a shaft that tissue meets
+#endif
 
 bool isBad() {
   float work = 0.0;
-  for (uint s = 0u; s < kMaxStyluses; ++s) work += max(0.0, dot(stats.impulse[s].xyz, tip_speed[s]));
+  for (uint s = 0u; s < kMaxStyluses; ++s) {
+    float given = dot(stats.impulse[s].xyz, tip_speed[s]);
+#ifdef SHAFTS
+    given += dot(stats.angular[s].xyz, spin[s]);
+#endif
+    work += max(0.0, given);
+  }
   float energy = stats.kinetic_j + stats.elastic_j;
   uint bits = floatBitsToUint(energy);  // comparisons with NaN depend on the compiler; its bits do not
   bool finite = (bits & 0x7f800000u) != 0x7f800000u;

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Effect of a probe on a node, and the position of a held node (VR05 2.7.1, 2.7.2; physics.md 5). Included by the integrators.
+// Effect of a probe or a shaft on a node, and the position of a held node (VR05 2.7.1, 2.7.2; physics.md 5). Included by the integrators.
 #include "solver/tissue/surface_offset.glsl"
 #include "solver/tools/touch.glsl"
 
@@ -36,7 +36,7 @@ vec3 toTissueBefore(uint slot) {
                     xyz(stateAt(displacement, int(pathEnd(slot, offset, 2u)))));
 }
 
-/// Returns whether the tissue of a node is within reach of a probe that only feels. A node in the air next to the tip does not
+/// Returns whether the tissue of a node is within reach of a probe or a shaft that only feels. A node in the air next to the tip does not
 /// count: from there a tip may push.
 /// @param below  surfaceDepth(): a positive depth adds to the reach   @param x  position of the node at the end of the substep
 /// [m]
@@ -50,31 +50,40 @@ vec3 heldDisplacement(uint stylus, uint slot) {
   return xyz(tool_motions[stylus].to) + rotated(xyzw(tool_motions[stylus].orientation), xyz(grab_offsets[slot])) - restPosition(slot);
 }
 
+/// Applies the swept sphere of a probe or a shaft to a free node.
+/// @param rest  position of the node at rest   @param u, u_next  displacement before and after the substep [m]
+void meetSphere(uint stylus, ToolMotion motion, uint slot, float below, float mass, vec3 rest, vec3 u, INOUT(vec3) u_next,
+                INOUT(vec3) v_next) {
+  vec3 x_next = rest + u_next;
+  if ((motion.info.y & kToolFeels) != 0u) {
+    if (isFelt(motion, slot, below, x_next)) giveMomentum(stylus, slot, vec3(0.0f));
+    return;
+  }
+  vec3 reach = x_next - xyz(motion.to);
+  float far = max(motion.from.w + below, 0.0f) + distance(xyz(motion.from), xyz(motion.to));
+  if (dot(reach, reach) >= far * far) return;
+  vec3 v_before = v_next;
+  probe(motion, below, rest + u, x_next, v_next);
+  u_next = x_next - rest;
+  if (v_next != v_before) giveMomentum(stylus, slot, mass * (v_next - v_before));
+}
+
 void resolveContacts(uint slot, NodeBits bits, float mass, vec3 u, INOUT(vec3) u_next, INOUT(vec3) v_next) {
   vec3 rest = restPosition(slot);
   float below = surfaceDepth(slot);
   uint held_by = (bits.lo & kGrabMask) >> kGrabShift;
   for (uint s = 0u; s < kMaxStyluses; ++s) {
-    if ((tool_motions[s].info.y & kToolPushes) == 0u && held_by != s + 1u) continue;
-    vec3 v_before = v_next;
     if (held_by == s + 1u) {
+      vec3 v_before = v_next;
       u_next = heldDisplacement(s, slot);
       v_next = (u_next - u) / dt_s;
-    } else if (held_by == 0u) {
-      vec3 x_next = rest + u_next;
-      if ((tool_motions[s].info.y & kToolFeels) != 0u) {
-        if (isFelt(tool_motions[s], slot, below, x_next)) giveMomentum(s, slot, vec3(0.0f));
-        continue;
-      }
-      vec3 reach = x_next - xyz(tool_motions[s].to);
-      float far = max(tool_motions[s].from.w + below, 0.0f) + distance(xyz(tool_motions[s].from), xyz(tool_motions[s].to));
-      if (dot(reach, reach) >= far * far) continue;
-      probe(tool_motions[s], below, rest + u, x_next, v_next);
-      u_next = x_next - rest;
-      if (v_next == v_before) continue;
-    } else {
-      continue;
+      giveMomentum(s, slot, mass * (v_next - v_before));
     }
-    giveMomentum(s, slot, mass * (v_next - v_before));
+    if (held_by != 0u) continue;
+    if ((tool_motions[s].info.y & kToolPushes) != 0u) meetSphere(s, tool_motions[s], slot, below, mass, rest, u, u_next, v_next);
+#ifdef SHAFTS
+    if ((tool_motions[s].info.y & kToolShaft) != 0u)
+      meetSphere(s, shaftNear(tool_motions[s], rest + u_next), slot, below, mass, rest, u, u_next, v_next);
+#endif
   }
 }

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// edges.comp - contact of probes with the surface between nodes, after leapfrog.comp.   Owner: solver/gpu/contact/edges_pass.h
+// edges.comp - contact of probes and shafts with the surface between nodes, after leapfrog.comp.   Owner: solver/gpu/contact/edges_pass.h
 // physics.md 5
 // in  nodes that leapfrog.comp listed; tool motions     in/out  state at the end of the substep; impulses
 // One group does all the work, as each round depends on the previous one. Features: LATTICE, NETWORK, PARTS (elastic.glsl).
@@ -91,16 +91,21 @@ bool pushAll(uint stylus, EdgeTip tip, uint count) {
   return any;
 }
 
+void pushRounds(uint stylus, EdgeTip tip, uint count) {
+  for (uint round = 0u; round < kEdgeRounds; ++round) {
+    if (!pushAll(stylus, tip, count)) break;
+  }
+}
+
 void main() {
   uint count = edge_count <= kMostEdgeNodes ? edge_count : 0u;
   barrier();
   if (lane() == 0u) edge_count = 0u;
   if (count == 0u) return;
   for (uint s = 0u; s < kMaxStyluses; ++s) {
-    if (!pushesEdges(tool_motions[s])) continue;
-    EdgeTip tip = tipOf(tool_motions[s]);
-    for (uint round = 0u; round < kEdgeRounds; ++round) {
-      if (!pushAll(s, tip, count)) break;
-    }
+    if (pushesByTip(tool_motions[s])) pushRounds(s, tipOf(tool_motions[s]), count);
+#ifdef SHAFTS
+    if (pushesByShaft(tool_motions[s])) pushRounds(s, shaftOf(tool_motions[s]), count);
+#endif
   }
 }

@@ -14,17 +14,21 @@ bool onSkin(uint slot, NodeBits bits) {
   return axial != axial_units || diagonal != diagonal_units || surfaceDepth(slot) != 0.0f;
 }
 
-bool pushesEdges(ToolMotion motion) { return (motion.info.y & (kToolPushes | kToolFeels)) == kToolPushes; }
+bool isNearEdges(ToolMotion m, vec3 x) {
+  float reach = m.from.w + edge_reach + distance(xyz(m.from), xyz(m.to));
+  vec3 off = x - xyz(m.to);
+  return dot(off, off) < reach * reach;
+}
 
 /// Returns whether a probe may touch springs of a node that ends the substep at x, and move it through them.
 bool mayFeelEdges(uint slot, NodeBits bits, vec3 x) {
   if ((bits.lo & (kGrabMask | kFixedBit)) != 0u || !onSkin(slot, bits)) return false;
   bool near = false;
   for (uint s = 0u; s < kMaxStyluses; ++s) {
-    if (!pushesEdges(tool_motions[s])) continue;
-    float reach = tool_motions[s].from.w + edge_reach + distance(xyz(tool_motions[s].from), xyz(tool_motions[s].to));
-    vec3 off = x - xyz(tool_motions[s].to);
-    near = near || dot(off, off) < reach * reach;
+    near = near || (pushesByTip(tool_motions[s]) && isNearEdges(tool_motions[s], x));
+#ifdef SHAFTS
+    near = near || (pushesByShaft(tool_motions[s]) && isNearEdges(shaftNear(tool_motions[s], x), x));
+#endif
   }
   return near;
 }

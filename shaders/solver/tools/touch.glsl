@@ -1,7 +1,8 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Distances of a node from probes and obstacles: every such test is in this file (physics.md 5, 8).
+// Distances of a node from probes, shafts and obstacles: every such test is in this file (physics.md 5, 8).
+// Feature: SHAFTS (a stylus with shaft_contact).
 #ifndef TOUCH_GLSL
 #define TOUCH_GLSL
 #include "solver/tissue/quaternion.glsl"
@@ -12,6 +13,36 @@ vec3 nearestOnSegment(vec3 a, vec3 b, vec3 x) {
   float length2 = dot(ab, ab);
   return length2 > 0.0f ? a + clamp(dot(x - a, ab) / length2, 0.0f, 1.0f) * ab : a;
 }
+
+vec3 pointBetween(vec3 a, vec3 b, float s) { return a + s * (b - a); }
+
+#ifdef SHAFTS
+/// Returns where the axis of a shaft is nearest to x at the end of the substep: 0 at its near end, 1 at its far end.
+float alongShaft(ToolMotion m, vec3 x) {
+  vec3 axis = xyz(m.shaft_far_to) - xyz(m.shaft_to);
+  return clamp(dot(x - xyz(m.shaft_to), axis) / dot(axis, axis), 0.0f, 1.0f);
+}
+
+/// Returns the swept sphere around a point of a shaft's axis as that of a probe.
+ToolMotion sphereOfShaft(ToolMotion m, float along) {
+  vec3 from = pointBetween(xyz(m.shaft_from), xyz(m.shaft_far_from), along);
+  vec3 to = pointBetween(xyz(m.shaft_to), xyz(m.shaft_far_to), along);
+  m.from.x = from.x;
+  m.from.y = from.y;
+  m.from.z = from.z;
+  m.from.w = m.shaft_from.w;
+  m.to.x = to.x;
+  m.to.y = to.y;
+  m.to.z = to.z;
+  return m;
+}
+
+/// Returns a shaft as a node at x meets it: as a swept sphere around the nearest point of its axis.
+ToolMotion shaftNear(ToolMotion m, vec3 x) { return sphereOfShaft(m, alongShaft(m, x)); }
+
+bool pushesByShaft(ToolMotion m) { return (m.info.y & (kToolShaft | kToolFeels)) == kToolShaft; }
+#endif
+bool pushesByTip(ToolMotion m) { return (m.info.y & (kToolPushes | kToolFeels)) == kToolPushes; }
 
 /// A swept sphere at the end of a substep, relative to a node at x.
 struct ProbeSide {
@@ -60,7 +91,6 @@ Touch touchPlane(vec3 to) { return touchAt(to.z < 0.0f, vec3(0.0f, 0.0f, 1.0f), 
 /// Returns the nearest point of a capsule's axis; of a sphere (half length 0) its centre.
 vec3 nearestOnAxis(ObstacleMotion o, vec3 p) { return vec3(0.0f, 0.0f, clamp(p.z, -o.to.w, o.to.w)); }
 float roundDistance(ObstacleMotion o, vec3 p) { return distance(p, nearestOnAxis(o, p)) - o.from.w; }
-vec3 pointBetween(vec3 a, vec3 b, float s) { return a + s * (b - a); }
 
 /// Returns where a path enters a sphere or capsule: 0..1 along it, above 1 if it does not. The distance along it is convex, so
 /// its minimum, and then the first zero, are found by interval reduction.

@@ -136,9 +136,11 @@ void visitFields(V& v, StylusConfig& c) {
   v.group("clip", c.clip, "clip: two jaws that set a clip on the tissue between them once they have closed");
   v.group("cautery", c.cautery,
           "cautery: a probe with a tip that burns the tissue that it touches (docs/lessons/instruments.md)");
-  v.number("shaft_length_m", c.shaft_length_m, {0.001, 1}, "m",
-           "length of the drawn shaft, from the tip back; its thickness is a twentieth of that, and tissue does not "
-           "touch it");
+  v.number("shaft_length_m", c.shaft_length_m, {0.001, 1}, "m", "length of the shaft, from the tip back");
+  v.number("shaft_radius_m", c.shaft_radius_m, {0, 0.1}, "m", "radius of the shaft; 0: a fortieth of its length");
+  v.boolean(
+      "shaft_contact", c.shaft_contact,
+      "the shaft pushes tissue, as a probe does (docs/physics.md#5-tools), but for its part that is jaws or a blade");
   v.group("trocar", c.trocar, "trocar: point of the body wall that the shaft passes");
   v.number("jaw_closing_s", c.jaw_closing_s, {0.02, 10}, "s",
            "time from open to closed for jaws that a button closes, except scissors");

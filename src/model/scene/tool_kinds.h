@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -149,6 +150,32 @@ struct BladeSpan {
 constexpr BladeSpan bladeSpan(const CutConfig& cut) {
   return {cut.blade_side == BladeSide::kShaft ? 0 : -cut.blade_length_m,
           cut.blade_side == BladeSide::kAhead ? 0 : cut.blade_length_m};
+}
+
+/// Returns the radius of a stylus's shaft [m].
+constexpr double shaftRadius(const StylusConfig& stylus) {
+  return stylus.shaft_radius_m > 0 ? stylus.shaft_radius_m : stylus.shaft_length_m / 40;
+}
+
+/// Returns the length of the part behind the tip that is jaws or a blade [m].
+inline double workingLength(const StylusConfig& stylus, const ToolKind& kind) {
+  if (kind.jaws) return kind.jaws(stylus).length_m;
+  return kind.severs() ? bladeSpan(stylus.cut).high_m : 0;
+}
+
+/// Returns the distance from the tip to the near end of the axis of a shaft that tissue meets [m]: its round end begins
+/// behind jaws or a blade, and does not protrude beyond a ball at the tip.
+inline double shaftBegin(const StylusConfig& stylus, const ToolKind& kind) {
+  const double ball_m = kind.does(kPushes) ? kind.reach_m(stylus) : 0;
+  return workingLength(stylus, kind) + std::max(0.0, shaftRadius(stylus) - ball_m);
+}
+
+/// Returns whether tissue meets the shaft of some stylus.
+inline bool meetsShafts(const std::vector<StylusConfig>& styluses) {
+  for (const StylusConfig& stylus : styluses) {
+    if (stylus.shaft_contact) return true;
+  }
+  return false;
 }
 
 /// Returns whether a stylus cuts, erases or burns in any of its modes.

@@ -24,6 +24,7 @@ class IntoRange {
   }
   void integer(const char*, int&, Range, const char*) {}
   void text(const char*, std::string&, const char*) {}
+  void boolean(const char*, bool&, const char*) {}
   template <class E>
   void choice(const char*, E&, const Choices<E>&, const char*) {}
 };

@@ -17,9 +17,10 @@ using Color = std::array<uint8_t, 4>;
 constexpr uint8_t kOutlineAlpha = 150;
 
 // Shares of the shaft's length.
-constexpr float kShaftRadius = 0.025f, kTipRadius = 0.005f, kTaperEnd = 0.25f;
-constexpr float kCollarGap = 1.0f / 30, kCollarLength = 2.0f / 30, kCollarRadius = 0.03f, kCollarEdge = 1.0f / 120;
+constexpr float kTipRadius = 0.005f, kTaperEnd = 0.25f;
+constexpr float kCollarGap = 1.0f / 30, kCollarLength = 2.0f / 30, kCollarEdge = 1.0f / 120;
 constexpr float kShortestShaft = 0.25f;                                  // of the handle, behind a blade of any length
+constexpr float kCollar = 1.2f;                                          // radius of the collar, over the shaft's
 constexpr float kFingerHalf = 0.7f / 120, kFingerHalfWide = 1.4f / 120;  // of a finger, along x and y
 constexpr float kToolQuarterTurn = static_cast<float>(M_PI / 2);
 
@@ -27,23 +28,29 @@ Color colorOf(const ToolKind& kind, uint8_t alpha = 255) {
   return {kind.color[0], kind.color[1], kind.color[2], alpha};
 }
 
-/// Adds a shaft. @param from  its start, in lengths of the shaft
-void addShaft(float length_m, float from, const Color& collar, ToolShape& shape) {
+/// Adds a shaft. It tapers towards the tip, unless tissue meets it: then it is the capsule that tissue meets.
+/// @param from  its start, in lengths of the shaft
+void addShaft(const StylusConfig& stylus, float from, const Color& collar, ToolShape& shape) {
   constexpr float kBevel = 1.0f / 1200;
-  const Eigen::Affine3f scale(Eigen::Scaling(length_m));
+  const Eigen::Affine3f scale(Eigen::Scaling(static_cast<float>(stylus.shaft_length_m)));
+  const float radius = static_cast<float>(shaftRadius(stylus) / stylus.shaft_length_m);
   const float taper_end = std::max(kTaperEnd, from + 2 * kBevel), collar_from = taper_end + kCollarGap;
-  const float from_radius = kTipRadius + (kShaftRadius - kTipRadius) * std::min(from / kTaperEnd, 1.0f);
-  const Profile shaft = Profile()
-                            .line(0, from, from_radius, from + kBevel)
-                            .line(from_radius, from + kBevel, kShaftRadius, taper_end)
-                            .line(kShaftRadius, taper_end, kShaftRadius, 1 - kShaftRadius)
-                            .arc(kShaftRadius, 1 - kShaftRadius, 0, kToolQuarterTurn);
-  addLathe(shaft, scale, colorOf(kindOf(ToolMode::kNone)), shape);
+  const float narrow = std::min(radius, kTipRadius + (radius - kTipRadius) * std::min(from / kTaperEnd, 1.0f));
+  const float bevel = stylus.shaft_contact ? std::min(radius, taper_end - from) : kBevel;
+  const float from_radius = stylus.shaft_contact ? radius : narrow, end = std::max(1 - radius, taper_end);
+  const Profile shaft = stylus.shaft_contact ? Profile().arc(radius, from + bevel, -kToolQuarterTurn, 0)
+                                             : Profile().line(0, from, from_radius, from + bevel);
+  addLathe(Profile(shaft)
+               .line(from_radius, from + bevel, radius, taper_end)
+               .line(radius, taper_end, radius, end)
+               .arc(radius, end, 0, kToolQuarterTurn),
+           scale, colorOf(kindOf(ToolMode::kNone)), shape);
+  const float collar_radius = kCollar * radius;
   const float collar_to = collar_from + kCollarLength;
   const Profile ring = Profile()
-                           .line(kShaftRadius, collar_from - kCollarEdge, kCollarRadius, collar_from)
-                           .line(kCollarRadius, collar_from, kCollarRadius, collar_to)
-                           .line(kCollarRadius, collar_to, kShaftRadius, collar_to + kCollarEdge);
+                           .line(radius, collar_from - kCollarEdge, collar_radius, collar_from)
+                           .line(collar_radius, collar_from, collar_radius, collar_to)
+                           .line(collar_radius, collar_to, radius, collar_to + kCollarEdge);
   addLathe(ring, scale, collar, shape);
 }
 
@@ -82,8 +89,8 @@ void addCup(float radius, const Color& color, ToolShape& shape) {
 
 /// Returns where the shaft starts, behind the tip, in lengths of the shaft.
 float shaftStart(const StylusConfig& stylus, const ToolKind& kind) {
-  const bool is_blade = kind.tip == ToolTip::kBlade;
-  const double acts_m = kind.jaws ? kind.jaws(stylus).length_m : is_blade ? bladeSpan(stylus.cut).high_m : 0;
+  const bool erases = kind.tip == ToolTip::kCapsule;  // around the shaft, which is drawn within it
+  const double acts_m = erases ? 0 : workingLength(stylus, kind);
   return std::min(static_cast<float>(acts_m / stylus.shaft_length_m), 1 - kShortestShaft);
 }
 
@@ -112,14 +119,10 @@ void addTip(const StylusConfig& stylus, const ToolKind& kind, ToolShape& shape) 
 
 }  // namespace
 
-double shaftRadius(const StylusConfig& stylus) {
-  return static_cast<double>(kShaftRadius) * stylus.shaft_length_m;
-}
-
 ToolShape toolWithoutFingers(const StylusConfig& stylus, ToolMode mode) {
   const ToolKind& kind = kindOf(mode);
   ToolShape shape;
-  addShaft(static_cast<float>(stylus.shaft_length_m), shaftStart(stylus, kind), colorOf(kind), shape);
+  addShaft(stylus, shaftStart(stylus, kind), colorOf(kind), shape);
   addTip(stylus, kind, shape);
   shape.solid_indices = shape.indices.size();
   if (kind.does(kHolds)) {

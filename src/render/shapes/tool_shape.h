@@ -13,9 +13,6 @@ namespace viscera {
 
 struct StylusConfig;
 
-/// Returns the radius of the drawn shaft of a stylus [m].
-double shaftRadius(const StylusConfig& stylus);
-
 /// Vertex of a drawn tool, as the GPU takes it.
 struct ToolVertex {
   std::array<float, 3> position_m;  ///< stylus frame

@@ -76,8 +76,9 @@ ToolActs::ToolActs(std::vector<StylusConfig> styluses, double tick_s, bool resis
     : styluses_(std::move(styluses)), tick_s_(tick_s), resisted_(resisted) {}
 
 bool ToolActs::touch(const ToolMotions& motions) const {
-  return std::any_of(motions.begin(), motions.begin() + static_cast<std::ptrdiff_t>(styluses_.size()),
-                     [](const StylusMotion& motion) { return kindOf(motion.mode).touches(); });
+  return std::any_of(
+      motions.begin(), motions.begin() + static_cast<std::ptrdiff_t>(styluses_.size()),
+      [](const StylusMotion& motion) { return kindOf(motion.mode).touches() || motion.shaft_to_m >= 0; });
 }
 
 bool ToolActs::sever(const ToolMotions& motions) const {

@@ -63,7 +63,7 @@ GpuBackend::GpuBackend(const Model& model, const Scene& scene, const TickPlan& p
   if (features_.obstacles > 0) obstacle_reaction_.emplace(features_, buffers_.store.active_count, true);
   for (const Body& body : model.bodies)
     largest_spacing_m_ = std::max(largest_spacing_m_, static_cast<float>(body.lattice.spacing_m));
-  boxes_.reserve(layout::kMaxStyluses);
+  boxes_.reserve(layout::kMostToolBoxes);
   if (plan.tools) {
     const size_t rows = static_cast<size_t>(plan.mostSubsteps()) * layout::kMaxStyluses;
     tools_.emplace(Tools{gpu::Buffer<layout::ToolMotion>(rows, "tool motions"), GrabPass(features_), CutPass(features_),

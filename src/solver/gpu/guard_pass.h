@@ -25,6 +25,7 @@ class GuardPass {
  private:
   gpu::Program guard_;
   uint32_t group_size_;
+  bool shafts_;
 };
 
 }  // namespace viscera

@@ -87,7 +87,10 @@ bool ImplicitContacts::find(const Field& u_m) {
     if (!free_[slot]) continue;
     const Vector3d rest = solver_.restPosition(slot), x = rest + solver_.u_m[slot], x_next = rest + u_m[slot];
     const double below_m = solver_.surfaceDepth(slot);
-    for (size_t s = 0; s < layout::kMaxStyluses; ++s) add(slot, s, outsideOfProbe(motions_[s], x, x_next, below_m));
+    for (size_t s = 0; s < layout::kMaxStyluses; ++s) {
+      if (pushesByTip(motions_[s])) add(slot, s, outsideOfProbe(tipOf(motions_[s]), x, x_next, below_m));
+      if (pushesByShaft(motions_[s])) add(slot, s, outsideOfProbe(shaftNear(motions_[s], x_next), x, x_next, below_m));
+    }
     for (size_t o = 0; o < solver_.obstacles_.size(); ++o) {
       add(slot, layout::kMaxStyluses + o, solver_.obstacles_[o].enlarged(below_m).outside(x, x_next));
     }

@@ -148,11 +148,47 @@ std::optional<ReferenceObstacle::Local> ReferenceObstacle::meetRound(const Vecto
   return Local{normal, onAxis(to) + radius_m_ * normal};
 }
 
-std::optional<HalfSpace> outsideOfProbe(const layout::ToolMotion& motion, const Vector3d& x_m, const Vector3d& x_next_m,
+namespace {
+
+SweptSphere sphereOfShaft(const layout::ToolMotion& motion, double share) {
+  const auto between = [&](const layout::vec4& near, const layout::vec4& far) -> Vector3d {
+    return (1 - share) * xyz(near) + share * xyz(far);
+  };
+  return {between(motion.shaft_from, motion.shaft_far_from), between(motion.shaft_to, motion.shaft_far_to),
+          motion.shaft_from.w};
+}
+
+}  // namespace
+
+bool pushesByTip(const layout::ToolMotion& motion) {
+  return (motion.info.y & (layout::kToolPushes | layout::kToolFeels)) == layout::kToolPushes;
+}
+
+bool pushesByShaft(const layout::ToolMotion& motion) {
+  return (motion.info.y & (layout::kToolShaft | layout::kToolFeels)) == layout::kToolShaft;
+}
+
+SweptSphere tipOf(const layout::ToolMotion& motion) {
+  return {xyz(motion.from), xyz(motion.to), motion.from.w};
+}
+
+SweptSphere shaftNear(const layout::ToolMotion& motion, const Vector3d& x_m) {
+  const Vector3d near = xyz(motion.shaft_to), axis = xyz(motion.shaft_far_to) - near;
+  return sphereOfShaft(motion, std::clamp((x_m - near).dot(axis) / axis.squaredNorm(), 0.0, 1.0));
+}
+
+std::optional<SweptSphere> shaftNearLine(const layout::ToolMotion& motion, const Vector3d& x_m, const Vector3d& along) {
+  constexpr double kParallel2 = 1e-3;  // sin^2 of an angle, as in edges.glsl
+  const Vector3d near = xyz(motion.shaft_to), axis = xyz(motion.shaft_far_to) - near;
+  const Vector3d across = axis - axis.dot(along) / along.squaredNorm() * along;
+  if (across.squaredNorm() <= kParallel2 * axis.squaredNorm()) return std::nullopt;
+  return sphereOfShaft(motion, std::clamp((x_m - near).dot(across) / across.squaredNorm(), 0.0, 1.0));
+}
+
+std::optional<HalfSpace> outsideOfProbe(const SweptSphere& probe, const Vector3d& x_m, const Vector3d& x_next_m,
                                         double below_m) {
-  if ((motion.info.y & (layout::kToolPushes | layout::kToolFeels)) != layout::kToolPushes) return std::nullopt;
-  const Vector3d from = xyz(motion.from), to = xyz(motion.to), travel = to - from;
-  const double radius = std::max(0.0, motion.from.w + below_m), length2 = travel.squaredNorm();
+  const Vector3d from = probe.from_m, to = probe.to_m, travel = to - from;
+  const double radius = std::max(0.0, probe.radius_m + below_m), length2 = travel.squaredNorm();
   // The final sphere for a node inside it, else the capsule that it has swept.
   const auto centreFor = [&](const Vector3d& x) {
     if (length2 == 0 || (x - to).norm() < kOnSphere * radius) return to;

@@ -64,9 +64,23 @@ class ReferenceObstacle {
   Pose from_, to_;
 };
 
-/// Returns the half space of a probe that pushes: where a node at x must end a substep if x_next is inside.
+/// A sphere in a substep: a probe, or a shaft as tissue at one place meets it.
+struct SweptSphere {
+  Vector3d from_m, to_m;
+  double radius_m;
+};
+bool pushesByTip(const layout::ToolMotion& motion);
+bool pushesByShaft(const layout::ToolMotion& motion);
+SweptSphere tipOf(const layout::ToolMotion& motion);
+/// Returns the sphere around the point of a shaft's axis that is nearest to x.
+SweptSphere shaftNear(const layout::ToolMotion& motion, const Vector3d& x_m);
+/// Returns the sphere around the point of a shaft's axis that is nearest to a line; none if the two are almost
+/// parallel.
+std::optional<SweptSphere> shaftNearLine(const layout::ToolMotion& motion, const Vector3d& x_m, const Vector3d& along);
+
+/// Returns the half space of a sphere that pushes: where a node at x must end a substep if x_next is inside.
 /// @param below_m  depth of the node below the surface of its tissue [m]
-std::optional<HalfSpace> outsideOfProbe(const layout::ToolMotion& motion, const Vector3d& x_m, const Vector3d& x_next_m,
+std::optional<HalfSpace> outsideOfProbe(const SweptSphere& probe, const Vector3d& x_m, const Vector3d& x_next_m,
                                         double below_m);
 
 }  // namespace viscera

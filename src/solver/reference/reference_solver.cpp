@@ -97,8 +97,10 @@ void ReferenceSolver::substep(const SubstepMotions& motions, const SubstepOutsid
     if (!implicit && !isGhost(nodes[slot])) applyTools(motions, slot, u_next[slot], v_next[slot]);
     sleep(slot, u_next[slot], v_next[slot]);
   }
-  for (uint32_t s = 0; options_.integrator == ReferenceIntegrator::kLeapfrog && s < layout::kMaxStyluses; ++s)
-    applyEdges(motions[s], s, u_next, v_next);
+  for (uint32_t s = 0; options_.integrator == ReferenceIntegrator::kLeapfrog && s < layout::kMaxStyluses; ++s) {
+    if (pushesByTip(motions[s])) applyEdges(motions[s], false, s, u_next, v_next);
+    if (pushesByShaft(motions[s])) applyEdges(motions[s], true, s, u_next, v_next);
+  }
   collide(u_next, v_next);
   if (!implicit) {
     blow(outside, u_next, v_next, &u_next);

@@ -113,10 +113,10 @@ class ReferenceSolver : public ReferenceLattice, public ToolPort, public TissueP
     Array2d shifts;  ///< displacement out of the probe [m] and change of velocity [m/s]
     Vector3d normal;
   };
-  std::optional<EdgeShift> shiftOfEdge(const layout::ToolMotion& motion, uint32_t a, uint32_t b, const Field& u_next,
-                                       const Field& v_next) const;
+  std::optional<EdgeShift> shiftOfEdge(const layout::ToolMotion& motion, bool shaft, uint32_t a, uint32_t b,
+                                       const Field& u_next, const Field& v_next) const;
   bool onSkin(uint32_t slot) const;
-  void applyEdges(const layout::ToolMotion& motion, uint32_t stylus, Field& u_next, Field& v_next);
+  void applyEdges(const layout::ToolMotion& motion, bool shaft, uint32_t stylus, Field& u_next, Field& v_next);
   void sleep(uint32_t slot, Vector3d& u_next, Vector3d& v_next) const;
   /// Returns the speed below which impacts do not bounce [m/s].
   double restingSpeed() const { return 4 * dt_s_ * gravity_.norm(); }

@@ -60,10 +60,10 @@ double distanceToTriangle(const Vector3d& x, const Vector3d& p, const Vector3d& 
 /// Applies the swept sphere of VR05 2.7.1: out of the final sphere along the radius, out of the swept capsule sideways,
 /// by at most longest_push_m.
 /// @param below_m  depth of the node below the surface of its tissue: the probe is enlarged by it
-void probe(const layout::ToolMotion& m, double below_m, double dt_s, double longest_push_m, const Vector3d& x,
+void probe(const SweptSphere& m, double below_m, double dt_s, double longest_push_m, const Vector3d& x,
            Vector3d& x_next, Vector3d& v_next) {
-  const double radius = std::max(0.0, m.from.w + below_m);
-  const Vector3d from = xyz(m.from), to = xyz(m.to), travel = to - from;
+  const double radius = std::max(0.0, m.radius_m + below_m);
+  const Vector3d from = m.from_m, to = m.to_m, travel = to - from;
   const Vector3d centre = (x_next - to).norm() < kOnSphere * radius ? to : nearestOnSegment(from, to, x_next);
   const Vector3d out = x_next - centre;
   if (out.norm() >= radius) return;
@@ -118,10 +118,14 @@ void ReferenceSolver::applyTools(const SubstepMotions& motions, uint32_t slot, V
     if (held_by == s + 1) {
       u_next = heldDisplacement(m, slot);
       v_next = (u_next - u_m[slot]) / dt_s_;
-    } else if (held_by == 0 && (m.info.y & layout::kToolPushes) && !(m.info.y & layout::kToolFeels)) {
+    } else if (held_by == 0) {
       Vector3d x_next = restPosition(slot) + u_next;
-      probe(m, surfaceDepth(slot), dt_s_, options_.push_speed_m_per_s * dt_s_, restPosition(slot) + u_m[slot], x_next,
-            v_next);
+      const auto meet = [&](const SweptSphere& sphere) {
+        probe(sphere, surfaceDepth(slot), dt_s_, options_.push_speed_m_per_s * dt_s_, restPosition(slot) + u_m[slot],
+              x_next, v_next);
+      };
+      if (pushesByTip(m)) meet(tipOf(m));
+      if (pushesByShaft(m)) meet(shaftNear(m, x_next));
       u_next = x_next - restPosition(slot);
     }
     impulse_n_s[s] += mass(slot) * (v_next - v_before);
@@ -138,14 +142,19 @@ bool ReferenceSolver::onSkin(uint32_t slot) const {
   return isNetwork(slot);
 }
 
-std::optional<ReferenceSolver::EdgeShift> ReferenceSolver::shiftOfEdge(const layout::ToolMotion& m, uint32_t a,
-                                                                       uint32_t b, const Field& u_next,
+std::optional<ReferenceSolver::EdgeShift> ReferenceSolver::shiftOfEdge(const layout::ToolMotion& m, bool shaft,
+                                                                       uint32_t a, uint32_t b, const Field& u_next,
                                                                        const Field& v_next) const {
   const Vector3d x = restPosition(a) + u_next[a], along = restPosition(b) + u_next[b] - x;
-  const double share_b = (xyz(m.to) - x).dot(along) / along.squaredNorm(), share_a = 1 - share_b, length = along.norm();
+  const std::optional<SweptSphere> sphere = shaft ? shaftNearLine(m, x, along) : tipOf(m);
+  if (!sphere) return std::nullopt;
+  const Vector3d from = sphere->from_m, to = sphere->to_m, travel = to - from;
+  const double share_b = (to - x).dot(along) / along.squaredNorm(), share_a = 1 - share_b;
   if (!(share_b > 0 && share_b < 1)) return std::nullopt;
-  const Vector3d at = x + share_b * along, from = xyz(m.from), to = xyz(m.to), travel = to - from;
-  const double seen = m.from.w + share_a * surfaceDepth(a) + share_b * surfaceDepth(b);
+  const Vector3d axis = (xyz(m.shaft_far_to) - xyz(m.shaft_to)).normalized();
+  const double length = shaft ? (along - along.dot(axis) * axis).norm() : along.norm();
+  const Vector3d at = x + share_b * along;
+  const double seen = sphere->radius_m + share_a * surfaceDepth(a) + share_b * surfaceDepth(b);
   const double wider = std::max(0.0, 1 - length / std::max(seen, 1e-9));
   const double chord = wider > 0 ? wider * share_a * share_b * length * length / (2 * seen) : 0;
   const double radius = std::max(0.0, seen - chord);
@@ -160,8 +169,8 @@ std::optional<ReferenceSolver::EdgeShift> ReferenceSolver::shiftOfEdge(const lay
 }
 
 /// Works in rounds; in each, all springs use the result of the previous one.
-void ReferenceSolver::applyEdges(const layout::ToolMotion& m, uint32_t stylus, Field& u_next, Field& v_next) {
-  if ((m.info.y & (layout::kToolPushes | layout::kToolFeels)) != layout::kToolPushes) return;
+void ReferenceSolver::applyEdges(const layout::ToolMotion& m, bool shaft, uint32_t stylus, Field& u_next,
+                                 Field& v_next) {
   const auto moves = [&](uint32_t slot) { return !isFixed(nodes[slot]) && heldBy(slot) == 0; };
   for (uint32_t round = 0; round < layout::kEdgeRounds; ++round) {
     std::vector<EdgeShift> shifts;
@@ -170,7 +179,7 @@ void ReferenceSolver::applyEdges(const layout::ToolMotion& m, uint32_t stylus, F
       for (uint32_t s = 0; onSkin(slot) && s < springsOf(slot); ++s) {
         const uint32_t far = farEnd(slot, s);
         if (far < slot || !isWhole(slot, s) || isAgainstBending(slot, s) || !onSkin(far)) continue;
-        const std::optional<EdgeShift> shift = shiftOfEdge(m, slot, far, u_next, v_next);
+        const std::optional<EdgeShift> shift = shiftOfEdge(m, shaft, slot, far, u_next, v_next);
         if (!shift) continue;
         shifts.push_back(*shift);
         for (int end = 0; end < 2; ++end) {

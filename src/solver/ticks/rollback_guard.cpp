@@ -6,19 +6,23 @@
 #include <cmath>
 
 #include "math/archive.h"
+#include "tools/motion_packing.h"
 #include "tools/restored_tools.h"
 
 namespace viscera {
 
 namespace {
 
-/// Returns the work of tools on the tissue [J]: the mean force of each tool over the tick, times its displacement.
-/// Exact if all nodes that it moves share its displacement at one speed.
+/// Returns the work of tools on the tissue [J]: the mean force of each tool over the tick, times its displacement, and
+/// for shafts that tissue meets the mean moment times the rotation. Exact if all nodes that a tool moves share its
+/// motion at one speed.
 double workOfTools(const layout::TickStats& stats, const ToolMotions& motions, double tick_s) {
   double work = 0;
   for (size_t s = 0; s < motions.size(); ++s) {
     const Vector3d impulse(stats.impulse[s].x, stats.impulse[s].y, stats.impulse[s].z);
-    const double part = impulse.dot(motions[s].to.position_m - motions[s].from.position_m) / tick_s;
+    const Vector3d angular(stats.angular[s].x, stats.angular[s].y, stats.angular[s].z);
+    double part = impulse.dot(motions[s].to.position_m - motions[s].from.position_m) / tick_s;
+    if (motions[s].shaft_to_m >= 0) part += angular.dot(turnOfShaft(motions[s])) / tick_s;
     if (std::isfinite(part)) work += std::max(0.0, part);
   }
   return work;

@@ -32,6 +32,7 @@ std::vector<std::string> FeatureSet::defines() const {
   if (compensated) out.push_back("COMPENSATED");
   if (single_body) out.push_back("SINGLE_BODY");
   if (cuts && lattice) out.push_back("RECORD");
+  if (shafts) out.push_back("SHAFTS");
   return out;
 }
 
@@ -50,6 +51,7 @@ FeatureSet featuresOf(const Model& model, const Scene& scene, double dt_s, uint3
   features.parts = isHeterogeneous(model);
   features.compensated = isCompensated(scene.solver, dt_s);
   features.tools = !scene.styluses.empty();
+  features.shafts = meetsShafts(scene.styluses);
   features.cuts = maySever(scene.styluses) || tears(scene) || suturesTear(scene);
   features.tears = tears(scene);
   features.obstacles = static_cast<uint32_t>(scene.obstacles.size());

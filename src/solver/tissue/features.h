@@ -29,6 +29,7 @@ struct FeatureSet {
   bool parts = false;        ///< strengths vary within a body
   bool compensated = false;  ///< u and v are summed with Kahan's compensation
   bool tools = false;        ///< there are styluses
+  bool shafts = false;       ///< tissue meets the shaft of some stylus
   bool cuts = false;         ///< a stylus may cut or erase, or tissue tears: lattices keep a record of cuts (CutRecord)
   bool tears = false;        ///< some lattice tears by energy; CPU backend
   uint32_t obstacles = 0;    ///< number of obstacles

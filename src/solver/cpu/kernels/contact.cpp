@@ -107,9 +107,7 @@ void CpuEdges::run(CpuLattice& lattice, const Substep& step, const layout::ToolM
   contact.tell(step);
   auto& [edges, asked, pushes, sums] = *lists_;
   contact.edge_sums = sums.data();
-  for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) {
-    if (!contact.pushesEdges(motions[s])) continue;
-    const glsl::Contact::EdgeTip tip = contact.tipOf(motions[s]);
+  const auto push = [&](uint32_t s, const glsl::Contact::EdgeTip& tip) {
     edges.clear();
     for (const uint32_t slot : slots_) contact.listEdges(tip, slot, edges);
     for (uint32_t round = 0; round < layout::kEdgeRounds; ++round) {
@@ -122,11 +120,15 @@ void CpuEdges::run(CpuLattice& lattice, const Substep& step, const layout::ToolM
         const uint32_t slot = first->edge.slot;
         pushes.emplace_back(slot, contact.pushOfAsked(first, end));
       }
-      for (const auto& [slot, push] : pushes) {
-        contact.giveEdges(s, slot, push);
+      for (const auto& [slot, given] : pushes) {
+        contact.giveEdges(s, slot, given);
         sums[slot] = glsl::vec2(0);
       }
     }
+  };
+  for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) {
+    if (contact.pushesByTip(motions[s])) push(s, contact.tipOf(motions[s]));
+    if (contact.pushesByShaft(motions[s])) push(s, contact.shaftOf(motions[s]));
   }
   slots_.clear();
 }

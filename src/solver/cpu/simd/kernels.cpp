@@ -153,11 +153,20 @@ HWY_INLINE V stepVector(const Arrays& a, const Motion& motion, uint32_t b, int i
   return dot(v_next, v_next);
 }
 
-/// Returns whether a node of the vector is within reach of a probe.
+/// Returns the vectors from the nearest points of a capsule's axis to points. @param off  from one of its ends
+HWY_INLINE Vec3 fromAxis(const Reach& reach, const Vec3& off) {
+  const Vec3 axis{set(reach.axis_m[0]), set(reach.axis_m[1]), set(reach.axis_m[2])};
+  const V along = hn::Mul(dot(off, axis), set(reach.inverse_length2));
+  const V share = hn::Min(hn::Max(along, hn::Zero(Tag())), set(1));
+  return off - Vec3{hn::Mul(share, axis.x), hn::Mul(share, axis.y), hn::Mul(share, axis.z)};
+}
+
+/// Returns whether a node of the vector is within reach of a probe or a shaft.
 HWY_INLINE bool inReach(const LeapfrogJob& job, const Vec3& x) {
   for (size_t r = 0; r < job.reaches; ++r) {
     const Reach& reach = job.reach[r];
-    const Vec3 off = x - Vec3{set(reach.center_m[0]), set(reach.center_m[1]), set(reach.center_m[2])};
+    Vec3 off = x - Vec3{set(reach.center_m[0]), set(reach.center_m[1]), set(reach.center_m[2])};
+    if (reach.inverse_length2 > 0) off = fromAxis(reach, off);
     // Slightly larger than needed, as the exact test rounds differently.
     if (!hn::AllFalse(Tag(), hn::Lt(dot(off, off), set(1.001f * reach.radius_m * reach.radius_m)))) return true;
   }

@@ -41,18 +41,22 @@ struct Arrays {
   const uint16_t* idle_rows;      ///< [bricks] bit r: none of the four nodes from 4 r on can ever move
 };
 
-/// A probe in a substep: nodes with tissue in this sphere are tested one by one (shaders/solver/tools/contact.glsl).
+/// A probe or a shaft in a substep: nodes with tissue in this sphere or capsule are tested one by one
+/// (shaders/solver/tools/contact.glsl).
 struct Reach {
-  float center_m[3];
+  float center_m[3];  ///< center of the sphere, or one end of the capsule's axis
   float radius_m;
+  float axis_m[3];        ///< from there to the other end of the axis
+  float inverse_length2;  ///< 1 over the square of its length [1/m2]; 0: a sphere
 };
+constexpr size_t kMostReaches = 2 * layout::kMaxStyluses;
 
 struct LeapfrogJob {
   Arrays arrays;
   Substep step;
   float* predicted;  ///< [3 * slots] u + dashpot_s v (physics.md 2) [m]; null without dashpots on springs
-  size_t reaches;    ///< number of probes
-  Reach reach[layout::kMaxStyluses];
+  size_t reaches;    ///< number of probes and shafts
+  Reach reach[kMostReaches];
   uint8_t* near;       ///< [bricks] set to 1 where a node is within reach of a probe; null without probes
   uint16_t* strained;  ///< [bricks] bit i / 4: the vector from node i on was strained in the last substep; kept between
                        ///< substeps

@@ -18,12 +18,28 @@ constexpr size_t kMostBricks = 16;  // bricks that a thread takes at a time: abo
 constexpr size_t kLeastBricks = 2;  // towards the end of a round: about 1 us, still ten times the cost of taking them
 constexpr size_t kPartsPerThread = 8;  // at least, given enough bricks: an idle thread takes the next part
 
-/// Returns the reach of a probe in a substep, around its final position [m].
-/// @param deepest_m  largest depth of a node below the surface at which it is touched
-/// @param edge_m  largest distance of a spring's node from the probe (edgeReach())
-float reachOf(const layout::ToolMotion& m, float deepest_m, float edge_m) {
-  const Vector3f travel(m.to.x - m.from.x, m.to.y - m.from.y, m.to.z - m.from.z);
-  return m.from.w + deepest_m + edge_m + travel.norm();
+float distanceOf(const layout::vec4& a, const layout::vec4& b) {
+  return Vector3f(a.x - b.x, a.y - b.y, a.z - b.z).norm();
+}
+
+/// Calls visit with the reach of each probe and shaft in a substep, around its final position.
+/// @param margin_m  largest depth of a node below the surface at which it is touched, and largest distance of a
+/// spring's node from the probe (edgeReach())
+template <class Visit>
+void forEachReach(const layout::ToolMotion* motions, float margin_m, const Visit& visit) {
+  for (size_t s = 0; s < layout::kMaxStyluses; ++s) {
+    const layout::ToolMotion& m = motions[s];
+    if (m.info.y & layout::kToolPushes)
+      visit(simd::Reach{{m.to.x, m.to.y, m.to.z}, m.from.w + margin_m + distanceOf(m.to, m.from), {}, 0});
+    if (!(m.info.y & layout::kToolShaft)) continue;
+    const layout::vec4 &near = m.shaft_to, &far = m.shaft_far_to;
+    const float length_m = distanceOf(near, far);
+    const float travel_m = std::max(distanceOf(near, m.shaft_from), distanceOf(far, m.shaft_far_from));
+    visit(simd::Reach{{near.x, near.y, near.z},
+                      m.shaft_from.w + margin_m + travel_m,
+                      {far.x - near.x, far.y - near.y, far.z - near.z},
+                      1 / (length_m * length_m)});
+  }
 }
 
 float deepestOf(const std::vector<float>& depths_m) {
@@ -54,7 +70,7 @@ CpuLeapfrog::CpuLeapfrog(const CpuLattice& lattice, const CpuParts& parts)
     cell_bricks_awake_.reserve(lattice.brickCount());
   }
   if (!lattice.strengths.walls.empty()) wall_forces_.resize(3 * lattice.slotCount());
-  if (network_) reaches_.reserve(layout::kMaxStyluses);
+  if (network_) reaches_.reserve(simd::kMostReaches);
   if (parts.features.predicted) {
     predicted_.resize(3 * lattice.slotCount());
     all_bricks_.resize(lattice.brickCount());
@@ -108,10 +124,9 @@ void CpuLeapfrog::stepAwake(CpuLattice& lattice, const Substep& step, const layo
   job_.step = step;
   if (!predicted_.empty()) predict(step);
   job_.reaches = 0;
-  for (size_t s = 0; step.tools && s < layout::kMaxStyluses; ++s) {
-    const layout::ToolMotion& m = motions[s];
-    if (m.info.y & layout::kToolPushes)
-      job_.reach[job_.reaches++] = {{m.to.x, m.to.y, m.to.z}, reachOf(m, deepest_m_, step.edge_reach_m)};
+  if (step.tools) {
+    forEachReach(motions, deepest_m_ + step.edge_reach_m,
+                 [&](const simd::Reach& reach) { job_.reach[job_.reaches++] = reach; });
   }
   parallel_.ranges(awake, portions_, [&](size_t first, size_t end) { stepBricks(lattice, step, motions, first, end); });
   if (!step.tools) return;
@@ -203,11 +218,7 @@ void CpuLeapfrog::stepNetwork(CpuLattice& lattice, const Substep& step, const la
   network_->step(lattice, step, compensation_);
   if (!step.tools) return;
   reaches_.clear();
-  for (size_t s = 0; s < layout::kMaxStyluses; ++s) {
-    const layout::ToolMotion& m = motions[s];
-    if (m.info.y & layout::kToolPushes)
-      reaches_.push_back({glsl::xyz(m.to), reachOf(m, deepest_m_, step.edge_reach_m)});
-  }
+  forEachReach(motions, deepest_m_ + step.edge_reach_m, [&](const simd::Reach& reach) { reaches_.push_back(reach); });
   const std::vector<uint32_t>& touched = network_->touched(lattice, reaches_);
   resolveContacts(lattice, step, motions, touched.data(), touched.size());
   edges_.add(lattice, step, motions, touched.data(), touched.size());

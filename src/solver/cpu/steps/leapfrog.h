@@ -55,8 +55,8 @@ class CpuLeapfrog : public CpuStepper {
   std::vector<uint16_t> strained_;  ///< [bricks]
   std::vector<float> speed2_;       ///< [bricks]
   CpuEdges edges_;
-  std::vector<NodeReach> reaches_;  ///< of probes in this substep, for nodes with explicit connections
-  Portions portions_;               ///< portions of bricks
+  std::vector<simd::Reach> reaches_;  ///< of probes and shafts in this substep, for nodes with explicit connections
+  Portions portions_;                 ///< portions of bricks
 };
 
 }  // namespace viscera

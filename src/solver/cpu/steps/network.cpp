@@ -169,7 +169,14 @@ void CpuNetwork::step(CpuLattice& lattice, const Substep& step, AlignedVector<fl
   ofAll(step_rows_, kGroupsPerStep);
 }
 
-const std::vector<uint32_t>& CpuNetwork::touched(CpuLattice& lattice, const std::vector<NodeReach>& reaches) {
+/// Returns the vector to x from the nearest point of a sphere's center or a capsule's axis.
+static glsl::vec3 fromReach(const simd::Reach& reach, const glsl::vec3& x) {
+  const glsl::vec3 axis(reach.axis_m[0], reach.axis_m[1], reach.axis_m[2]);
+  const glsl::vec3 off = x - glsl::vec3(reach.center_m[0], reach.center_m[1], reach.center_m[2]);
+  return off - glsl::clamp(glsl::dot(off, axis) * reach.inverse_length2, 0.0f, 1.0f) * axis;
+}
+
+const std::vector<uint32_t>& CpuNetwork::touched(CpuLattice& lattice, const std::vector<simd::Reach>& reaches) {
   touched_.clear();
   glsl::Position position(lattice);
   for (uint32_t slot : slots_) {
@@ -177,8 +184,8 @@ const std::vector<uint32_t>& CpuNetwork::touched(CpuLattice& lattice, const std:
     bool near = (lattice.store.nodes[slot].lo & layout::kGrabMask) != 0;
     if (!near) {
       const glsl::vec3 x = position.restPosition(slot) + glsl::xyz(position.next_displacement[slot]);
-      for (const NodeReach& reach : reaches) {
-        const glsl::vec3 away = x - reach.center_m;
+      for (const simd::Reach& reach : reaches) {
+        const glsl::vec3 away = fromReach(reach, x);
         near |= glsl::dot(away, away) < reach.radius_m * reach.radius_m;
       }
     }

@@ -14,12 +14,6 @@ namespace viscera {
 
 class Archive;
 
-/// A probe in a substep: nodes in this sphere are tested one by one (shaders/solver/tools/contact.glsl).
-struct NodeReach {
-  glsl::vec3 center_m;
-  float radius_m;
-};
-
 /// Leapfrog, measurements and cuts of bodies with explicit connections: shaders/solver/step/leapfrog.comp, measure.comp
 /// and cut_links.comp on the CPU. Leapfrog is a SIMD kernel (network_kernels.h), the rest is the shaders' text.
 class CpuNetwork {
@@ -30,9 +24,9 @@ class CpuNetwork {
   /// Makes one substep of all these bodies, without contacts, from the current state to the other one.
   /// @param compensation  [6 * slots] of the lattice's kernels; empty without compensation
   void step(CpuLattice& lattice, const Substep& step, AlignedVector<float>& compensation);
-  /// Returns the slots of the nodes just stepped that are held or within reach of a probe.
+  /// Returns the slots of the nodes just stepped that are held or within reach of a probe or a shaft.
   /// @param reaches  of this substep
-  const std::vector<uint32_t>& touched(CpuLattice& lattice, const std::vector<NodeReach>& reaches);
+  const std::vector<uint32_t>& touched(CpuLattice& lattice, const std::vector<simd::Reach>& reaches);
   /// Adds the measurements of these bodies to those of the others: energies, maxima and counts.
   void measure(CpuLattice& lattice, layout::TickStats& stats) const;
   /// Removes the springs that the swept blade crosses.

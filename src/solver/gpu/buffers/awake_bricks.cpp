@@ -107,7 +107,7 @@ void AwakeBricks::run(const gpu::Program& program) {
 
 void AwakeBricks::wakeNear(const std::vector<ToolBox>& boxes) {
   if (boxes.empty() || all_) return;
-  float low[layout::kMaxStyluses][3] = {}, high[layout::kMaxStyluses][3] = {};
+  float low[layout::kMostToolBoxes][3] = {}, high[layout::kMostToolBoxes][3] = {};
   for (size_t i = 0; i < boxes.size(); ++i) {
     std::copy_n(boxes[i].low.data(), 3, low[i]);
     std::copy_n(boxes[i].high.data(), 3, high[i]);

@@ -30,7 +30,7 @@ class AwakeBricks {
   /// These take effect from the next substep on. The buffers must be bound.
   /// @{
   void wakeAll() { all_ = true; }
-  void wakeNear(const std::vector<ToolBox>& boxes);  ///< at most kMaxStyluses
+  void wakeNear(const std::vector<ToolBox>& boxes);  ///< at most kMostToolBoxes
   void wakeHeld();                                   ///< those with a held node
   /// Wakes bricks in the sphere that the blade may cut in, where springs were cut since the last substep.
   void wakeCut(uint32_t stylus);
