@@ -137,15 +137,15 @@ void Gallbladder::addDucts() {
                          {junction, variant_.duct_radius}},
                         kFar);
   hepatic_duct_ =
-      Strand({{{25 + 0.5 * s, 9, 5}, 2.7}, {{28 + s, -3, -12}, 2.7}, {{30 + s, -6, -26}, 2.7}, {junction, 2.9}}, kFar);
-  bile_duct_ = Strand({{junction, 2.9}, {{30 + 0.7 * s, -5, z - 9}, 3}, {{29, -2, kFloor - 6}, 3}}, kFar);
+      Strand({{{25 + 0.5 * s, 9, 5}, 3}, {{28 + s, -3, -12}, 3}, {{30 + s, -6, -26}, 3}, {junction, 3.2}}, kFar);
+  bile_duct_ = Strand({{junction, 3.2}, {{30 + 0.7 * s, -5, z - 9}, 3.3}, {{29, -2, kFloor - 6}, 3.3}}, kFar);
   ligament_ = Strand({{{33, 0, -55}, 8.5}, {{33, 0, kFloor - 6}, 11}}, kFar);
 }
 
 void Gallbladder::addArteries() {
   const double s = 0.6 * aside(), in_front = variant_.artery_in_front ? 1 : 0;
-  const double cross_y = in_front > 0 ? -10.8 : 1.2;
-  const Vector3d origin(21.5 + s, in_front > 0 ? -8.5 : -3.5, -13), deep(17 + s, -1, -7);
+  const double cross_y = in_front > 0 ? -11.2 : 1.4;
+  const Vector3d origin(21.5 + s, in_front > 0 ? -6.5 : -3.5, -13), deep(17 + s, -1, -7);
   hepatic_artery_ = Strand({{{40, -2, kFloor - 6}, 1.6},
                             {{38.5, 0 - 4 * in_front, -46}, 1.6},
                             {{36.5 + s, 1 - 8 * in_front, -33}, 1.6},
@@ -155,15 +155,15 @@ void Gallbladder::addArteries() {
                             {{13 + s, 6, -1}, 1.4}},
                            kFar);
   const double r = variant_.artery_radius;
-  const Vector3d entry = onWall({8.5, -11.5, -7});
-  std::vector<Strand::Knot> path = {{origin, r}, {0.5 * (origin + entry) + Vector3d(0, -1, 1.2), r}};
-  for (const Vector3d& on : {entry, onWall({4.9, -15.4, 2}), onWall({1.9, -18, 12}), onWall({-1, -22, 21})})
+  const Vector3d entry = onWall({9.5, -8.5, -7.5});
+  std::vector<Strand::Knot> path = {{origin, r}, {{15 + 0.7 * s, -7, -9.5}, r}};
+  for (const Vector3d& on : {entry, onWall({6, -14, 1}), onWall({1.9, -18, 12}), onWall({-1, -22, 21})})
     path.push_back({on, path.size() < 3 ? r : 0.85 * r});
   cystic_artery_ = Strand(path, kFar);
   if (!variant_.two_arteries) return;
-  const Vector3d second = 0.6 * origin + 0.4 * Vector3d(30 + aside(), cross_y, -20), low = onWall({10, -13, -17});
+  const Vector3d second = 0.6 * origin + 0.4 * Vector3d(30 + aside(), cross_y, -20);
   second_artery_ = Strand(
-      {{second, r}, {0.5 * (second + low) + Vector3d(0, -1, -0.5), r}, {low, r}, {onWall({5, -20, -17}), 0.85 * r}},
+      {{second, r}, {{17 + 0.7 * s, -7.2, -15.5}, r}, {onWall({10, -9.5, -15}), r}, {onWall({7, -18, -13}), 0.85 * r}},
       kFar);
 }
 
@@ -204,7 +204,7 @@ double Gallbladder::front(double z) const {
 double Gallbladder::triangle(const Vector3d& p) const {
   const double s = aside(), grown = variant_.inflamed ? 4 : -0.8;
   const std::array<Eigen::Vector2d, 4> corners = {
-      Eigen::Vector2d(3, -4), {14, -25.5}, {30.5 + s, variant_.junction_z}, {28 + s, -4}};
+      Eigen::Vector2d(-3, -2), {13, -25.5}, {30.5 + s, variant_.junction_z}, {28 + s, -2}};
   const Eigen::Vector2d at(p.x(), p.z());
   double out = -std::numeric_limits<double>::infinity();
   for (size_t i = 0; i < corners.size(); ++i) {
