@@ -27,6 +27,8 @@ bodies:
     import_limits: {max_file_mb: 1.5, max_depth: 11, max_instances: 12, max_triangles: 13, other_formats: true}
     up_axis: y
     centered: true
+    phantom: gallbladder
+    phantom_seed: 103
     phantom_length_m: 0.101
     phantom_wall_scale: 1.02
     box_size_m: [0.031, 0.032, 0.033]
@@ -202,6 +204,8 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_TRUE(body.import_limits.other_formats);
   EXPECT_EQ(body.up_axis, UpAxis::kY);
   EXPECT_TRUE(body.centered);
+  EXPECT_EQ(body.phantom, Anatomy::kGallbladder);
+  EXPECT_EQ(body.phantom_seed, 103);
   EXPECT_EQ(body.phantom_length_m, 0.101);
   EXPECT_EQ(body.phantom_wall_scale, 1.02);
   EXPECT_EQ(body.box_size_m, Vector3d(0.031, 0.032, 0.033));

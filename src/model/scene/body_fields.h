@@ -158,14 +158,16 @@ void visitFields(V& v, LayerConfig& c) {
 template <class V>
 void visitFields(V& v, BodyConfig& c) {
   v.text("name", c.name, "name of the body, unique");
-  v.choice("source", c.source,
-           {{"phantom", TissueSource::kPhantom},
-            {"mesh", TissueSource::kMesh},
-            {"box", TissueSource::kBox},
-            {"sheet", TissueSource::kSheet},
-            {"ball", TissueSource::kBall},
-            {"labels", TissueSource::kLabels}},
-           "source of the tissue: the built-in heart, a mesh file, a box, a flat sheet, a ball, or labels of a scan");
+  v.choice(
+      "source", c.source,
+      {{"phantom", TissueSource::kPhantom},
+       {"mesh", TissueSource::kMesh},
+       {"box", TissueSource::kBox},
+       {"sheet", TissueSource::kSheet},
+       {"ball", TissueSource::kBall},
+       {"labels", TissueSource::kLabels}},
+      "source of the tissue: a built-in anatomy (`phantom`), a mesh file, a box, a flat sheet, a ball, or labels of a "
+      "scan");
   v.choice("structure", c.structure,
            {{"lattice", Structure::kLattice}, {"explicit", Structure::kExplicit}, {"surface", Structure::kSurface}},
            "structure of the model: a solid lattice; the same lattice with explicit connections (VR05 2.5.1); or "
@@ -187,7 +189,8 @@ void visitFields(V& v, BodyConfig& c) {
   v.number("gap_m", c.gap_m, {1e-6, 1}, "m",
            "fill enclosed: width of the widest gap or hole that is closed; wider openings stay open");
   v.boolean("textures", c.textures,
-            "mesh: use the colours, textures, normal maps and roughness of the file (docs/surface.md)");
+            "mesh: use the colours, textures, normal maps and roughness of the file (docs/surface.md); phantom "
+            "gallbladder: use its colours");
   v.text(
       "detail_mesh", c.detail_mesh,
       "path of a finer mesh of the same surface, with any number of faces, placed as mesh_file is; its normals and "
@@ -199,8 +202,16 @@ void visitFields(V& v, BodyConfig& c) {
   v.integer("detail_px", c.detail_px, {64, 16384},
             "largest side of the square texture to which detail is baked; it is exceeded where the surface mesh has "
             "too many faces");
-  v.number("phantom_length_m", c.phantom_length_m, {0.01, 1}, "m", "phantom: length from base to apex");
-  v.number("phantom_wall_scale", c.phantom_wall_scale, {0.1, 2}, "1", "phantom: factor on every wall thickness");
+  v.choice("phantom", c.phantom, {{"heart", Anatomy::kHeart}, {"gallbladder", Anatomy::kGallbladder}},
+           "phantom: anatomy: a heart, or a gallbladder on the liver with its ducts and vessels "
+           "(docs/user_guide.md#built-in-anatomies)");
+  v.integer("phantom_seed", c.phantom_seed, {0, 1e6},
+            "phantom gallbladder: variant: 0 the usual one, 1 short cystic duct, 2 artery in front of the common duct, "
+            "3 two cystic arteries, 4 inflamed; above: features and sizes drawn by this seed");
+  v.number("phantom_length_m", c.phantom_length_m, {0.01, 1}, "m",
+           "phantom: length from base to apex, or of the gallbladder (0.08 is natural); all sizes follow it");
+  v.number("phantom_wall_scale", c.phantom_wall_scale, {0.1, 2}, "1",
+           "phantom: factor on every wall thickness; of the gallbladder and the common duct only");
   v.vector("box_size_m", c.box_size_m, {1e-4, 10}, "m",
            "box: edge lengths, centred on the body's origin; sheet: lengths along x and y");
   v.number("ball_radius_m", c.ball_radius_m, {1e-4, 10}, "m", "ball: radius, centred on the body's origin");

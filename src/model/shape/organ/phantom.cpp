@@ -188,13 +188,6 @@ std::vector<Wall> wallsOf(const std::vector<std::string>& part_names, double sca
   return walls;
 }
 
-void requireRange(const char* key, double value, double low, double high) {
-  if (value >= low && value <= high) return;
-  TextOut out;
-  out << key << " must be " << low << ".." << high << ", not " << value;
-  throw SceneError(out.str());
-}
-
 /// Returns the box around the tilted heart, in fractions of its length.
 std::pair<Vector3d, Vector3d> extent(double wall_scale) {
   Vector3d low, high;
@@ -206,6 +199,13 @@ std::pair<Vector3d, Vector3d> extent(double wall_scale) {
 }
 
 }  // namespace
+
+void requirePhantomRange(const char* key, double value, double low, double high) {
+  if (value >= low && value <= high) return;
+  TextOut out;
+  out << key << " must be " << low << ".." << high << ", not " << value;
+  throw SceneError(out.str());
+}
 
 PlacedPaint heartPaint(double length_m, double wall_scale) {
   const Heart heart(wall_scale);
@@ -221,8 +221,8 @@ PlacedPaint heartPaint(double length_m, double wall_scale) {
 }
 
 Phantom heartPhantom(double length_m, double wall_scale) {
-  requireRange("phantom_length_m", length_m, 0.01, 1);
-  requireRange("phantom_wall_scale", wall_scale, 0.1, 2);
+  requirePhantomRange("phantom_length_m", length_m, 0.01, 1);
+  requirePhantomRange("phantom_wall_scale", wall_scale, 0.1, 2);
   const auto [low, high] = extent(wall_scale);
   const Vector3d middle = 0.5 * (low + high);
   const auto position = [length_m, middle](const Vector3d& p) -> Vector3d { return length_m * (tilt() * p - middle); };

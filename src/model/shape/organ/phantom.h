@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,12 @@ struct Wall {
 /// Built-in organ that needs no download: a distance field with its bounds and part names.
 struct Phantom {
   DistanceField field;
+  /// Returns the field for cells of a spacing [m]: the same solid, in which strands thinner than a cell own all tissue
+  /// of the cells that their axis passes through. Null: `field`.
+  std::function<DistanceField(double spacing_m)> field_for_cells;
   std::vector<std::string> part_names;
-  Vector3d min_m, max_m;  ///< box around the tissue
+  std::vector<Vector3d> part_colors;  ///< sRGB of each part; empty: parts have the body's colour
+  Vector3d min_m, max_m;              ///< box around the tissue
   /// A point in each chamber: left and right ventricle, left and right atrium.
   std::vector<Vector3d> chamber_centers_m;
   Vector3d defect_from_m, defect_to_m;  ///< axis of the septal defect, from the left into the right ventricle
@@ -38,7 +43,26 @@ struct Phantom {
 /// @throws SceneError  a parameter out of its range
 Phantom heartPhantom(double length_m, double wall_scale);
 
-/// Returns the paint of its coronary vessels, in grooves with fat, for a surface of that heart (heart_vessels.h).
+constexpr int kMostPhantomSeed = 1000000;
+
+/// Returns a gallbladder on the liver, with its ducts, vessels, fat and peritoneum. Seen from the front, by a camera
+/// that looks along +y with z up, the liver is lifted: the fundus points to +z, and the common duct is at +x, the
+/// patient's left. It ends at a plane below, where ducts and vessels are to be fixed. The gallbladder and the common
+/// duct are hollow; strands thinner than a cell are solid. Parts: liver, liver_capsule, gallbladder_bed, gallbladder,
+/// infundibulum, cystic_duct, common_hepatic_duct, common_bile_duct, hepatic_artery, cystic_artery, fat, peritoneum.
+/// @param length_m    of the gallbladder from the top of its fundus to the lowest point of its infundibulum [m],
+/// 0.01..1;
+///                    all sizes follow it. docs/user_guide.md has those at 0.08
+/// @param wall_scale  multiplies the walls of the gallbladder and the common duct, 0.1..2
+/// @param seed        variant (gallbladder_variant.h), 0..kMostPhantomSeed
+/// @throws SceneError  a parameter out of its range
+Phantom gallbladderPhantom(double length_m, double wall_scale, int seed);
+
+/// @throws SceneError  a value of a scene key that is out of its range or not a number
+void requirePhantomRange(const char* key, double value, double low, double high);
+
+/// Returns the paint of the heart's coronary vessels, in grooves with fat, for a surface of that heart
+/// (heart_vessels.h).
 PlacedPaint heartPaint(double length_m, double wall_scale);
 
 }  // namespace viscera

@@ -7,6 +7,7 @@
 #include "model/scene/structure_rules.h"
 #include "model/shape/enclosed/enclosed_solid.h"
 #include "model/shape/files/msh_reader.h"
+#include "model/shape/mesh/part_color.h"
 #include "model/shape/organ/clamp_planes.h"
 #include "model/shape/organ/label_mesh.h"
 #include "model/shape/organ/placing.h"
@@ -96,14 +97,30 @@ class MeshTissue : public Tissue {
   NodePlanes planes_;
 };
 
+/// Returns colours as a mesh file would give them. @return null without colours
+std::shared_ptr<const SurfaceDetail> partDetail(const std::vector<Vector3d>& part_colors) {
+  if (part_colors.empty()) return nullptr;
+  auto detail = std::make_shared<SurfaceDetail>();
+  for (size_t part = 0; part < part_colors.size(); ++part) addPartColor(part, part_colors[part], *detail);
+  return detail;
+}
+
+Phantom phantomOf(const BodyConfig& config) {
+  switch (config.phantom) {
+    case Anatomy::kHeart:
+      return heartPhantom(config.phantom_length_m, config.phantom_wall_scale);
+    case Anatomy::kGallbladder:
+      return gallbladderPhantom(config.phantom_length_m, config.phantom_wall_scale, config.phantom_seed);
+  }
+  throw SceneError("body '" + config.name + "': unknown phantom");
+}
+
 class PhantomTissue : public Tissue {
  public:
   explicit PhantomTissue(const BodyConfig& config)
-      : phantom_(heartPhantom(config.phantom_length_m, config.phantom_wall_scale)),
-        moments_(fillsInPart(config)),
-        skin_spacing_m_(config.skin_spacing_m) {
+      : phantom_(phantomOf(config)), moments_(fillsInPart(config)), skin_spacing_m_(config.skin_spacing_m) {
     const Pose pose = pose_ = bodyPose(config);
-    has_vessels_ = config.textures && config.skin_spacing_m > 0;
+    has_vessels_ = config.phantom == Anatomy::kHeart && config.textures && config.skin_spacing_m > 0;
     length_m_ = config.phantom_length_m;
     wall_scale_ = config.phantom_wall_scale;
     const Eigen::AlignedBox3d box = movedBox(phantom_.min_m, phantom_.max_m, pose);
@@ -111,12 +128,14 @@ class PhantomTissue : public Tissue {
     phantom_.max_m = box.max();
     phantom_.field = movedField(phantom_.field, pose);
     planes_ = clampPlanes(config, bounds());
+    if (config.textures) detail_ = partDetail(phantom_.part_colors);
   }
 
   Filling fill(double spacing_m, const Progress& progress) const override {
     const Phantom& p = phantom_;
-    if (moments_) return {voxeliseByMoments(p.field, p.part_names, p.min_m, p.max_m, spacing_m, planes_, progress), ""};
-    return {voxelise(p.field, p.part_names, p.min_m, p.max_m, spacing_m, progress), ""};
+    const DistanceField field = p.field_for_cells ? movedField(p.field_for_cells(spacing_m), pose_) : p.field;
+    if (moments_) return {voxeliseByMoments(field, p.part_names, p.min_m, p.max_m, spacing_m, planes_, progress), ""};
+    return {voxelise(field, p.part_names, p.min_m, p.max_m, spacing_m, progress), ""};
   }
 
   /// Returns the surface mesh. With partly filled cells walls may be thinner than a cell: the mesh still contains them.
@@ -128,7 +147,9 @@ class PhantomTissue : public Tissue {
     return shell(spacing_m);
   }
   TriangleMesh shell(double spacing_m) const override {
-    return extractSkin(phantom_.field, phantom_.part_names, phantom_.min_m, phantom_.max_m, spacing_m);
+    TriangleMesh mesh = extractSkin(phantom_.field, phantom_.part_names, phantom_.min_m, phantom_.max_m, spacing_m);
+    mesh.detail = detail_;
+    return mesh;
   }
 
   PlacedPaint paint() const override {
@@ -152,6 +173,7 @@ class PhantomTissue : public Tissue {
   bool has_vessels_ = false;
   Pose pose_;
   NodePlanes planes_;
+  std::shared_ptr<const SurfaceDetail> detail_;  ///< colours of the parts; null: none
 };
 
 }  // namespace
