@@ -202,8 +202,11 @@ void requireAttachments(const std::string& file, const Scene& scene) {
     if (attachment.body_a == attachment.body_b)
       throw SceneError(where + "'body_a' and 'body_b' must be different bodies; both are '" + attachment.body_a + "'");
   }
-  if (!scene.attachments.empty() && scene.collision.enabled)
-    throw SceneError(file + ": 'collision.enabled' must be false with 'attachments': it would push the bodies apart");
+  if (scene.attachments.empty()) return;
+  if (scene.collision.enabled)
+    throw SceneError(file + ": 'collision.enabled' must be false with 'attachments', as it pushes the bodies apart");
+  if (scene.solver.start == SolverStart::kEquilibrium)
+    throw SceneError(file + ": 'solver.start' must be rest with 'attachments'; equilibrium is found without them");
 }
 
 /// Checks that a stylus in mode needle has a needle to take.
