@@ -156,6 +156,10 @@ bodies:
                prestress: {strain: 0.0821, strains: [0.0822, 0.0823, 0.0824], axes_deg: [82.5, 82.6, 82.7]}}
     parts: [{part: valve, poisson_ratio: 0.32,
              prestress: {strain: 0.0831, strains: [0.0832, 0.0833, 0.0834], axes_deg: [83.5, 83.6, 83.7]}}]
+  - {name: bed}
+attachments:
+  - {body_a: tissue, body_b: bed, reach_m: 0.00151, modulus_pa: 1520, thickness_m: 0.00153, toughness_j_per_m2: 15.4,
+     strength_pa: 1550}
 )";
 
 /// Collects the paths of all keys below a node, list items as name[].
@@ -275,6 +279,17 @@ TEST(SceneKeys, EveryKeyOfLatticesAloneReachesItsField) {
   EXPECT_EQ(part.prestress.strain, 0.0831);
   EXPECT_EQ(part.prestress.strains, Vector3d(0.0832, 0.0833, 0.0834));
   EXPECT_EQ(part.prestress.axes_deg, Vector3d(83.5, 83.6, 83.7));
+}
+
+TEST(SceneKeys, EveryKeyOfAttachmentsReachesItsField) {
+  const AttachmentConfig attachment = parseScene(kOfLatticesAlone, "lattice").attachments.at(0);
+  EXPECT_EQ(attachment.body_a, "tissue");
+  EXPECT_EQ(attachment.body_b, "bed");
+  EXPECT_EQ(attachment.reach_m, 0.00151);
+  EXPECT_EQ(attachment.modulus_pa, 1520);
+  EXPECT_EQ(attachment.thickness_m, 0.00153);
+  EXPECT_EQ(attachment.toughness_j_per_m2, 15.4);
+  EXPECT_EQ(attachment.strength_pa, 1550);
 }
 
 TEST(SceneKeys, PapersWeightsGoWithSprings) {

@@ -183,6 +183,32 @@ void requireMark(const std::string& where, const Scene& scene, const MarkConfig&
                      std::to_string(mark.path.size()));
 }
 
+void requireAttached(const std::string& where, const char* key, const Scene& scene, const std::string& name) {
+  for (const BodyConfig& body : scene.bodies) {
+    if (body.name != name) continue;
+    if (body.structure != Structure::kLattice)
+      throw SceneError(where + "'" + key + "' must name a body of structure lattice; '" + name + "' has another one");
+    return;
+  }
+  throw SceneError(where + "'" + key + "' must be the name of a body of the scene; found '" + name + "'");
+}
+
+void requireAttachments(const std::string& file, const Scene& scene) {
+  for (size_t i = 0; i < scene.attachments.size(); ++i) {
+    const AttachmentConfig& attachment = scene.attachments[i];
+    const std::string where = file + ": attachments[" + std::to_string(i) + "]: ";
+    requireAttached(where, "body_a", scene, attachment.body_a);
+    requireAttached(where, "body_b", scene, attachment.body_b);
+    if (attachment.body_a == attachment.body_b)
+      throw SceneError(where + "'body_a' and 'body_b' must be different bodies; both are '" + attachment.body_a + "'");
+  }
+  if (scene.attachments.empty()) return;
+  if (scene.collision.enabled)
+    throw SceneError(file + ": 'collision.enabled' must be false with 'attachments', as it pushes the bodies apart");
+  if (scene.solver.start == SolverStart::kEquilibrium)
+    throw SceneError(file + ": 'solver.start' must be rest with 'attachments'; equilibrium is found without them");
+}
+
 /// Checks that a stylus in mode needle has a needle to take.
 void requireNeedles(const std::string& file, const Scene& scene) {
   for (const SutureConfig& suture : scene.sutures) {
@@ -223,6 +249,7 @@ void requireConsistent(const std::string& file, const Scene& scene) {
     requireNeedle(file, suture);
   }
   requireNeedles(file, scene);
+  requireAttachments(file, scene);
   for (size_t i = 0; i < scene.marks.size(); ++i)
     requireMark(file + ": marks[" + std::to_string(i) + "]: ", scene, scene.marks[i]);
   try {

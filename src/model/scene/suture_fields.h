@@ -3,12 +3,13 @@
 #pragma once
 
 #include "model/scene/field_ranges.h"
+#include "viscera/model/scene/attachment_config.h"
 #include "viscera/model/scene/knot_kind.h"
 #include "viscera/model/scene/suture_config.h"
 
 namespace viscera {
 
-// Scene keys of sutures (scene_fields.h).
+// Scene keys of sutures and attachments (scene_fields.h).
 
 template <class V>
 void visitFields(V& v, SuturePathPoint& c) {
@@ -112,6 +113,26 @@ void visitFields(V& v, SutureConfig& c) {
   v.group("needle", c.needle,
           "needle on the start of the suture, which is then free; its tail is at position_m (docs/sutures.md)");
   v.list("ties", c.ties, 16, "knots that are tied without a stylus, in the order of their times (docs/physics.md 14)");
+}
+
+constexpr double kMostAttachments = 32;
+
+template <class V>
+void visitFields(V& v, AttachmentConfig& c) {
+  v.text("body_a", c.body_a, "name of the first body, of structure lattice");
+  v.text("body_b", c.body_b, "name of the second body, of structure lattice");
+  v.number("reach_m", c.reach_m, {1e-5, 0.1}, "m",
+           "largest distance at rest of facing surface points that a fibre joins; at most twice the finer spacing");
+  v.number(
+      "modulus_pa", c.modulus_pa, {1, 1e9}, "Pa",
+      "Young's modulus of the connective tissue; modulus_pa / thickness_m is its stiffness per area, limited to 10 "
+      "times Young's modulus of the softer body over the finer spacing, and near light nodes (docs/physics.md 17)");
+  v.number("thickness_m", c.thickness_m, {1e-5, 0.1}, "m",
+           "thickness of the connective tissue; blades cut it within half of this on either side");
+  v.number("toughness_j_per_m2", c.toughness_j_per_m2, {0.01, 1e5}, "J/m2", "work per area that separates the bodies");
+  v.number("strength_pa", c.strength_pa, {1, 1e8}, "Pa",
+           "largest traction, after which the traction falls until the bodies are separate; less where stiffness and "
+           "toughness do not allow it");
 }
 
 }  // namespace viscera

@@ -22,6 +22,8 @@ void visitFields(V& v, Scene& c) {
   v.group("solver", c.solver, "time stepping");
   v.list("sutures", c.sutures, 8,
          "sutures, which do not stretch: on obstacles, in the grip of styluses and through tissue");
+  v.list("attachments", c.attachments, kMostAttachments,
+         "attachments: connective tissue between two bodies, in fibres that tear and can be cut (docs/physics.md 17)");
   v.list("marks", c.marks, kMostMarks,
          "marks on the surface of tissue, which move with it; images of depths and labels do not show them");
 }

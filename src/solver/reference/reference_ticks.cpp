@@ -7,8 +7,10 @@
 
 #include "model/fracture/toughness.h"
 #include "model/scene/feature_rules.h"
+#include "solver/processes/attach/fibres.h"
 #include "solver/reference/reference_environment.h"
 #include "solver/ticks/registry.h"
+#include "solver/ticks/stable_step.h"
 #include "solver/tissue/substeps.h"
 #include "tools/motion_packing.h"
 #include "viscera/math/error.h"
@@ -40,7 +42,7 @@ ReferenceOptions optionsFor(const Model& model, const Scene& scene) {
 ReferenceTicks::ReferenceTicks(const Model& model, const Scene& scene)
     : acts_(scene.styluses, 1 / scene.solver.tick_hz, resistsBlades(scene) && !cutsFreely(scene)),
       tick_hz_(scene.solver.tick_hz),
-      dt_safe_s_(safeTimeStep(model)),
+      dt_safe_s_(stepWith(safeTimeStep(model), attachmentRate(scene, model))),
       substeps_(planSubsteps(model, ungoverned(scene.solver), dt_safe_s_).calm),
       environment_(model, scene),
       solver_(model, scene.environment.gravity_m_per_s2.cast<float>().cast<double>(), static_cast<float>(dt_s()),

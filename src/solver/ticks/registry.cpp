@@ -7,6 +7,7 @@
 #include "model/fracture/toughness.h"
 #include "model/scene/structure_rules.h"
 #include "model/scene/tool_kinds.h"
+#include "solver/processes/attach/attachments.h"
 #include "solver/processes/blade/blades.h"
 #include "solver/processes/bleed/bleeding.h"
 #include "solver/processes/burn/burns.h"
@@ -36,6 +37,10 @@ constexpr Kind kKinds[] = {
     {[](const Setup& setup) { return setup.tools && resistsBlades(setup.scene); }, ProcessActs::kWithTools,
      [](const Setup& setup) -> std::unique_ptr<TissueProcess> {
        return std::make_unique<Blades>(setup.model, setup.scene.styluses);
+     }},
+    {[](const Setup& setup) { return !setup.scene.attachments.empty(); }, ProcessActs::kAlways,
+     [](const Setup& setup) -> std::unique_ptr<TissueProcess> {
+       return std::make_unique<Attachments>(setup.scene, setup.model);
      }},
     {[](const Setup& setup) { return !setup.scene.sutures.empty(); }, ProcessActs::kAlways,
      [](const Setup& setup) -> std::unique_ptr<TissueProcess> {

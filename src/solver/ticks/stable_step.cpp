@@ -196,6 +196,10 @@ double releasedStiffening(SolverBackend& backend, const Model& model) {
   return out;
 }
 
+double stepWith(double dt_s, double rate_per_s2) {
+  return rate_per_s2 > 0 ? 2 / std::sqrt(4 / (dt_s * dt_s) + rate_per_s2) : dt_s;
+}
+
 double strainFactor(double stretch) {
   return 1 + kPerStretch * std::min(stretch, kStrainedStretch) + kPerMore * std::max(0.0, stretch - kStrainedStretch);
 }

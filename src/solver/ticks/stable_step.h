@@ -17,6 +17,10 @@ bool measuresLimit(const Model& model, const SolverConfig& config);
 /// Hermitian matrices, 2011). Afterwards the state is that of rest. Infinite if nothing can oscillate.
 double measureLimit_s(SolverBackend& backend, const Model& model);
 
+/// Returns the longest stable substep [s] of tissue with springs that are not part of it, as of attachments.
+/// @param dt_s  that of the tissue   @param rate_per_s2  bound of the squared frequency that they add
+double stepWith(double dt_s, double rate_per_s2);
+
 /// Returns the upper bound of the ratio of the fastest mode of strained tissue to that at rest (docs/physics.md 2).
 /// @param stretch  largest |L - l0| / l0, >= 0
 double strainFactor(double stretch);

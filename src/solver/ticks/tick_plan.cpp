@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "model/scene/feature_rules.h"
+#include "solver/processes/attach/fibres.h"
 #include "solver/ticks/solver_backend.h"
 #include "solver/ticks/stable_step.h"
 #include "viscera/math/error.h"
@@ -45,7 +46,9 @@ TickPlan planTicks(const Model& model, const Scene& scene, const SolverOptions& 
   TickPlan plan;
   plan.tick_s = 1 / scene.solver.tick_hz;
   plan.dt_safe_s = safeTimeStep(model);
-  plan.substeps = planned(model, scene.solver, plan.dt_safe_s, options.allow_unstable);
+  plan.attached_per_s2 = attachmentRate(scene, model);
+  const double dt_safe_s = stepWith(plan.dt_safe_s, plan.attached_per_s2);
+  plan.substeps = planned(model, scene.solver, dt_safe_s, options.allow_unstable);
   plan.recovers_by_pd = !hasLaw(model);
   if (scene.solver.stability_monitor) {
     const int sweeps = plan.recovers_by_pd ? SolverBackend::kRecoveryIterations : 1;

@@ -25,6 +25,7 @@ struct SolverOptions {
 struct TickPlan {
   double tick_s = 0;
   double dt_safe_s = 0;        ///< largest stable substep of whole tissue at rest
+  double attached_per_s2 = 0;  ///< attachmentRate()
   SubstepPlan substeps;        ///< substeps of whole tissue
   int recovery_substeps = 0;   ///< substeps of a tick in a recovery; 0 without a stability monitor
   bool recovers_by_pd = true;  ///< false: recovers by shorter substeps of the scene's integrator; only springs have pd

@@ -59,7 +59,8 @@ TissueStepper::TissueStepper(const Model& model, const Scene& scene, const TickP
       acts_(scene.styluses, plan.tick_s, resistsBlades(scene) && !cutsFreely(scene)),
       gravity_(scene.environment.gravity_m_per_s2.cast<float>()),
       tick_s_(plan.tick_s),
-      dt_safe_s_(plan.dt_safe_s),
+      attached_per_s2_(plan.attached_per_s2),
+      dt_safe_s_(stepWith(plan.dt_safe_s, attached_per_s2_)),
       push_speed_m_per_s_(pushSpeed(model)),
       edge_reach_m_(edgeReach(model)),
       dashpot_ratio_(largestDashpot(model)),
@@ -73,7 +74,7 @@ TissueStepper::TissueStepper(const Model& model, const Scene& scene, const TickP
                  static_cast<size_t>(SolverBackend::kGoodStates + backend_->lag())) {
   finished_.reserve(kFinishedKept);
   last_stiffening_ = kAtRest;
-  if (measuresLimit(model, config_)) dt_limit_s_ = measureLimit_s(*backend_, model);
+  if (measuresLimit(model, config_)) dt_limit_s_ = stepWith(measureLimit_s(*backend_, model), attached_per_s2_);
   if (uses_stiffening_) released_ = releasedStiffening(*backend_, model);
   replan();
   if (dt_limit_s_ > 0 && substeps_.calm > config_.max_substeps)
@@ -223,7 +224,7 @@ void TissueStepper::reset() {
   stretch_ = stiffening_ = 0;
   releasing_ = 0;
   last_stiffening_ = kAtRest;
-  dt_safe_s_ = safeTimeStep(model_);
+  dt_safe_s_ = stepWith(safeTimeStep(model_), attached_per_s2_);
   replan();
   if (watch_) watch_->reset(newGovernor());
   ++cut_revision_;
@@ -364,7 +365,7 @@ void TissueStepper::relaxSubsteps(const layout::TickStats& stats) {
   springs_cut_ = stats.springs_cut;
   const float rate = floatFromBits(stats.max_rate_bits);
   if (rate <= 0) return;
-  const double dt_safe_s = 2 / std::sqrt(static_cast<double>(rate));
+  const double dt_safe_s = stepWith(2 / std::sqrt(static_cast<double>(rate)), attached_per_s2_);
   if (dt_safe_s < kWorthwhile * dt_safe_s_) return;
   dt_safe_s_ = dt_safe_s;
   replan();

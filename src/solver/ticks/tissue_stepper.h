@@ -84,7 +84,7 @@ class TissueStepper : public Solver {
   SolverConfig config_;
   ToolActs acts_;
   Vector3f gravity_;
-  double tick_s_, dt_safe_s_, push_speed_m_per_s_;
+  double tick_s_, attached_per_s2_, dt_safe_s_, push_speed_m_per_s_;
   float edge_reach_m_;
   double dt_limit_s_ = 0;  ///< measured at the start [s]; 0: not measured
   double dashpot_ratio_;   ///< largest stiffness_damping_ratio of all bodies

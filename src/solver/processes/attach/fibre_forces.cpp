@@ -1,0 +1,93 @@
+// Copyright (c) 2026, the viscera authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solver/processes/attach/fibre_forces.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "viscera/model/body/elasticity.h"
+
+namespace viscera {
+
+FibreForces::FibreForces(const Model& model)
+    : inverse_mass_(model.slots(), 0), mass_kg_(model.slots(), 0), node_of_(model.slots(), 0) {
+  for (uint32_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    if (!body.hasCells()) continue;
+    const std::vector<float> mass_kg = strengths(body).mass_kg;
+    for (const uint32_t slot : body.lattice.active_slots) {
+      const uint32_t at = model.slotOffset(b) + slot;
+      mass_kg_[at] = mass_kg[slot];
+      if (mass_kg[slot] > 0 && !isFixed(body.lattice.nodes[slot])) inverse_mass_[at] = 1 / mass_kg[slot];
+    }
+  }
+}
+
+void FibreForces::embed(const std::vector<Fibre>& fibres) {
+  slots_.clear();
+  for (const Fibre& fibre : fibres) {
+    for (const TissuePoint& end : fibre.ends)
+      slots_.insert(slots_.end(), end.slots.begin(), end.slots.begin() + end.count);
+  }
+  std::sort(slots_.begin(), slots_.end());
+  slots_.erase(std::unique(slots_.begin(), slots_.end()), slots_.end());
+  for (uint32_t i = 0; i < slots_.size(); ++i) node_of_[slots_[i]] = i;
+  starts_.assign(1, 0);
+  terms_.clear();
+  first_ends_.clear();
+  for (const Fibre& fibre : fibres) {
+    for (size_t e = 0; e < 2; ++e) {
+      if (e == 1) first_ends_.push_back(static_cast<uint32_t>(terms_.size()));
+      const TissuePoint& end = fibre.ends[e];
+      for (uint32_t c = 0; c < end.count; ++c) {
+        if (end.weights[c] != 0) terms_.push_back({node_of_[end.slots[c]], e == 0 ? -end.weights[c] : end.weights[c]});
+      }
+    }
+    starts_.push_back(static_cast<uint32_t>(terms_.size()));
+  }
+  secant_n_per_m_.assign(fibres.size(), 0);
+  grows_m2_.assign(fibres.size(), std::numeric_limits<float>::max());
+  u_m_.assign(slots_.size(), Eigen::Array4f::Zero());
+}
+
+void FibreForces::setSecant(size_t fibre, double secant_n_per_m, double grows_m) {
+  secant_n_per_m_[fibre] = static_cast<float>(secant_n_per_m);
+  grows_m2_[fibre] = static_cast<float>(grows_m * grows_m);
+}
+
+void FibreForces::read(const TissuePort& port, double undone_s) {
+  read_u_.resize(slots_.size());
+  read_v_.resize(slots_.size());
+  if (!slots_.empty()) port.readNodes(slots_, read_u_, read_v_);
+  const auto back_s = static_cast<float>(undone_s);
+  for (size_t i = 0; i < slots_.size(); ++i) u_m_[i].head<3>() = (read_u_[i] - back_s * read_v_[i]).array();
+}
+
+Vector3d FibreForces::gap_m(size_t fibre) const {
+  return gapOf(fibre).head<3>().cast<double>();
+}
+
+Vector3d FibreForces::firstEnd_m(size_t fibre) const {
+  Eigen::Array4f out = Eigen::Array4f::Zero();
+  for (uint32_t t = starts_[fibre]; t < first_ends_[fibre]; ++t) out -= terms_[t].weight * u_m_[terms_[t].node];
+  return out.head<3>().cast<double>();
+}
+
+Vector3d FibreForces::displacement_m(uint32_t slot) const {
+  return u_m_[node_of_[slot]].head<3>().cast<double>();
+}
+
+double FibreForces::apply(TissuePort& port, double dt_s) {
+  const auto dt = static_cast<float>(dt_s);
+  double work_j = 0;
+  for (size_t i = 0; i < slots_.size(); ++i) {
+    const float inverse = inverse_mass_[slots_[i]];
+    const Vector3f dv = dt * inverse * impulse_[i].head<3>().matrix();
+    if (inverse > 0) work_j += static_cast<double>(mass_kg_[slots_[i]] * dv.dot(read_v_[i] + 0.5F * dv));
+    read_u_[i] = dv;
+  }
+  if (!slots_.empty()) port.pushNodes(layout::kMaxStyluses, dt, slots_, read_u_);
+  return work_j;
+}
+
+}  // namespace viscera
