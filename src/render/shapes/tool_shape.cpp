@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "model/scene/tool_kinds.h"
+#include "render/shapes/jaw_shape.h"
 #include "render/shapes/lathe.h"
 
 namespace viscera {
@@ -18,33 +19,51 @@ constexpr uint8_t kOutlineAlpha = 150;
 
 // Shares of the shaft's length.
 constexpr float kShaftRadius = 0.025f, kTipRadius = 0.005f, kTaperEnd = 0.25f;
-constexpr float kCollarGap = 1.0f / 30, kCollarLength = 2.0f / 30, kCollarRadius = 0.03f, kCollarEdge = 1.0f / 120;
-constexpr float kShortestShaft = 0.25f;                                  // of the handle, behind a blade of any length
-constexpr float kFingerHalf = 0.7f / 120, kFingerHalfWide = 1.4f / 120;  // of a finger, along x and y
+constexpr float kRodRadius = 0.009f, kRodFrom = 0.03f, kRodEnd = 0.17f;  // between the tip and the shaft
+constexpr float kNeckRadius = 0.0145f;                                   // behind jaws
+constexpr float kCollarGap = 1.0f / 30, kCollarLength = 2.0f / 30, kCollarRadius = 0.027f, kCollarEdge = 1.0f / 240;
+constexpr float kShortestShaft = 0.25f;        // of the handle, behind a blade of any length
+constexpr float kJawUnit = 0.7f / 120;         // half the thickness of a jaw
+constexpr Color kSheath = {86, 92, 100, 255};  // sRGB: dark insulation, lighter than what is behind the organ
 constexpr float kToolQuarterTurn = static_cast<float>(M_PI / 2);
 
 Color colorOf(const ToolKind& kind, uint8_t alpha = 255) {
   return {kind.color[0], kind.color[1], kind.color[2], alpha};
 }
 
-/// Adds a shaft. @param from  its start, in lengths of the shaft
-void addShaft(float length_m, float from, const Color& collar, ToolShape& shape) {
+/// Returns the metal in front of the sheath: a thin rod behind a tip, or a neck behind jaws. @param from  its start
+Profile rodProfile(float from, float taper_end, bool jaws) {
   constexpr float kBevel = 1.0f / 1200;
+  const float end = std::min(std::max(kRodEnd, from + kBevel), taper_end - kBevel);
+  const float radius = jaws ? kNeckRadius : kRodRadius;
+  const float begin = jaws || from >= kRodFrom ? from + kBevel : kRodFrom;
+  const float tip = jaws || from >= kRodFrom ? radius : kTipRadius;
+  Profile rod;
+  rod.line(0, from, tip, std::min(from + kBevel, begin));
+  if (begin > from + kBevel) rod.line(tip, from + kBevel, radius, begin);
+  if (end > begin) rod.line(radius, begin, radius, end);
+  return rod.line(radius, std::max(end, begin), kShaftRadius, taper_end);
+}
+
+/// Adds a shaft: a rod, an insulated sheath and a collar. @param from  its start, in lengths of the shaft
+void addShaft(float length_m, float from, bool jaws, const Color& collar, ToolShape& shape) {
+  constexpr float kStep = 1.0f / 120, kSlimmer = 0.96f;  // the sheath begins behind a ring of metal
   const Eigen::Affine3f scale(Eigen::Scaling(length_m));
-  const float taper_end = std::max(kTaperEnd, from + 2 * kBevel), collar_from = taper_end + kCollarGap;
-  const float from_radius = kTipRadius + (kShaftRadius - kTipRadius) * std::min(from / kTaperEnd, 1.0f);
-  const Profile shaft = Profile()
-                            .line(0, from, from_radius, from + kBevel)
-                            .line(from_radius, from + kBevel, kShaftRadius, taper_end)
-                            .line(kShaftRadius, taper_end, kShaftRadius, 1 - kShaftRadius)
-                            .arc(kShaftRadius, 1 - kShaftRadius, 0, kToolQuarterTurn);
-  addLathe(shaft, scale, colorOf(kindOf(ToolMode::kNone)), shape);
+  const float taper_end = std::max(kTaperEnd, from + 2 * kStep), collar_from = taper_end + kCollarGap;
+  const Profile ring = rodProfile(from, taper_end, jaws)
+                           .line(kShaftRadius, taper_end, kShaftRadius, taper_end + kStep)
+                           .line(kShaftRadius, taper_end + kStep, kSlimmer * kShaftRadius, taper_end + kStep);
+  addLathe(ring, scale, colorOf(kindOf(ToolMode::kNone)), shape);
+  const float radius = kSlimmer * kShaftRadius;
+  const Profile sheath =
+      Profile().line(radius, taper_end + kStep, radius, 1 - radius).arc(radius, 1 - radius, 0, kToolQuarterTurn);
+  addLathe(sheath, scale, kSheath, shape);
   const float collar_to = collar_from + kCollarLength;
-  const Profile ring = Profile()
-                           .line(kShaftRadius, collar_from - kCollarEdge, kCollarRadius, collar_from)
+  const Profile band = Profile()
+                           .line(radius, collar_from - kCollarEdge, kCollarRadius, collar_from)
                            .line(kCollarRadius, collar_from, kCollarRadius, collar_to)
-                           .line(kCollarRadius, collar_to, kShaftRadius, collar_to + kCollarEdge);
-  addLathe(ring, scale, collar, shape);
+                           .line(kCollarRadius, collar_to, radius, collar_to + kCollarEdge);
+  addLathe(band, scale, collar, shape);
 }
 
 /// Adds a blade: a lathe pressed flat, wide along y, its point at the low end.
@@ -119,7 +138,9 @@ double shaftRadius(const StylusConfig& stylus) {
 ToolShape toolWithoutFingers(const StylusConfig& stylus, ToolMode mode) {
   const ToolKind& kind = kindOf(mode);
   ToolShape shape;
-  addShaft(static_cast<float>(stylus.shaft_length_m), shaftStart(stylus, kind), colorOf(kind), shape);
+  const float length = static_cast<float>(stylus.shaft_length_m), start = shaftStart(stylus, kind);
+  addShaft(length, start, kind.jaws != nullptr, colorOf(kind), shape);
+  if (kind.jaws) addFork(start * length, kJawUnit * length, colorOf(kindOf(ToolMode::kNone)), shape);
   addTip(stylus, kind, shape);
   shape.solid_indices = shape.indices.size();
   if (kind.does(kHolds)) {
@@ -133,11 +154,8 @@ ToolShape fingerShape(const StylusConfig& stylus, ToolMode mode) {
   const ToolKind& kind = kindOf(mode);
   ToolShape shape;
   if (!kind.jaws) return shape;
-  const float half = static_cast<float>(kind.jaws(stylus).length_m) / 2;
-  Eigen::Affine3f placement = Eigen::Affine3f::Identity();
-  const float shaft = static_cast<float>(stylus.shaft_length_m), thick = kFingerHalf * shaft;
-  placement.translate(Vector3f(thick, 0, half)).scale(Vector3f(thick, kFingerHalfWide * shaft, half));
-  addLathe(sphereProfile(1), placement, colorOf(kind), shape);
+  addJaw(kind, static_cast<float>(kind.jaws(stylus).length_m), kJawUnit * static_cast<float>(stylus.shaft_length_m),
+         colorOf(kind), shape);
   shape.solid_indices = shape.indices.size();
   return shape;
 }
