@@ -20,6 +20,8 @@ const float kFilmRoughness = 0.08;    // of the film: lamps are reflected in it
 const float kFilmDark = 0.12;         // share of the returning light that a film absorbs
 const vec3 kSeptum = vec3(0.60, 0.33, 0.25), kSheath = vec3(0.46, 0.20, 0.17);  // linear: between lobules, and between
                                                                                 // bundles
+const float kOoze_m = 0.0006;                        // depth to which the edge of a cut oozes
+const vec3 kOozing = vec3(0.085, 0.0035, 0.0045);    // linear
 const vec3 kPale = vec3(1.13, 1.17, 1.14), kDeep = vec3(0.87, 0.80, 0.82);  // of colours: least and most blood
 
 /// Returns x patches, y relief, z fibres, w a coarser relief: about -1..1. @param patches  from vertex to vertex
@@ -90,6 +92,7 @@ void addGrain(vec4 grain, float film, vec3 rest, float alpha, bool wall, float d
 #ifdef WALL_GRAIN
     albedo = bundled(albedo, body, rest, grain, depth_m);
 #endif
+    albedo = mix(kOozing, albedo, smoothstep(0.3 * kOoze_m, kOoze_m, depth_m * (1.0 + 0.3 * grain.y)));
     shade = mix(1.0, 0.55, depth_m / (depth_m + 0.006));
   }
   float blood = clamp(0.5 + color_variation * (0.8 * grain.x + 0.35 * grain.y), 0.0, 1.0);

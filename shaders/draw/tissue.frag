@@ -7,12 +7,16 @@
 // body.
 // REST: vertices have their rest position. GRAIN: variation from place to place, layers of walls (grain.glsl). DETAIL:
 // textures (detail.glsl).
-// MARKS: marks on the surface (marks.glsl), with REST.
+// MARKS: marks on the surface (marks.glsl), PAINT: burns and edges of cuts (skin_paint.glsl), with REST.
 // FILM, WALL_GRAIN (grain.glsl), CONTACTS (tissue_light.glsl), LENS_LIGHT (shading.glsl): features of appearance.
 #include "layout.h"
 #include "shading.glsl"
 #include "tissue_code.glsl"
 #include "tissue_light.glsl"
+#ifdef PAINT
+#include "skin_paint.glsl"
+#include "srgb.glsl"
+#endif
 #ifdef DETAIL
 #include "detail.glsl"
 #endif
@@ -52,6 +56,11 @@ void main() {
   if (dot(normal, normal) > 0.01) outward = normalize(normal);
   uint chart = texelFetch(shown_charts, first_chart + gl_PrimitiveID).r;
   addDetail(chart, rest.xyz, rest_x, rest_y, position_x, position_y, albedo, outward, roughness);
+#endif
+#if defined(PAINT) && defined(REST)
+  vec3 painted = pow(color.rgb, vec3(1.0 / 2.2));  // near sRGB; its stops replace it where paint covers
+  float paint = paintSkin(painted, rest, dFdx(rest), dFdy(rest), wall);
+  albedo = mix(albedo, linearFromSrgb(painted), paint);
 #endif
   vec3 n = seenNormal(outward, position_m, gl_FrontFacing);
   vec3 to_eye = -normalize(position_m);

@@ -3,12 +3,15 @@
 //
 // tissue_g_buffer.frag - stores place and orientation of visible tissue for deferred_lighting.frag: lighting the fragments of
 // small triangles is what costs a software rasteriser most.   Owner: render/tissue_painter.h
-// GRAIN, DETAIL: as in tissue.frag.
+// GRAIN, DETAIL, PAINT: as in tissue.frag.
 #include "layout.h"
 #include "layout/seen.h"
 #include "g_buffer_code.glsl"
 #include "shading.glsl"
 #include "tissue_code.glsl"
+#ifdef PAINT
+#include "skin_paint.glsl"
+#endif
 
 #ifdef DETAIL
 layout(binding = kUnitShownCharts) uniform usamplerBuffer shown_charts;
@@ -36,10 +39,14 @@ void main() {
   uint chart = texelFetch(shown_charts, first_chart + gl_PrimitiveID).r;
   if (!wall && chart != kNoTextureChart) beside = chart;
 #endif
+  vec3 own = color.rgb;
+#ifdef PAINT
+  if (paintSkin(own, rest, dFdx(rest), dFdy(rest), wall) > 0.5) beside = kNoSeenChart;
+#endif
   finish.x = uint(color.a * 255.0 + 0.5) << 24 | beside;
   float of_patches = 0.0;
 #ifdef GRAIN
   of_patches = patches;
 #endif
-  finish.y = packUnorm4x8(vec4(color.rgb, 0.5 + 0.5 * of_patches));
+  finish.y = packUnorm4x8(vec4(own, 0.5 + 0.5 * of_patches));
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
 #include <set>
 
 #include "cli/commands.h"
@@ -53,6 +54,7 @@ struct Organ {
   bool is_rigid = false;
   size_t skin_faces = 0;                 ///< number of faces that are drawn; 0: all
   const TissuePreset* tissue = nullptr;  ///< preset of the tissue; null: no preset has the label's name
+  std::optional<Vector3d> color;         ///< of the label; without: one of a list
 };
 
 void printNotes(const std::vector<std::string>& notes) {
@@ -160,6 +162,7 @@ std::vector<Organ> organsOf(const ReadScan& read, const ImportOptions& options, 
     Organ organ;
     organ.name = plainName(map.names[n], organs);
     organ.tissue = tissueOfLabel(map.names[n].name);
+    organ.color = map.names[n].color;
     organ.title = options.by_window ? "values in the window" : "label " + std::to_string(map.names[n].value);
     organ.file = organ.name + ".ply";
     organ.is_rigid = rigid[n];
@@ -251,7 +254,8 @@ std::string sceneOf(const std::vector<Organ>& organs, const std::string& scan) {
         << (organ.source.empty() ? "source: mesh\n    mesh_file: " + organ.file : organ.source)
         << "\n    spacing_m: " << organ.spacing_m << "\n    position_m: [" << listText(-all.center()) << "]"
         << (organ.skin_faces > 0 ? "\n    skin_faces: " + std::to_string(organ.skin_faces) : "")
-        << "\n    color: " << kColors[n % kColors.size()] << "\n    material: {" << materialOf(organ.tissue) << "}"
+        << "\n    color: " << (organ.color ? "[" + listText(*organ.color) + "]" : kColors[n % kColors.size()])
+        << "\n    layers: []\n    material: {" << materialOf(organ.tissue) << "}"
         << "\n    fixed:\n";
     if (organ.held.empty())
       out << "      - {shape: plane, point_m: [" << listText({organ.held_m, 0, 0}) << "], normal: [1, 0, 0]}\n";

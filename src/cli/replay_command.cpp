@@ -44,7 +44,8 @@ class Replayed {
     const Progress progress = consoleProgress();
     session_ =
         context_ ? std::make_unique<Session>(scene, *context_, progress) : std::make_unique<Session>(scene, progress);
-    tasks_ = std::make_unique<TaskRun>(*session_, reportFolder(), !options_.no_view, options_.name.value_or(""));
+    tasks_ = std::make_unique<TaskRun>(*session_, reportFolder(), !options_.no_view, options_.name.value_or(""),
+                                       options_.page.file);
     return *session_;
   }
   FrameRequest outputs(const Session& session) {

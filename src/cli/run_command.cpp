@@ -103,7 +103,7 @@ void compareWithRecording(const Strokes& strokes, uint64_t ticks, Json& metrics)
 std::unique_ptr<TaskRun> beginTask(Session& session, const RunOptions& options) {
   if (options.task.empty()) return nullptr;
   auto out = std::make_unique<TaskRun>(session, options.out.empty() ? "" : options.out + "/report", !options.no_view,
-                                       options.name.value_or(""));
+                                       options.name.value_or(""), options.page.file);
   out->begin(loadTask(options.task));
   return out;
 }

@@ -23,11 +23,12 @@ void requireTrainee(const std::optional<std::string>& name) {
   if (!fault.empty()) throw Error("--name: " + fault);
 }
 
-TaskRun::TaskRun(Session& session, std::string folder, bool pictures, std::string trainee)
+TaskRun::TaskRun(Session& session, std::string folder, bool pictures, std::string trainee, std::string page)
     : session_(session),
       folder_(std::move(folder)),
       pictures_(pictures && !folder_.empty() && !session.scene().cameras.empty()),
       trainee_(std::move(trainee)),
+      page_(std::move(page)),
       watch_(session, [this](TaskResult&& result) { ended_.push_back(std::move(result)); }) {}
 
 void TaskRun::begin(const TaskConfig& task) {
@@ -60,6 +61,8 @@ nlohmann::ordered_json TaskRun::finish() {
     lines_.push_back(verdictText(result.task, result.status));
     lines_.push_back(mistakesText(result.task, result.status));
     if (folder_.empty()) continue;
+    if (!page_.empty())
+      attempt.page = std::filesystem::absolute(page_).lexically_relative(std::filesystem::absolute(folder)).string();
     writeReport(folder, result, attempt, taken_);
     lines_.push_back("Report: " + folder + "/report.html");
   }

@@ -20,8 +20,8 @@ class TaskRun {
  public:
   /// @param session  must outlive this object   @param folder  folder of reports; empty: none
   /// @param pictures  whether reports have images, of the first camera   @param trainee  name in the reports; empty:
-  /// none
-  TaskRun(Session& session, std::string folder, bool pictures, std::string trainee);
+  /// none   @param page  file of the page of the session, to link; empty: none
+  TaskRun(Session& session, std::string folder, bool pictures, std::string trainee, std::string page);
   /// Starts a task with the next step. @throws TaskError
   void begin(const TaskConfig& task);
   /// Ends the tasks after the session's last tick; undecided ones have failed. @returns a map of each task that ended
@@ -37,7 +37,7 @@ class TaskRun {
   Session& session_;
   const std::string folder_;
   const bool pictures_;
-  const std::string trainee_;
+  const std::string trainee_, page_;
   std::vector<std::string> lines_;  ///< for printVerdicts()
   std::vector<TaskResult> ended_;
   std::vector<ReportPicture> taken_;

@@ -84,7 +84,7 @@ Body buildLatticeBody(const BodyConfig& config, const Scene& scene, const Tissue
   const TriangleMesh surface =
       detailedSurface(surfaceOf(tissue, config, solid),
                       {config, scene.folder, tissue.file_pose, solid.spacing_m, tissue.paint()}, body.notes, progress);
-  body.skin = bindSkin(surface, body.lattice, solid, config.mapping, progress);
+  body.skin = bindSkin(withPartColors(surface, config.parts), body.lattice, solid, config.mapping, progress);
   body.skin.can_be_cut = can_be_cut;
   body.notes.push_back(skinNote(body.skin));
   const std::optional<WallThickness> thickness = wallThickness(body);

@@ -9,11 +9,13 @@
 #include "gpu/gl.h"
 #include "gpu/software.h"
 #include "gpu/stage_clock.h"
+#include "model/scene/tool_kinds.h"
 #include "render/obstacle_painter.h"
 #include "render/overlay_painter.h"
 #include "render/tissue_painter.h"
 #include "render/tool_painter.h"
 #include "render/tube_painter.h"
+#include "surface/wounds/wounds.h"
 
 namespace viscera {
 
@@ -91,6 +93,7 @@ void Renderer::makeTissue(bool marks) {
                   [](const CameraConfig& camera) { return camera.contact_shadows > 0; }))
     features.emplace_back("CONTACTS");
   if (marks) features.emplace_back("MARKS");
+  if (mayBurn(styluses_) || (model_ && Wounds::possible(*model_))) features.emplace_back("PAINT");
   const auto by_pixels = [this](const CameraConfig& camera) { return lightsPixels(camera); };
   tissue_ = std::make_unique<TissuePainter>(model_, !std::all_of(cameras_.begin(), cameras_.end(), by_pixels),
                                             std::any_of(cameras_.begin(), cameras_.end(), by_pixels), features);

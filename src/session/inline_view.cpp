@@ -211,7 +211,7 @@ void InlineView::follow(const StateView& state, bool all, const std::optional<Ho
 }
 
 void InlineView::captureSurface(const StateView& state, const RenderRequest& request) {
-  const bool colors = surface_.isPainted(), strain = request.outputs.strain;
+  const bool colors = surface_.hasColors(), strain = request.outputs.strain;
   if (strain) {
     if (!strain_) strain_ = std::make_unique<NodeOverlay>(model_);
     strain_->follow(state, surface_);

@@ -14,6 +14,7 @@
 #include "surface/skins/joined_skins.h"
 #include "surface/skins/part_colors.h"
 #include "surface/skins/skin_fits.h"
+#include "surface/skins/skin_paint.h"
 #include "surface/surface_kernels.h"
 
 namespace viscera {
@@ -83,17 +84,9 @@ std::vector<uint32_t> chartsOfPieces(const JoinedSkins& skins) {
   return charts;
 }
 
-constexpr float kBelowLayers_m = 0.02F;  // deeper than the layers of tissue (skin, fat and so on) in scenes
-
-/// Returns the share at a vertex. @param shares  [slots]
-float shareAt(const std::vector<float>& shares, const layout::SkinBinding& b) {
-  if ((b.springs & layout::kOneToOneBit) != 0) return shares[b.slot0];
-  return b.weights.x * shares[b.slot0] + b.weights.y * shares[b.slot1] + b.weights.z * shares[b.slot2];
-}
-
 }  // namespace
 
-Surface::Surface(const Model& model) {
+Surface::Surface(const Model& model) : model_(model) {
   JoinedSkins skins = joinSkins(model);
   vertices_ = whole_vertices_ = skins.bindings.size();
   requireSkinFits(vertices_, Wounds::possible(model));
@@ -121,6 +114,7 @@ Surface::Surface(const Model& model) {
   carried_items_ = BodyItems(rangesOf(skins.carried_nodes, model));
   summed_items_ = BodyItems(rangesOf(skins.summed_nodes, model));
   for (const Body& body : model.bodies) {
+    has_part_colors_ = has_part_colors_ || hasPartColors(body);
     one_to_one_.push_back(isOneToOne(body));
     split_indices_.push_back(2 * 3 * body.skin.triangle_edges.size());
   }
@@ -135,6 +129,7 @@ Surface::Surface(const Model& model) {
     map_ = surfaceKernel("map_skin.comp", mapFeatures(skins));
   }
   if (skins.any_one_to_one) networks_ = std::make_unique<NetworkSurface>(skins.networks);
+  whole_rests_ = std::move(skins.rests);
   if (!wounds_) {
     whole_colors_ = std::move(skins.colors);
     whole_bindings_ = std::move(skins.bindings);
@@ -340,23 +335,12 @@ void Surface::writeColors() {
   rests_.write(wounds_->addedRests(), whole_vertices_);
 }
 
-/// Writes painted colours. Painted walls have no layers, as their vertices count as deep.
 void Surface::writePaintedColors() {
-  std::vector<uint32_t> colors = wounds_ ? wounds_->colors() : whole_colors_;
-  const std::vector<layout::SkinBinding>& bindings = wounds_ ? wounds_->bindings() : whole_bindings_;
-  std::vector<layout::vec4> added = wounds_ ? wounds_->addedRests() : std::vector<layout::vec4>();
-  for (size_t v = 0; v < colors.size(); ++v) {
-    float most = 0;
-    for (const std::shared_ptr<const NodePaint>& paint : paints_) {
-      const float share = shareAt(paint->shares, bindings[v]);
-      colors[v] = paintedColor(paint->kind, colors[v], share);
-      most = std::max(most, share);
-    }
-    if (v < whole_vertices_ || added[v - whole_vertices_].w <= 0) continue;
-    added[v - whole_vertices_].w += kBelowLayers_m * std::clamp(most, 0.0F, 1.0F);
-  }
-  colors_.write(colors);
-  if (!added.empty()) rests_.write(added, whole_vertices_);
+  SkinPaint skin{wounds_ ? wounds_->colors() : whole_colors_, whole_rests_};
+  if (wounds_) skin.rests.insert(skin.rests.end(), wounds_->addedRests().begin(), wounds_->addedRests().end());
+  paintSkin(model_, paints_, wounds_ ? wounds_->bindings() : whole_bindings_, skin);
+  colors_.write(skin.colors);
+  rests_.write(skin.rests);
 }
 
 void Surface::paint(const std::vector<std::shared_ptr<const NodePaint>>& paints) {

@@ -46,6 +46,8 @@ class Surface {
   /// Paints the tissue like ProcessVisuals::paints, until the next call. Repeated paints cost nothing.
   void paint(const std::vector<std::shared_ptr<const NodePaint>>& paints);
   bool isPainted() const { return !paints_.empty(); }  ///< colors() differ from those before the first tick
+  /// Returns whether colors() are more than the colours of bodies: painted, or with colours of parts.
+  bool hasColors() const { return has_part_colors_ || isPainted(); }
   /// Makes every triangle whole again.
   void reset();
 
@@ -88,6 +90,7 @@ class Surface {
   void makeRoom(size_t vertices, size_t indices);
   void showWoundedCharts();
 
+  const Model& model_;
   size_t vertices_ = 0, live_count_ = 0, first_wound_index_ = 0;
   gpu::Buffer<layout::SurfaceNode> carried_nodes_, summed_nodes_;
   gpu::Buffer<uint32_t> normals_, triangle_buffer_, alive_, live_, colors_;
@@ -103,8 +106,10 @@ class Surface {
   std::unique_ptr<Wounds> wounds_;               ///< null where no lattice body can be cut
   VisibleTriangles shown_;
   std::vector<std::shared_ptr<const NodePaint>> paints_;
+  bool has_part_colors_ = false;
   std::vector<uint32_t> whole_colors_;  ///< [vertices] without wounds, like whole_bindings_
   std::vector<layout::SkinBinding> whole_bindings_;
+  std::vector<layout::vec4> whole_rests_;  ///< [vertices] without wounds
   std::vector<uint32_t> wound_indices_, charts_, wound_charts_;
   size_t whole_vertices_ = 0;
   std::vector<bool> was_wounded_;  ///< [bodies]

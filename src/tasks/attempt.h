@@ -15,6 +15,7 @@ struct Attempt {
   std::string date;        ///< UTC, ISO 8601, as utcText() writes it
   std::string version;     ///< version of viscera
   std::string state_hash;  ///< StateHash::text() at the end of the run; empty: not computed
+  std::string page = {};   ///< path of the page of the session, from the folder of the report; empty: none
 };
 
 /// Returns an attempt with the version of this program. @param now  time at which it ended

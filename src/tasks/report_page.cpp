@@ -107,6 +107,9 @@ std::string attemptTable(const TaskResult& result, const Attempt& attempt) {
   row("task", result.task.name + " (" + kindOf(result.task.kind).name + ")");
   row("viscera", attempt.version);
   row("state hash", attempt.state_hash);
+  if (!attempt.page.empty())
+    out +=
+        "<tr><td>session</td><td><a href='" + htmlText(attempt.page) + "'>from any side, at any time</a></td></tr>\n";
   return out + "</table>\n";
 }
 

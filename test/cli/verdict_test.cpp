@@ -76,6 +76,16 @@ TEST(Verdict, ReportsHaveOnlyTheMeasuresOfTheirKindWithUnitsAndLimits) {
                            "force, N", "x, mm", "y, mm", "state hash"})
     EXPECT_TRUE(has(page, text)) << text;
   EXPECT_FALSE(has(page, "gap_mm"));
+  EXPECT_FALSE(has(page, "<a href"));
+}
+
+TEST(Verdict, ReportLinksThePageOfTheSession) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(touched("good", {"--out", folder.file("out"), "--page", folder.file("session's.html")}).status, 0);
+  const std::string report = readFile(folder.file("out") + "/report/report.html");
+  const std::string link = "href='../../session&#39;s.html'";
+  EXPECT_TRUE(has(report, link)) << report.substr(0, 2000);
+  EXPECT_TRUE(std::filesystem::exists(folder.file("out") + "/report/../../session's.html"));
 }
 
 TEST(Verdict, NamesAreChecked) {

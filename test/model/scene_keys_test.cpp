@@ -17,6 +17,7 @@ namespace {
 /// Every key, each with a unique value that is not the default.
 constexpr const char* kEveryKey = R"(
 name: full
+look: endoscope
 bodies:
   - name: organ
     source: mesh
@@ -59,7 +60,7 @@ bodies:
     color: [0.071, 0.072, 0.073]
     material: {tissue: liver, young_modulus_pa: 8100, poisson_ratio: 0.25, density_kg_per_m3: 820, mass_damping_per_s: 8.3, stiffness_damping_ratio: 0.084, weights: cell, law: springs, walls: cells, stiffening: 0, cut: {toughness_j_per_m2: 187},
                bleeding: {flow_ml_per_min: 191, calibre_m: 0.0192}}
-    parts: [{part: valve, tissue: spleen, young_modulus_pa: 8101, poisson_ratio: 0.25, density_kg_per_m3: 821, cut: {toughness_j_per_m2: 188},
+    parts: [{part: valve, color: [0.074, 0.075, 0.076], tissue: spleen, young_modulus_pa: 8101, poisson_ratio: 0.25, density_kg_per_m3: 821, cut: {toughness_j_per_m2: 188},
              bleeding: {flow_ml_per_min: 193, calibre_m: 0.0194}}]
     fixed:
       - shape: part
@@ -250,6 +251,7 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(part.cut.toughness_j_per_m2, 188);
   EXPECT_EQ(part.part, "valve");
   EXPECT_EQ(part.tissue, "spleen");
+  EXPECT_EQ(part.color, Vector3d(0.074, 0.075, 0.076));
   EXPECT_EQ(part.young_modulus_pa, 8101);
   EXPECT_EQ(part.density_kg_per_m3, 821);
   EXPECT_EQ(part.bleeding.flow_ml_per_min, 193);
@@ -302,6 +304,7 @@ TEST(SceneKeys, PapersWeightsGoWithSprings) {
 TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   const Scene scene = parseScene(kEveryKey, "full");
   EXPECT_EQ(scene.name, "full");
+  EXPECT_EQ(scene.look, Look::kEndoscope);
   const StylusConfig& stylus = scene.styluses.at(0);
   EXPECT_EQ(stylus.name, "left");
   EXPECT_EQ(stylus.idle, ToolMode::kGrab);

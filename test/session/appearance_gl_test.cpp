@@ -208,4 +208,78 @@ TEST_P(Appearance, SkinIsPalerWhereItIsPressedAndNowhereElse) {
   EXPECT_GT(most, 10) << "of green";
 }
 
+TEST_P(Appearance, PartsShowTheirOwnColorAndWoundsWithoutLayersTheirInside) {
+  constexpr int kRounded = 1;  // of 255
+  const Vector3d blue(0.15, 0.25, 0.7);
+  for (const int supersampling : {0, 2}) {
+    Scene body = scene(supersampling);
+    body.cameras[0].position_m = Vector3d(0.01, -0.02, 0.1);
+    body.cameras[0].vertical_fov_deg = 25;
+    body.styluses[1].idle = ToolMode::kGrab;
+    body.bodies[0].layers.clear();
+    Scene part = body, fat = body;
+    fat.bodies[0].layers = BodyConfig().layers;
+    body.bodies[0].color = blue;
+    PartConfig own;
+    own.part = "box";
+    own.young_modulus_pa = body.bodies[0].material.young_modulus_pa;
+    own.poisson_ratio = body.bodies[0].material.poisson_ratio;
+    own.density_kg_per_m3 = body.bodies[0].material.density_kg_per_m3;
+    own.color = blue;
+    part.bodies[0].parts = fat.bodies[0].parts = {own};
+    const ImageFrame labels = after(part, opened, kOpenTicks, PictureKind::kLabels);
+    const ImageFrame of_body = after(body, opened, kOpenTicks), of_part = after(part, opened, kOpenTicks);
+    const ImageFrame of_fat = after(fat, opened, kOpenTicks);
+    int most = 0;
+    for (size_t i = 0; i < of_body.rgb.size(); ++i) most = std::max(most, std::abs(of_body.rgb[i] - of_part.rgb[i]));
+    EXPECT_LE(most, kRounded) << "supersampling " << supersampling;
+    size_t walls = 0, blue_walls = 0, yellow_walls = 0;
+    for (size_t i = 0; i < labels.labels.size(); ++i) {
+      if (!isWall(labels.labels[i])) continue;
+      ++walls;
+      blue_walls += of_part.rgb[3 * i + 2] > of_part.rgb[3 * i] ? 1 : 0;
+      yellow_walls += of_fat.rgb[3 * i] > of_fat.rgb[3 * i + 2] ? 1 : 0;
+    }
+    EXPECT_GT(walls, 50U);
+    EXPECT_GT(blue_walls, walls * 9 / 10) << "edges are mixed with what is beside";
+    EXPECT_GT(yellow_walls, walls / 10) << "layers of skin and fat";
+  }
+}
+
+/// Seen from above, where the lips of the cut are together: the block is not under tension.
+TEST_P(Appearance, AClosedCutStaysAThinDarkRedLine) {
+  constexpr double kLeastShare = 0.7;              // of the columns of the block
+  constexpr int kWidest_px = 5, kNearest_px = 6;   // of the line; of its pixels to the middle of the cut
+  constexpr double kDarker = 0.75, kRedder = 1.6;  // of the light before; red over green
+  for (const int supersampling : {0, 2}) {
+    Scene above = scene(supersampling);
+    above.cameras[0].position_m = Vector3d(0, -0.0005, 0.1);
+    above.cameras[0].vertical_fov_deg = 25;
+    above.bodies[0].color = Vector3d(0.8, 0.58, 0.5);
+    const auto cutAndGone = [](int tick) { return tick <= kCutTicks ? cut(tick) : StylusSamples{}; };
+    const ImageFrame whole = after(
+        above, [](int) { return StylusSamples{}; }, kOpenTicks);
+    const ImageFrame closed = after(above, cutAndGone, kOpenTicks);
+    std::vector<int> dark(static_cast<size_t>(whole.width), 0);
+    std::vector<size_t> rows;
+    for (const size_t i : changed(whole, closed)) {
+      const bool line =
+          sumOf(closed, i) < kDarker * sumOf(whole, i) && closed.rgb[3 * i] > kRedder * closed.rgb[3 * i + 1];
+      if (!line) continue;
+      ++dark[i % static_cast<size_t>(whole.width)];
+      rows.push_back(i / static_cast<size_t>(whole.width));
+    }
+    ASSERT_FALSE(rows.empty()) << "supersampling " << supersampling;
+    const auto [top, bottom] = std::minmax_element(rows.begin(), rows.end());
+    EXPECT_LT(*bottom - *top, static_cast<size_t>(2 * kNearest_px));
+    size_t columns = 0;
+    for (const int pixels : dark) {
+      columns += pixels > 0 ? 1 : 0;
+      EXPECT_LE(pixels, kWidest_px);
+    }
+    const double px_m = 0.1 * 2 * std::tan(12.5 * M_PI / 180) / 120;
+    EXPECT_GT(static_cast<double>(columns), kLeastShare * 2 * kHalfM / px_m) << "supersampling " << supersampling;
+  }
+}
+
 }  // namespace viscera

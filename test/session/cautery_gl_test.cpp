@@ -107,6 +107,41 @@ TEST_P(Cautery, HeatIsPowerTimesTimeInTouchAndAllOfItIsAccountedFor) {
   }
 }
 
+/// From above: the borders of the spot are as far away along the lattice as across it.
+TEST_P(Cautery, ABurnIsARoundSpotThatIsBrownWithin) {
+  constexpr double kOutOfRound = 0.3;  // of the mean radius: irregular borders of 0.3 mm, and pixels
+  Scene seen = burning(6);
+  CameraConfig& camera = seen.cameras[0];
+  camera.position_m = Vector3d(0, -0.0005, 0.08);
+  camera.width_px = camera.height_px = 160;
+  camera.vertical_fov_deg = 17;
+  Session session(seen, context_);
+  const ImageFrame fresh = picture(session);
+  burn(session, 400);
+  for (int t = 0; t < 10; ++t) session.step({}, {});
+  const ImageFrame burnt = picture(session);
+  constexpr double kLeast = 40;  // of 3 * 255, summed over the colours
+  double radii_px[8];
+  for (int d = 0; d < 8; ++d) {
+    const double angle = d * M_PI / 4;
+    radii_px[d] = 0;
+    for (int r = 0; r < 78; ++r) {
+      const int column = 80 + static_cast<int>(std::lround(r * std::cos(angle)));
+      const int row = 80 + static_cast<int>(std::lround(r * std::sin(angle)));
+      const auto i = static_cast<size_t>(3 * (row * 160 + column));
+      int differs = 0;
+      for (size_t c = 0; c < 3; ++c) differs += std::abs(burnt.rgb[i + c] - fresh.rgb[i + c]);
+      if (differs > kLeast) radii_px[d] = r;
+    }
+  }
+  double mean = 0;
+  for (const double radius : radii_px) mean += radius / 8;
+  EXPECT_GT(mean, 10);
+  for (int d = 0; d < 8; ++d) EXPECT_NEAR(radii_px[d], mean, kOutOfRound * mean) << 45 * d << " degrees";
+  const auto middle = static_cast<size_t>(3 * (80 * 160 + 80));
+  EXPECT_LT(burnt.rgb[middle], fresh.rgb[middle]) << "browned";
+}
+
 TEST_P(Cautery, CoagulatedTissueIsStifferToAProbeAndDrawnIn) {
   Session session(burning(3), context_);
   const double fresh_n = pressed_n(session, top_m(session));

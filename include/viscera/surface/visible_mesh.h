@@ -53,8 +53,8 @@ struct VisibleTopology {
 struct VisibleMesh {
   std::vector<float> positions_m;  ///< [3 * vertices] tissue frame
   std::vector<uint32_t> normals;   ///< [vertices] packed, see packNormal
-  /// [vertices] sRGB, red in the low byte, alpha 255; empty where vertices have the colours of their bodies: nothing
-  /// was burnt and nothing has bled
+  /// [vertices] sRGB, red in the low byte, alpha 255; empty where vertices have the colours of their bodies: no
+  /// part has its own, nothing was burnt and nothing has bled
   std::vector<uint32_t> colors = {};
   std::shared_ptr<const VisibleTopology> topology;
 

@@ -67,7 +67,7 @@ void read(const std::string& path, const std::string& asked, int layer, bool fil
 }  // namespace
 
 void writeHeader(const Stack& stack, int layers, const std::vector<std::string>& segments) {
-  std::printf("viscera-dicom-1 %d %d %d %d %zu\n", stack.size[0], stack.size[1], stack.size[2], layers,
+  std::printf("viscera-dicom-2 %d %d %d %d %zu\n", stack.size[0], stack.size[1], stack.size[2], layers,
               segments.size());
   for (int n = 0; n < 9; ++n) std::printf("%.17g ", stack.axes(n % 3, n / 3));
   std::printf("%.17g %.17g %.17g\n", stack.origin.x(), stack.origin.y(), stack.origin.z());

@@ -7,6 +7,7 @@
 
 #include "cli/dicom/frames.h"
 #include "cli/dicom/tags.h"
+#include "math/srgb.h"
 
 namespace viscera::dicom {
 namespace {
@@ -47,6 +48,23 @@ Planes planesOf(const std::string& file, const gdcm::File& read, const std::vect
   return planes;
 }
 
+/// Returns a segment's RecommendedDisplayCIELabValue as "red green blue", bytes in sRGB; "-1 -1 -1" without one.
+std::string colorOf(const gdcm::DataSet& segment) {
+  constexpr double kMost = 65535, kLStar = 100, kABStar = 255, kABZero = 128;  // PS3.3 C.10.7.1.1
+  const std::vector<int> lab = shortsOf(segment, Tag(0x0062, 0x000d));
+  if (lab.size() != 3) return "-1 -1 -1";
+  const double y = (lab[0] / kMost * kLStar + 16) / 116;
+  const Vector3d f(y + (lab[1] / kMost * kABStar - kABZero) / 500, y, y - (lab[2] / kMost * kABStar - kABZero) / 200);
+  const auto linear = [](double t) { return t > 6.0 / 29 ? t * t * t : 3 * (6.0 / 29) * (6.0 / 29) * (t - 4.0 / 29); };
+  const Vector3d xyz = Vector3d(0.9642, 1, 0.8249).cwiseProduct(f.unaryExpr(linear));  // D50, the white of ICC profiles
+  Matrix3d to_rgb;                                                                     // linear sRGB, adapted to D50
+  to_rgb << 3.1339, -1.6169, -0.4906, -0.9788, 1.9161, 0.0335, 0.0719, -0.2290, 1.4052;
+  std::string out;
+  for (const double channel : Vector3d(to_rgb * xyz))
+    out += (out.empty() ? "" : " ") + std::to_string(srgbByte(channel));
+  return out;
+}
+
 }  // namespace
 
 void writeSegmentation(const std::string& file, int layer) {
@@ -59,7 +77,7 @@ void writeSegmentation(const std::string& file, int layer) {
   std::vector<int> numbers;
   for (const gdcm::DataSet* item : itemsOf(reader.GetFile().GetDataSet(), Tag(0x0062, 0x0002), kept)) {
     numbers.push_back(shortOf(*item, Tag(0x0062, 0x0004)));
-    lines.push_back(std::to_string(lines.size()) + " " + std::to_string(numbers.back()) + " " +
+    lines.push_back(std::to_string(lines.size()) + " " + std::to_string(numbers.back()) + " " + colorOf(*item) + " " +
                     textOf(*item, Tag(0x0062, 0x0005)).substr(0, 64));
   }
   std::vector<Frame> frames = framesOf(file);

@@ -39,13 +39,19 @@ inline std::vector<double> numbersOf(const gdcm::DataSet& data, gdcm::Tag tag) {
   return all;
 }
 
-/// Returns an unsigned 16-bit number; 0 if it does not exist. GDCM has converted it to this machine's byte order.
+/// Returns unsigned 16-bit numbers; empty if they do not exist. GDCM has converted them to this machine's byte order.
+inline std::vector<int> shortsOf(const gdcm::DataSet& data, gdcm::Tag tag) {
+  const gdcm::ByteValue* bytes = data.FindDataElement(tag) ? data.GetDataElement(tag).GetByteValue() : nullptr;
+  std::vector<int> all;
+  const auto* raw = bytes ? reinterpret_cast<const unsigned char*>(bytes->GetPointer()) : nullptr;
+  for (size_t at = 0; raw && at + 1 < bytes->GetLength(); at += 2) all.push_back(raw[at] | raw[at + 1] << 8);
+  return all;
+}
+
+/// Returns an unsigned 16-bit number; 0 if it does not exist.
 inline int shortOf(const gdcm::DataSet& data, gdcm::Tag tag) {
-  if (!data.FindDataElement(tag)) return 0;
-  const gdcm::ByteValue* bytes = data.GetDataElement(tag).GetByteValue();
-  if (!bytes || bytes->GetLength() < 2) return 0;
-  const auto* raw = reinterpret_cast<const unsigned char*>(bytes->GetPointer());
-  return raw[0] | raw[1] << 8;
+  const std::vector<int> all = shortsOf(data, tag);
+  return all.empty() ? 0 : all[0];
 }
 
 inline std::vector<const gdcm::DataSet*> itemsOf(const gdcm::DataSet& data, gdcm::Tag tag,

@@ -10,6 +10,7 @@
 #include "model/shape/detail/detail_bake.h"
 #include "model/shape/detail/detail_paint.h"
 #include "model/shape/mesh/fewer_faces.h"
+#include "model/shape/mesh/part_color.h"
 #include "model/shape/organ/placing.h"
 #include "model/shape/solid/solid_shell.h"
 #include "viscera/math/error.h"
@@ -86,6 +87,21 @@ TriangleMesh detailedSurface(TriangleMesh surface, const DetailWanted& wanted, s
   }
   notes.push_back(report.text());
   return baked;
+}
+
+TriangleMesh withPartColors(TriangleMesh mesh, const std::vector<PartConfig>& parts) {
+  std::shared_ptr<SurfaceDetail> detail;
+  for (const PartConfig& part : parts) {
+    if (!part.color) continue;
+    for (size_t p = 0; p < mesh.part_names.size(); ++p) {
+      if (mesh.part_names[p] != part.part) continue;
+      if (!detail)
+        detail = mesh.detail ? std::make_shared<SurfaceDetail>(*mesh.detail) : std::make_shared<SurfaceDetail>();
+      addPartColor(p, *part.color, *detail);
+    }
+  }
+  if (detail) mesh.detail = std::move(detail);
+  return mesh;
 }
 
 }  // namespace viscera

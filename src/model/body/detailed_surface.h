@@ -29,4 +29,7 @@ struct DetailWanted {
 TriangleMesh detailedSurface(TriangleMesh surface, const DetailWanted& wanted, std::vector<std::string>& notes,
                              const Progress& progress = {});
 
+/// Gives the parts of a surface mesh the colours of the scene; a texture of a file still covers them.
+TriangleMesh withPartColors(TriangleMesh mesh, const std::vector<PartConfig>& parts);
+
 }  // namespace viscera

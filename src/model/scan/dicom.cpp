@@ -58,7 +58,7 @@ class DicomSlices : public ScanSource {
     std::array<int64_t, 3> size{};
     int segments = 0;
     first >> magic >> size[0] >> size[1] >> size[2] >> layers_ >> segments;
-    if (!first || magic != "viscera-dicom-1" || layers_ < 1 || segments < 0 || segments > kMostSegments)
+    if (!first || magic != "viscera-dicom-2" || layers_ < 1 || segments < 0 || segments > kMostSegments)
       misunderstood(path);
     const std::vector<std::string> numbers = words(child_->line());
     double value[12];
@@ -70,8 +70,10 @@ class DicomSlices : public ScanSource {
     for (int n = 0; n < segments; ++n) {
       TextIn line(child_->line());
       Segment segment;
-      line >> segment.layer >> segment.label.value;
+      Vector3i color;  // bytes, or -1
+      line >> segment.layer >> segment.label.value >> color[0] >> color[1] >> color[2];
       if (!line) misunderstood(path);
+      if (color.minCoeff() >= 0) segment.label.color = (color.cast<double>() / 255).cwiseMin(1);
       std::getline(line, segment.label.name);
       segment.label.name = trimmed(segment.label.name);
       segments_.push_back(segment);

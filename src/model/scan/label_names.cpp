@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <yaml-cpp/yaml.h>
 
+#include <array>
 #include <fstream>
 
 #include "math/out_file.h"
@@ -25,14 +26,15 @@ LabelName tableRow(const std::string& path, int number, const std::string& line)
   LabelName label;
   std::vector<std::string> fields;
   if (open != std::string::npos && close > open) fields = words(line.substr(0, open));
-  double ignored = 0;
+  std::array<double, 6> numbers{};  // red, green, blue, 0..255, and what is not used
   bool good = fields.size() == 7 && parseInteger(fields[0], label.value);
-  for (size_t n = 1; good && n < fields.size(); ++n) good = parseNumber(fields[n], ignored);
+  for (size_t n = 0; good && n < numbers.size(); ++n) good = parseNumber(fields[n + 1], numbers.at(n));
   if (!good)
     throw SceneError(
         path + ":" + std::to_string(number) +
         ": not a row of an ITK-SNAP table; accepted: 'number red green blue opacity shown meshed \"name\"'");
   label.name = line.substr(open + 1, close - open - 1);
+  label.color = (Vector3d(numbers[0], numbers[1], numbers[2]) / 255).cwiseMax(0).cwiseMin(1);
   return label;
 }
 

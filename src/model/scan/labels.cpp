@@ -55,6 +55,7 @@ std::vector<Segment> namedSegments(const std::string& path, const LabelOptions& 
     for (Segment& segment : segments)
       if (segment.label.value == name.value) {
         segment.label.name = name.name;
+        if (name.color) segment.label.color = name.color;
         known = true;
       }
     if (!known) segments.push_back({0, name});

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "model/scan/text_header.h"
@@ -199,6 +200,16 @@ VolumeFrame frameOf(const NrrdHeader& header, const std::array<int64_t, 3>& size
   return frameFromLps(header.path, size, to_lps * axes, to_lps * origin);
 }
 
+/// Returns the colour "red green blue", 0..1; none: another text.
+std::optional<Vector3d> colorOf(const std::string& text) {
+  const std::vector<std::string> numbers = words(text);
+  Vector3d color = Vector3d::Zero();
+  bool good = numbers.size() == 3;
+  for (size_t c = 0; good && c < 3; ++c) good = parseNumber(numbers[c], color[static_cast<Eigen::Index>(c)]);
+  if (!good || (color.array() < 0).any() || (color.array() > 1).any()) return {};
+  return color;
+}
+
 /// Returns the segments, from keys such as Segment0_LabelValue:=1. Without values: 0, 1, ... have a layer each in files
 /// before Slicer 4.11; in one layer they are 1, 2, ...
 std::vector<Segment> segmentsOf(const NrrdHeader& header, int64_t layers) {
@@ -210,7 +221,8 @@ std::vector<Segment> segmentsOf(const NrrdHeader& header, int64_t layers) {
       return found == header.keys.end() ? std::string() : trimmed(found->second);
     };
     if (key("ID").empty() && key("Name").empty() && key("LabelValue").empty()) return segments;
-    Segment segment{n, {layers > 1 ? 1 : n + 1, key("Name")}};  // each has a layer, or all share one
+    Segment segment{
+        n, {layers > 1 ? 1 : n + 1, key("Name"), colorOf(key("Color"))}};  // each has a layer, or all share one
     int64_t layer = n;
     const bool value = key("LabelValue").empty() || parseInteger(key("LabelValue"), segment.label.value);
     if (!value || (!key("Layer").empty() && !parseInteger(key("Layer"), layer)) || layer < 0 || layer > 65535)

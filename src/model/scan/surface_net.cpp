@@ -7,6 +7,7 @@
 #include <string>
 
 #include "model/scan/net_smoothing.h"
+#include "model/shape/mesh/part_color.h"
 #include "viscera/math/error.h"
 
 namespace viscera {
@@ -148,9 +149,11 @@ TriangleMesh labelSurfaces(const SurfaceNet& net, const std::vector<LabelName>& 
   TriangleMesh mesh;
   const std::vector<std::string> part_names = partNames(names);
   std::vector<uint32_t> number(net.positions_m.size(), kUnused);
+  auto detail = std::make_shared<SurfaceDetail>();
   for (const uint8_t label : labels) {
     const auto part = static_cast<uint16_t>(mesh.part_names.size());
     mesh.part_names.push_back(label < part_names.size() ? part_names[label] : "label " + std::to_string(label));
+    if (label < names.size() && names[label].color) addPartColor(part, *names[label].color, *detail);
     for (size_t i = 0; i < net.triangles.size(); ++i) {
       const auto [behind, before] = net.sides[i];
       if (behind != label && before != label) continue;
@@ -167,6 +170,7 @@ TriangleMesh labelSurfaces(const SurfaceNet& net, const std::vector<LabelName>& 
       mesh.parts.push_back(part);
     }
   }
+  if (!detail->materials.empty()) mesh.detail = std::move(detail);
   return mesh;
 }
 

@@ -40,7 +40,7 @@ SurfaceNet surfaceNet(const LabelVolume& volume, const ValueWindow* window = nul
 std::vector<std::string> partNames(const std::vector<LabelName>& names);
 
 /// Returns the closed surfaces of some labels as parts of one mesh, in this order, each facing outward. Labels that
-/// touch share vertices. partNames() names the parts.
+/// touch share vertices. partNames() names the parts, which have the colours of their labels.
 TriangleMesh labelSurfaces(const SurfaceNet& net, const std::vector<LabelName>& names,
                            const std::vector<uint8_t>& labels);
 

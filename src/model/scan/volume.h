@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,8 +28,9 @@ struct VolumeFrame {
 
 /// Name of a value of a label map.
 struct LabelName {
-  int64_t value = 0;  ///< value in the file
-  std::string name;   ///< empty: the file has no name
+  int64_t value = 0;                   ///< value in the file
+  std::string name;                    ///< empty: the file has no name
+  std::optional<Vector3d> color = {};  ///< sRGB, 0..1; without: the file has no colour
 };
 
 /// Label map with one label per voxel, 0 where there is none of the requested labels.

@@ -117,6 +117,10 @@ void visitFields(V& v, PartConfig& c) {
   v.group("cut", c.cut, "resistance of this part to cutting");
   v.group("prestress", c.prestress, "initial stress of this part");
   v.group("bleeding", c.bleeding, "bleeding of this part where it is cut");
+  v.vectorOrNone(
+      "color", c.color, {0, 1}, "1",
+      "colour of this part and, darker, of its inside: red, green, blue; textures of a file cover it. Without "
+      "it: that of the mesh file or of the scan, else that of the body");
 }
 
 template <class V>
@@ -189,8 +193,8 @@ void visitFields(V& v, BodyConfig& c) {
   v.number("gap_m", c.gap_m, {1e-6, 1}, "m",
            "fill enclosed: width of the widest gap or hole that is closed; wider openings stay open");
   v.boolean("textures", c.textures,
-            "mesh: use the colours, textures, normal maps and roughness of the file (docs/surface.md); phantom "
-            "gallbladder: use its colours");
+            "mesh: use the colours, textures, normal maps and roughness of the file (docs/surface.md); labels: use the "
+            "colours of the scan's labels (docs/scans.md); phantom gallbladder: use its colours");
   v.text(
       "detail_mesh", c.detail_mesh,
       "path of a finer mesh of the same surface, with any number of faces, placed as mesh_file is; its normals and "
@@ -245,7 +249,7 @@ void visitFields(V& v, BodyConfig& c) {
   v.vector("position_m", c.position_m, kCoordinate, "m", "position of the body's origin in the tissue frame");
   v.vector("rotation_deg", c.rotation_deg, kAngle, "deg",
            "rotation of the body: turns about the fixed x, then y, then z axis");
-  v.vector("color", c.color, {0, 1}, "1", "colour where a mesh file gives none: red, green, blue");
+  v.vector("color", c.color, {0, 1}, "1", "colour where a mesh file or scan gives none: red, green, blue");
   v.number("roughness", c.roughness, {0, 1}, "1", "roughness of the wet surface: 0 mirrors lamps, 1 is dull");
   v.number("color_variation", c.color_variation, {0, 3}, "1",
            "variation of lightness, hue and relief over the surface; 0: uniform");
@@ -260,7 +264,7 @@ void visitFields(V& v, BodyConfig& c) {
            "textures of a file, which keep their colours); 0: it keeps its colour");
   v.list("layers", c.layers, kMostLayers,
          "layers below the surface, from the outside inwards: the colours that walls of wounds show and the toughness; "
-         "below the last one: the flesh of `color`");
+         "below the last one: the inside of the body or part, of its `color`; []: that alone");
   v.group("material", c.material, "elastic material");
   const MaterialConfig& m = c.material;
   const PartConfig as_material{"",    m.young_modulus_pa, m.poisson_ratio, m.density_kg_per_m3, "",

@@ -13,6 +13,7 @@ namespace viscera {
 // * text(key, std::string&, text)
 // * boolean(key, bool&, text)
 // * vector(key, Vector3d&, Range, unit, text)
+// * vectorOrNone(key, std::optional<Vector3d>&, Range, unit, text)
 // * choice(key, Enum&, {{name, value}...}, text)
 // * tissue(key, Struct&, text): sets young_modulus_pa, poisson_ratio and density_kg_per_m3, which come after it
 // * group(key, Struct&, text)

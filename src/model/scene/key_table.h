@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -36,6 +37,9 @@ class KeyTable {
     TextOut shown;
     shown << "[" << value.x() << ", " << value.y() << ", " << value.z() << "]";
     row(key, withUnit("3 numbers", unit), shown.str(), span(range), text);
+  }
+  void vectorOrNone(const char* key, std::optional<Vector3d>&, Range range, const char* unit, const char* text) {
+    row(key, withUnit("3 numbers", unit), "", span(range), text);
   }
   void quaternion(const char* key, Quaterniond&, const char* text) {
     row(key, "4 numbers", "[0, 0, 0, 1]", "length 1", text);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/scene/scene_text.h"
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,9 @@ class KeyValues {
   void text(const char* key, std::string& value, const char*) { line(key, value); }
   void vector(const char* key, Vector3d& value, Range, const char*, const char*) {
     line(key, exactText(value.x()) + " " + exactText(value.y()) + " " + exactText(value.z()));
+  }
+  void vectorOrNone(const char* key, std::optional<Vector3d>& value, Range range, const char* unit, const char* text) {
+    if (value) vector(key, *value, range, unit, text);
   }
   void quaternion(const char* key, Quaterniond& value, const char*) {
     line(key,

@@ -5,6 +5,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <cstdio>
+#include <optional>
 #include <utility>
 
 #include "math/number_text.h"
@@ -37,6 +38,9 @@ class MapFiller {
   void vector(const char* key, Vector3d& value, Range range, const char*, const char*) {
     if ((value.array() < range.min).any() || (value.array() > range.max).any()) return;
     for (const double component : value) map_[key].push_back(digits(component));
+  }
+  void vectorOrNone(const char* key, std::optional<Vector3d>& value, Range range, const char* unit, const char* text) {
+    if (value) vector(key, *value, range, unit, text);
   }
   void given(bool& value) { given_ = value; }
   template <class E>

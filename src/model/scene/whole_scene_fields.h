@@ -10,12 +10,36 @@ namespace viscera {
 
 // The sections of a scene file; their keys are in scene_fields.h, body_fields.h, mark_fields.h and suture_fields.h.
 
+// Values of look endoscope, chosen by eye on the scenes of config/.
+constexpr double kEndoscopeShadows = 0.7;  // contact_shadows
+constexpr double kEndoscopeWetness = 0.5;  // specular_wetness
+
+/// Returns a camera with the values of a look, for what a scene does not give. Its supersampling stays 0: two samples
+/// on a GPU, and on a software renderer as many as it affords; 2 would take it up to twice the time of an image.
+inline CameraConfig cameraOf(Look look) {
+  CameraConfig camera;
+  if (look == Look::kPlain) return camera;
+  camera.light = CameraLight::kLens;
+  camera.contact_shadows = kEndoscopeShadows;
+  return camera;
+}
+
+/// Returns a body with the values of a look, for what a scene does not give.
+inline BodyConfig bodyOf(Look look) {
+  BodyConfig body;
+  if (look == Look::kEndoscope) body.specular_wetness = kEndoscopeWetness;
+  return body;
+}
+
 template <class V>
 void visitFields(V& v, Scene& c) {
   v.text("name", c.name, "name of the scene, for reports");
-  v.list("bodies", c.bodies, layout::kMaxBodies, "bodies: pieces of tissue, at least one");
+  v.choice("look", c.look, {{"plain", Look::kPlain}, {"endoscope", Look::kEndoscope}},
+           "preset of the appearance, for what the scene does not give itself; plain: the defaults of the keys; "
+           "endoscope: light: lens and contact_shadows: 0.7 of cameras, and specular_wetness: 0.5 of bodies");
+  v.list("bodies", c.bodies, layout::kMaxBodies, "bodies: pieces of tissue, at least one", bodyOf(c.look));
   v.list("styluses", c.styluses, layout::kMaxStyluses, "styluses that users move, with their tools");
-  v.list("cameras", c.cameras, 8, "cameras that render the scene");
+  v.list("cameras", c.cameras, 8, "cameras that render the scene", cameraOf(c.look));
   v.list("obstacles", c.obstacles, layout::kMaxObstacles, "obstacles: rigid shapes that nodes do not enter");
   v.group("collision", c.collision, "collisions of bodies with themselves and each other; no cost while disabled");
   v.group("environment", c.environment, "gravity, frames and wind");

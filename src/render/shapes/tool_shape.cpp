@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "model/scene/tool_kinds.h"
+#include "render/shapes/jaw_shape.h"
 #include "render/shapes/lathe.h"
 
 namespace viscera {
@@ -18,40 +19,62 @@ constexpr uint8_t kOutlineAlpha = 150;
 
 // Shares of the shaft's length.
 constexpr float kTipRadius = 0.005f, kTaperEnd = 0.25f;
-constexpr float kCollarGap = 1.0f / 30, kCollarLength = 2.0f / 30, kCollarEdge = 1.0f / 120;
-constexpr float kShortestShaft = 0.25f;                                  // of the handle, behind a blade of any length
-constexpr float kCollar = 1.2f;                                          // radius of the collar, over the shaft's
-constexpr float kFingerHalf = 0.7f / 120, kFingerHalfWide = 1.4f / 120;  // of a finger, along x and y
+constexpr float kRodRadius = 0.009f, kRodFrom = 0.03f, kRodEnd = 0.17f;  // between the tip and the shaft
+constexpr float kNeckRadius = 0.0145f;                                   // behind jaws
+constexpr float kCollarGap = 1.0f / 30, kCollarLength = 2.0f / 30, kCollarEdge = 1.0f / 240;
+constexpr float kShortestShaft = 0.25f;        // of the handle, behind a blade of any length
+constexpr float kCollar = 1.08f;               // radius of the collar, over the shaft's
+constexpr float kSlimmer = 0.96f;              // radius of the sheath, over the shaft's
+constexpr float kJawUnit = 0.7f / 120;         // half the thickness of a jaw
+constexpr Color kSheath = {86, 92, 100, 255};  // sRGB: dark insulation, lighter than what is behind the organ
 constexpr float kToolQuarterTurn = static_cast<float>(M_PI / 2);
 
 Color colorOf(const ToolKind& kind, uint8_t alpha = 255) {
   return {kind.color[0], kind.color[1], kind.color[2], alpha};
 }
 
-/// Adds a shaft. It tapers towards the tip, unless tissue meets it: then it is the capsule that tissue meets.
-/// @param from  its start, in lengths of the shaft
-void addShaft(const StylusConfig& stylus, float from, const Color& collar, ToolShape& shape) {
+/// Returns the metal in front of the sheath: a thin rod behind a tip, or a neck behind jaws. Where tissue meets the
+/// shaft it is the capsule that tissue meets. @param from  its start
+Profile rodProfile(const StylusConfig& stylus, float from, float taper_end, float shaft_radius, bool jaws) {
   constexpr float kBevel = 1.0f / 1200;
+  if (stylus.shaft_contact) {
+    const float bevel = std::min(shaft_radius, taper_end - from);
+    return Profile()
+        .arc(shaft_radius, from + bevel, -kToolQuarterTurn, 0)
+        .line(shaft_radius, from + bevel, shaft_radius, taper_end);
+  }
+  const float end = std::min(std::max(kRodEnd, from + kBevel), taper_end - kBevel);
+  const float radius = std::min(jaws ? kNeckRadius : kRodRadius, shaft_radius);
+  const float begin = jaws || from >= kRodFrom ? from + kBevel : kRodFrom;
+  const float tip = jaws || from >= kRodFrom ? radius : std::min(kTipRadius, shaft_radius);
+  Profile rod;
+  rod.line(0, from, tip, std::min(from + kBevel, begin));
+  if (begin > from + kBevel) rod.line(tip, from + kBevel, radius, begin);
+  if (end > begin) rod.line(radius, begin, radius, end);
+  return rod.line(radius, std::max(end, begin), shaft_radius, taper_end);
+}
+
+/// Adds a shaft: a rod, an insulated sheath and a collar. @param from  its start, in lengths of the shaft
+void addShaft(const StylusConfig& stylus, float from, bool jaws, const Color& collar, ToolShape& shape) {
+  constexpr float kStep = 1.0f / 120;  // the sheath begins behind a ring of metal
   const Eigen::Affine3f scale(Eigen::Scaling(static_cast<float>(stylus.shaft_length_m)));
-  const float radius = static_cast<float>(shaftRadius(stylus) / stylus.shaft_length_m);
-  const float taper_end = std::max(kTaperEnd, from + 2 * kBevel), collar_from = taper_end + kCollarGap;
-  const float narrow = std::min(radius, kTipRadius + (radius - kTipRadius) * std::min(from / kTaperEnd, 1.0f));
-  const float bevel = stylus.shaft_contact ? std::min(radius, taper_end - from) : kBevel;
-  const float from_radius = stylus.shaft_contact ? radius : narrow, end = std::max(1 - radius, taper_end);
-  const Profile shaft = stylus.shaft_contact ? Profile().arc(radius, from + bevel, -kToolQuarterTurn, 0)
-                                             : Profile().line(0, from, from_radius, from + bevel);
-  addLathe(Profile(shaft)
-               .line(from_radius, from + bevel, radius, taper_end)
-               .line(radius, taper_end, radius, end)
-               .arc(radius, end, 0, kToolQuarterTurn),
-           scale, colorOf(kindOf(ToolMode::kNone)), shape);
-  const float collar_radius = kCollar * radius;
-  const float collar_to = collar_from + kCollarLength;
-  const Profile ring = Profile()
+  const float shaft_radius = static_cast<float>(shaftRadius(stylus) / stylus.shaft_length_m);
+  const float taper_end = std::max(kTaperEnd, from + 2 * kStep), collar_from = taper_end + kCollarGap;
+  const float radius = kSlimmer * shaft_radius;
+  const Profile ring = rodProfile(stylus, from, taper_end, shaft_radius, jaws)
+                           .line(shaft_radius, taper_end, shaft_radius, taper_end + kStep)
+                           .line(shaft_radius, taper_end + kStep, radius, taper_end + kStep);
+  addLathe(ring, scale, colorOf(kindOf(ToolMode::kNone)), shape);
+  const float sheath_end = std::max(1 - radius, taper_end + kStep);
+  const Profile sheath =
+      Profile().line(radius, taper_end + kStep, radius, sheath_end).arc(radius, sheath_end, 0, kToolQuarterTurn);
+  addLathe(sheath, scale, kSheath, shape);
+  const float collar_radius = kCollar * shaft_radius, collar_to = collar_from + kCollarLength;
+  const Profile band = Profile()
                            .line(radius, collar_from - kCollarEdge, collar_radius, collar_from)
                            .line(collar_radius, collar_from, collar_radius, collar_to)
                            .line(collar_radius, collar_to, radius, collar_to + kCollarEdge);
-  addLathe(ring, scale, collar, shape);
+  addLathe(band, scale, collar, shape);
 }
 
 /// Adds a blade: a lathe pressed flat, wide along y, its point at the low end.
@@ -122,7 +145,9 @@ void addTip(const StylusConfig& stylus, const ToolKind& kind, ToolShape& shape) 
 ToolShape toolWithoutFingers(const StylusConfig& stylus, ToolMode mode) {
   const ToolKind& kind = kindOf(mode);
   ToolShape shape;
-  addShaft(stylus, shaftStart(stylus, kind), colorOf(kind), shape);
+  const float length = static_cast<float>(stylus.shaft_length_m), start = shaftStart(stylus, kind);
+  addShaft(stylus, start, kind.jaws != nullptr, colorOf(kind), shape);
+  if (kind.jaws) addFork(start * length, kJawUnit * length, colorOf(kindOf(ToolMode::kNone)), shape);
   addTip(stylus, kind, shape);
   shape.solid_indices = shape.indices.size();
   if (kind.does(kHolds)) {
@@ -136,11 +161,8 @@ ToolShape fingerShape(const StylusConfig& stylus, ToolMode mode) {
   const ToolKind& kind = kindOf(mode);
   ToolShape shape;
   if (!kind.jaws) return shape;
-  const float half = static_cast<float>(kind.jaws(stylus).length_m) / 2;
-  Eigen::Affine3f placement = Eigen::Affine3f::Identity();
-  const float shaft = static_cast<float>(stylus.shaft_length_m), thick = kFingerHalf * shaft;
-  placement.translate(Vector3f(thick, 0, half)).scale(Vector3f(thick, kFingerHalfWide * shaft, half));
-  addLathe(sphereProfile(1), placement, colorOf(kind), shape);
+  addJaw(kind, static_cast<float>(kind.jaws(stylus).length_m), kJawUnit * static_cast<float>(stylus.shaft_length_m),
+         colorOf(kind), shape);
   shape.solid_indices = shape.indices.size();
   return shape;
 }

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+
+#include "viscera/surface/visible_mesh.h"
 
 namespace viscera {
 
@@ -54,14 +57,24 @@ const SurfaceMaterial* materialOf(const SurfaceDetail* detail, size_t part) {
   return &detail->materials[material];
 }
 
+/// Returns whether no other part has the part's material.
+bool isOfOnePart(const SurfaceDetail& detail, size_t part) {
+  const std::vector<uint32_t>& materials = detail.part_materials;
+  return std::count(materials.begin(), materials.end(), materials[part]) == 1;
+}
+
+Vector3d srgbOf(const SurfaceMaterial& material) {
+  return {srgb(material.color[0]), srgb(material.color[1]), srgb(material.color[2])};
+}
+
 /// Returns the colours of all parts. Parts of one material differ by partColor(), to keep them distinct.
 std::vector<Vector3d> partColors(const TriangleMesh& mesh, const Vector3d& organ_color) {
   std::vector<Vector3d> out;
   for (size_t part = 0; part < std::max<size_t>(mesh.part_names.size(), 1); ++part) {
     const SurfaceMaterial* const own = materialOf(mesh.detail.get(), part);
-    const Vector3d color = own ? Vector3d(srgb(own->color[0]), srgb(own->color[1]), srgb(own->color[2])) : organ_color;
-    const bool textured = own != nullptr && own->hasTexture();
-    out.push_back(textured ? color : partColor(color, part));
+    const Vector3d color = own ? srgbOf(*own) : organ_color;
+    const bool alone = own != nullptr && (own->hasTexture() || isOfOnePart(*mesh.detail, part));
+    out.push_back(alone ? color : partColor(color, part));
   }
   return out;
 }
@@ -79,6 +92,24 @@ std::vector<uint32_t> vertexColors(const TriangleMesh& mesh, const Vector3d& org
   colors.reserve(parts.size());
   for (uint16_t part : parts) colors.push_back(rgba8(of_part[part == kNoPart ? 0 : part], skinAlpha(body, two_sided)));
   return colors;
+}
+
+std::vector<Vector3d> insideColors(const Body& body) {
+  const TriangleMesh& mesh = body.skin.mesh;
+  const std::vector<std::string>& names = body.lattice.part_names;
+  std::vector<Vector3d> out(1 + names.size(), woundColor(body.color));
+  for (size_t part = 0; part < mesh.part_names.size(); ++part) {
+    const SurfaceMaterial* const own = materialOf(mesh.detail.get(), part);
+    if (own == nullptr || own->hasTexture()) continue;
+    for (size_t label = 1; label < out.size(); ++label)
+      if (names[label - 1] == mesh.part_names[part]) out[label] = woundColor(srgbOf(*own));
+  }
+  return out;
+}
+
+bool hasPartColors(const Body& body) {
+  const std::vector<Vector3d> inside = insideColors(body);
+  return std::any_of(inside.begin(), inside.end(), [&](const Vector3d& color) { return color != inside[0]; });
 }
 
 namespace {

@@ -7,6 +7,7 @@
 
 #include "viscera/layout/limits.h"
 #include "viscera/math/types.h"
+#include "viscera/model/model.h"
 #include "viscera/model/shape/triangle_mesh.h"
 #include "viscera/solver/process_visuals.h"
 
@@ -24,6 +25,14 @@ constexpr uint32_t skinAlpha(uint32_t body, bool two_sided) {
 constexpr uint32_t wallAlpha(uint32_t body) {
   return 160 + body;
 }
+constexpr bool isWallAlpha(uint32_t alpha) {
+  return alpha >= wallAlpha(0) && alpha < wallAlpha(layout::kMaxBodies);
+}
+constexpr float kOnLip =
+    1;  ///< of a vertex of a surface at the edge of a cut: its rest.w (shaders/draw/skin_paint.glsl)
+constexpr uint32_t bodyOfAlpha(uint32_t alpha) {
+  return alpha >= 240 ? 255 - alpha : alpha >= 160 ? alpha - 160 : alpha;
+}
 static_assert(layout::kMaxBodies <= 16);
 
 /// Returns a colour under a paint: burnt tissue is paler as it coagulates, then brown and black; blood is red.
@@ -35,5 +44,11 @@ uint32_t paintedColor(PaintKind kind, uint32_t rgba, float share);
 /// skinAlpha(): the back of a triangle is the raw inside of tissue or, in a sheet, looks like its front.
 std::vector<uint32_t> vertexColors(const TriangleMesh& mesh, const Vector3d& organ_color, bool two_sided = false,
                                    uint32_t body = 0);
+
+/// Returns the colours of the inside [labels of the lattice], which walls of wounds show below the layers: woundColor()
+/// of each part's own colour, else of the body's.
+std::vector<Vector3d> insideColors(const Body& body);
+/// Returns whether parts of the body have colours of their own without textures.
+bool hasPartColors(const Body& body);
 
 }  // namespace viscera

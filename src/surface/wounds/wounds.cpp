@@ -35,6 +35,18 @@ layout::SkinBinding numbered(uint32_t slot, layout::SkinBinding binding) {
   return binding;
 }
 
+/// Returns the label of the cell around a point, else that of a corner with tissue; 0: none. @param point  in cells
+uint16_t labelAt(const Lattice& lattice, const Vector3d& point) {
+  const Vector3i cell = point.array().floor().cast<int>();
+  const int64_t lowest = lattice.slotAt(cell);
+  uint16_t label = lowest < 0 ? uint16_t{0} : lattice.cell_labels[static_cast<size_t>(lowest)];
+  for (int c = 0; c < 8 && label == 0; ++c) {
+    const int64_t slot = lattice.slotAt(cell + Vector3i(c & 1, (c >> 1) & 1, (c >> 2) & 1));
+    if (slot >= 0) label = lattice.labels[static_cast<size_t>(slot)];
+  }
+  return label;
+}
+
 }  // namespace
 
 bool Wounds::possible(const Model& model) {
@@ -53,7 +65,8 @@ Wounds::Wounds(const Model& model, const JoinedSkins& skins)
     WoundOfBody position;
     position.slot = model.slotOffset(b);
     position.vertex = vertex;
-    position.color = body.color;
+    for (const Vector3d& color : insideColors(body)) position.inside.push_back(rgba(color, static_cast<uint32_t>(b)));
+    position.lattice = &body.lattice;
     position.origin_m = body.lattice.origin_m;
     position.spacing_m = body.lattice.spacing_m;
     position.number = static_cast<uint32_t>(b);
@@ -135,23 +148,26 @@ void Wounds::append(WoundOfBody& position, VisibleWounds::OfBody& out) {
     bindings_.push_back(numbered(position.slot, wound.bindings()[v]));
   for (const WoundVertex& vertex : wound.lipVertices()) {
     colors_.push_back(whole_colors_[position.vertex + vertex.skin_vertex]);
-    addRest(position, vertex, 0);
+    addRest(position, vertex, kOnLip);
   }
-  const uint32_t flesh = rgba(woundColor(position.color), position.number);
   const std::vector<WoundVertex>& walls = wound.wallVertices();
   keepRoom(position.wall_depths_m, walls.size());
   position.wall_depths_m.resize(walls.size());
-  for (const uint32_t v : wound.changedWalls())
+  keepRoom(position.wall_labels, walls.size());
+  position.wall_labels.resize(walls.size());
+  for (const uint32_t v : wound.changedWalls()) {
     position.wall_depths_m[v] = walls[v].skin_vertex == WoundVertex::kNone ? position.depths->at(walls[v].point) : 0;
+    position.wall_labels[v] = labelAt(*position.lattice, walls[v].point);
+  }
   for (size_t v = 0; v < walls.size(); ++v) {
-    colors_.push_back(flesh);
+    colors_.push_back(position.inside[position.wall_labels[v]]);
     addRest(position, walls[v], position.wall_depths_m[v]);
   }
 }
 
-void Wounds::addRest(const WoundOfBody& position, const WoundVertex& vertex, double depth_m) {
+void Wounds::addRest(const WoundOfBody& position, const WoundVertex& vertex, double w) {
   const Vector3f at = (position.origin_m + position.spacing_m * vertex.point).cast<float>();
-  added_rests_.push_back({at.x(), at.y(), at.z(), static_cast<float>(depth_m)});
+  added_rests_.push_back({at.x(), at.y(), at.z(), static_cast<float>(w)});
 }
 
 /// Returns whether these are the springs of the last update. A blade in the air changes none.

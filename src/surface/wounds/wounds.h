@@ -45,22 +45,26 @@ class Wounds {
   const std::shared_ptr<const VisibleWounds>& shown() const { return shown_; }
   const std::vector<layout::SkinBinding>& bindings() const { return bindings_; }  ///< [shown()->vertices]
   const std::vector<uint32_t>& colors() const { return colors_; }                 ///< [shown()->vertices] RGBA8
-  /// Returns rest positions of added vertices [added], as JoinedSkins::rests; w: depth below the surface [m]
+  /// Returns rest positions of added vertices [added], as JoinedSkins::rests; w of walls: depth below the surface [m],
+  /// of lips: kOnLip
   const std::vector<layout::vec4>& addedRests() const { return added_rests_; }
 
  private:
   struct WoundOfBody {
     std::unique_ptr<BodyWound> wound;  ///< null where the body is no lattice or cannot be cut
     uint32_t slot = 0, vertex = 0;     ///< first ones of the body
-    Vector3d color, origin_m;
+    std::vector<uint32_t> inside;      ///< [labels] insideColors(), RGBA8
+    Vector3d origin_m;
     double spacing_m = 1;
+    const Lattice* lattice = nullptr;
     std::unique_ptr<WoundDepths> depths;  ///< where there is a wound
     std::vector<double> wall_depths_m;    ///< [wall vertices] of wound
+    std::vector<uint16_t> wall_labels;    ///< [wall vertices] of wound: the part there
     uint32_t number = 0;                  ///< of the body
   };
   void appendTriangles(const WoundOfBody& position, const BodyWound& wound, VisibleWounds::OfBody& out) const;
   void append(WoundOfBody& position, VisibleWounds::OfBody& out);
-  void addRest(const WoundOfBody& position, const WoundVertex& vertex, double depth_m);
+  void addRest(const WoundOfBody& position, const WoundVertex& vertex, double w);
   void clear();
   std::shared_ptr<VisibleWounds> next();
   bool isKnown(const layout::NodeBits* nodes);

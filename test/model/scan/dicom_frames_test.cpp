@@ -61,9 +61,10 @@ TEST_F(Dicom, FramesOfOneFileAreSortedByPosition) {
 }
 
 TEST_F(Dicom, SegmentsOfBitsMayOverlap) {
-  TestVolume v;  // 4 x 3 x 2
-  const auto segment = [](unsigned value, const std::string& name) {
-    return element(0x62, 4, "US", us(value)) + element(0x62, 5, "LO", name);
+  TestVolume v;                                                                         // 4 x 3 x 2
+  const std::string red = element(0x62, 0xd, "US", us(35579) + us(53662) + us(50857));  // L* 54.29, a* 80.8, b* 69.9
+  const auto segment = [&](unsigned value, const std::string& name) {
+    return element(0x62, 4, "US", us(value)) + element(0x62, 5, "LO", name) + (value == 1 ? red : "");
   };
   const auto group = [&](double height, unsigned value) {
     return sequence(0x20, 0x9113, {position(v, height)}) + sequence(0x62, 0xa, {element(0x62, 0xb, "US", us(value))});
@@ -81,6 +82,10 @@ TEST_F(Dicom, SegmentsOfBitsMayOverlap) {
   ASSERT_EQ(map.names.size(), 3U);
   EXPECT_EQ(map.names[1].name, "liver");
   EXPECT_EQ(map.names[2].name, "duct");
+  constexpr double kByte = 1.5 / 255;  // [-] a byte of sRGB, and Lab to four digits
+  ASSERT_TRUE(map.names[1].color.has_value());
+  EXPECT_LT((*map.names[1].color - Vector3d(1, 0, 0)).cwiseAbs().maxCoeff(), kByte) << map.names[1].color->transpose();
+  EXPECT_FALSE(map.names[2].color.has_value());
   EXPECT_EQ(map.frame.size, Vector3i(4, 3, 2));
   std::vector<uint8_t> expected(24, 0);
   std::fill_n(expected.begin(), 6, 1);

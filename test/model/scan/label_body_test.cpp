@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "model/body_samples.h"
 #include "support/temporary_folder.h"
@@ -54,6 +55,28 @@ double massOf(const Body& body) {
   double kg = 0;
   for (const float m : strengths(body).mass_kg) kg += static_cast<double>(m);
   return kg;
+}
+
+/// Returns the colour of a part of the surface mesh, linear; none: it has no own colour.
+std::optional<Eigen::Vector3f> colorOf(const Body& body, const std::string& part) {
+  const TriangleMesh& mesh = body.skin.mesh;
+  const auto at =
+      static_cast<size_t>(std::find(mesh.part_names.begin(), mesh.part_names.end(), part) - mesh.part_names.begin());
+  if (!mesh.detail || mesh.detail->part_materials.at(at) == kNoChart) return {};
+  return mesh.detail->materials.at(mesh.detail->part_materials[at]).color;
+}
+
+TEST_F(LabelBody, LabelsHaveTheColorsOfTheirTableUnlessTheSceneGivesOthers) {
+  const Eigen::Vector3f red(1, 0, 0), green(0, 1, 0), blue(0, 0, 1);
+  const Body plain = model("fill: parts").bodies.at(0);
+  EXPECT_EQ(colorOf(plain, "bone"), red);
+  EXPECT_EQ(colorOf(plain, "liver"), green);
+  const Body painted = model("parts: [{part: liver, color: [0, 0, 1]}]").bodies.at(0);
+  EXPECT_EQ(colorOf(painted, "bone"), red);
+  EXPECT_EQ(colorOf(painted, "liver"), blue);
+  EXPECT_FALSE(model("textures: false").bodies.at(0).skin.mesh.detail);
+  EXPECT_NE(refusal("scan: {file: scan.nrrd}, parts: [{part: liver, color: [0, 0, 2]}]").find("parts[0].color"),
+            std::string::npos);
 }
 
 TEST_F(LabelBody, LabelsThatTouchAreOneBodyInOneSkin) {

@@ -90,6 +90,7 @@ TEST(Labels, SegmentsOfSeveralLayersOverlap) {
   const std::string header = test::nrrdHeader(
       v, "LPS",
       "encoding: raw\nSegment0_ID:=Segment_1\nSegment0_LabelValue:=1\nSegment0_Layer:=0\nSegment0_Name:=liver\n"
+      "Segment0_Color:=0.5 0.68 0.25\n"
       "Segment1_ID:=Segment_2\nSegment1_LabelValue:=1\nSegment1_Layer:=1\nSegment1_Name:=tumour\n");
   std::string four =
       test::replaced(test::replaced(header, "dimension: 3", "dimension: 4"), "kinds: domain", "kinds: list domain");
@@ -107,6 +108,8 @@ TEST(Labels, SegmentsOfSeveralLayersOverlap) {
   LabelVolume volume = readLabels(path, options);
   EXPECT_EQ(std::vector<uint8_t>(volume.labels.begin(), volume.labels.begin() + 5),
             (std::vector<uint8_t>{0, 2, 2, 1, 1}));
+  EXPECT_EQ(volume.names[2].color, Vector3d(0.5, 0.68, 0.25));
+  EXPECT_FALSE(volume.names[1].color.has_value());
   ASSERT_EQ(notes.size(), 1U);
   EXPECT_NE(notes[0].find("12 voxels have several labels"), std::string::npos) << notes[0];
   options.labels = {"liver", "tumour"};

@@ -37,13 +37,13 @@ TEST(SceneYaml, WhatHasNoDefaultComesBackToTheBit) {
                  "  - name: a\n"
                  "    spacing_m: 0.1234567890123456\n"
                  "    material: {tissue: liver, density_kg_per_m3: 1071, cut: {toughness_j_per_m2: 30}}\n"
-                 "    parts: [{part: 'true', tissue: kidney, poisson_ratio: 0.3}]\n"
+                 "    parts: [{part: 'true', tissue: kidney, poisson_ratio: 0.3, color: [0.1, 0.25, 0.3]}]\n"
                  "    fixed: [{shape: plane, normal: [0.1, 0.3, -1]}]\n"
                  "    layers: [{depth_m: 0.002, color: [0.1, 0.2, 0.7]}]\n"
                  "  - {name: b, source: labels, scan: {file: 'a: b # c', labels: ['1', liver]}}\n"
                  "cameras: [{name: eye, position_m: [0, -1, 0], overlays: [strain, wind]}]\n"
                  "sutures: [{name: suture, usp: 4-0, path: [{position_m: [0.03, 0, 0]}]}]\n"
-                 "solver: {tick_hz: 100}\n",
+                 "look: endoscope\nsolver: {tick_hz: 100}\n",
                  "test"));
 }
 

@@ -158,6 +158,13 @@ void YamlReader::vector(const char* key, Vector3d& value, Range range, const cha
   for (size_t i = 0; i < 3; ++i) value[static_cast<Eigen::Index>(i)] = scalar(key, node[i], range, unit);
 }
 
+void YamlReader::vectorOrNone(const char* key, std::optional<Vector3d>& value, Range range, const char* unit,
+                              const char* text) {
+  Vector3d read = Vector3d::Zero();
+  if (map_[key].IsDefined()) value = read;
+  vector(key, value ? *value : read, range, unit, text);
+}
+
 void YamlReader::numbers(const char* key, std::vector<double>& values, double max_count, Range range,
                          const char* unit) {
   const YAML::Node node = take(key);

@@ -43,6 +43,7 @@ class YamlReader {
   void boolean(const char* key, bool& value, const char* text);
   void text(const char* key, std::string& value, const char* text);
   void vector(const char* key, Vector3d& value, Range range, const char* unit, const char* text);
+  void vectorOrNone(const char* key, std::optional<Vector3d>& value, Range range, const char* unit, const char* text);
   /// Reads a list of exactly N numbers.
   template <size_t N>
   void numbers(const char* key, std::array<double, N>& values, Range range, const char* unit) {

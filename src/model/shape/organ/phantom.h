@@ -23,6 +23,7 @@ struct Phantom {
   /// Returns the field for cells of a spacing [m]: the same solid, in which strands thinner than a cell own all tissue
   /// of the cells that their axis passes through. Null: `field`.
   std::function<DistanceField(double spacing_m)> field_for_cells;
+  DistanceField rounded;  ///< the same with round rims of vessels, which a surface mesh shows without notches
   std::vector<std::string> part_names;
   std::vector<Vector3d> part_colors;  ///< sRGB of each part; empty: parts have the body's colour
   Vector3d min_m, max_m;              ///< box around the tissue
