@@ -166,6 +166,39 @@ TEST_P(Shafts, ThatAppearInTissuePushOnceTheyHaveBeenOutside) {
 
 VISCERA_ON_EVERY_BACKEND(Shafts);
 
+/// Two crossed shafts; the second goes down on the first, and past its axis.
+TEST(ShaftContact, BetweenShaftsPushesBothApart) {
+  constexpr double kStiffness_n_per_m = 500, kRounding = 1e-6;
+  Scene scene = parseScene(kPad, "pad.yaml", {"solver.backend=cpu"});
+  scene.styluses.push_back(scene.styluses[0]);
+  scene.styluses[1].name = "other";
+  Session session(scene);
+  Frame frame;
+  const auto cross = [&](double above_m) {
+    StylusSamples samples;
+    for (size_t s = 0; s < 2; ++s) {
+      const Quaterniond turn = laid(s == 0 ? 0 : 90);
+      samples[s].valid = true;
+      samples[s].pose = {Vector3d(0, 0, 0.1 + (s == 1 ? above_m : 0)) - turn * Vector3d(0, 0, kLever_m), turn};
+    }
+    return session.step(samples, {});
+  };
+  EXPECT_FALSE(cross(0.02).shafts_touch);
+  EXPECT_FALSE(cross(0.0125).shafts_touch);
+  for (const double above_m : {0.008, 0.002, -0.004}) {
+    frame = cross(above_m);
+    EXPECT_TRUE(frame.shafts_touch);
+    const double force_n = kStiffness_n_per_m * (2 * kRadius_m - above_m);
+    const Vector3d arm = laid(90) * Vector3d(0, 0, kLever_m), push(0, 0, force_n);
+    EXPECT_LT((frame.reactions[1].force_n - push).norm(), kRounding * force_n);
+    EXPECT_LT((frame.reactions[0].force_n + push).norm(), kRounding * force_n);
+    EXPECT_LT((frame.reactions[1].torque_nm - arm.cross(push)).norm(), kRounding * force_n);
+    EXPECT_EQ(frame.contacts[0].kind, TickContact::Kind::kPushes);
+  }
+  EXPECT_FALSE(cross(0.02).shafts_touch);
+  EXPECT_EQ(cross(0.02).reactions[0].force_n.norm(), 0);
+}
+
 TEST(ShaftContact, OfBothBackendsIsFeltAlike) {
   constexpr double kAlike = 1e-3;  // relative: single precision over a second of ticks
   gpu::Context context;
