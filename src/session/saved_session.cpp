@@ -11,6 +11,7 @@
 #include "session/view.h"
 #include "solver/tissue/carried_tissue.h"
 #include "tools/restored_tools.h"
+#include "tools/shaft_meeting.h"
 #include "viscera/math/state_hash.h"
 #include "viscera/session/session.h"
 #include "viscera/session/session_log.h"
@@ -95,6 +96,7 @@ void Session::persist(Archive& archive) {
   requireModes(archive, request_.motions);
   archive.values(request_.obstacles);
   for (ForceLimiter& limiter : limiters_) archive.value(limiter);
+  shafts_->persist(archive);
   tools_.persist(archive);
   obstacles_.persist(archive);
   for (uint64_t t = tick_ - std::min(tick_, kTicksBack - 1); t <= tick_; ++t) {

@@ -16,6 +16,7 @@
 #include "solver/make_solver.h"
 #include "solver/processes/process.h"
 #include "surface/marks/mark_board.h"
+#include "tools/shaft_meeting.h"
 #include "viscera/calibration/auto_spacing.h"
 #include "viscera/gpu/context.h"
 #include "viscera/math/error.h"
@@ -83,6 +84,7 @@ Session::Session(const Scene& scene, gpu::Context* context, const Progress& prog
                        "]: " + fault);
   }
   for (const StylusConfig& stylus : scene_.styluses) limiters_.emplace_back(ForceLimits::of(stylus));
+  shafts_ = std::make_unique<ShaftMeeting>(scene_.styluses);
   obstacle_forces_.resize(scene_.obstacles.size());
 }
 
@@ -138,16 +140,6 @@ void Session::recordTask(const std::string& name, const std::string& yaml) {
 
 bool Session::feels(const ToolMotions& motions) {
   return std::any_of(motions.begin(), motions.end(), [](const StylusMotion& motion) { return motion.feels_m > 0; });
-}
-
-/// Finds which styluses that may be inside tissue were not. Waits for this tick's measurements, so that the result, and
-/// with it the state, does not depend on their latency.
-void Session::detectInside(Frame& frame) {
-  for (size_t s = 0; s < limiters_.size(); ++s) {
-    if (!(request_.motions[s].feels_m > 0)) continue;
-    frame.inside[s] = frame.health.recovering || frame.stats.touched[s] > 0;
-    if (!frame.inside[s]) tools_.foundOutside(s);
-  }
 }
 
 Pictures Session::show(const FrameRequest& outputs) {
@@ -306,11 +298,13 @@ void Session::collectStats(Frame& frame, bool wait) {
     has_stats_ = true;
     ++judged_;
     for (SessionLog* log : logs_) log->measured(*this, judged_, stats_);
+    shafts_->advance(posesOf(judged_).motions);
     for (size_t s = 0; s < limiters_.size(); ++s) {
       // Force on a tool: minus the momentum it gave the nodes, per tick (physics.md 5).
       Reaction raw{-xyz(stats_.impulse[s]) / tick_s(), -xyz(stats_.angular[s]) / tick_s(), false};
       if (tools_.fingers(s).holds()) raw.torque_nm += tools_.fingers(s).slid_m(request_.motions[s]).cross(raw.force_n);
       jaw_moments_nm_[s] = jawMoment_nm(s, raw);
+      shafts_->addTo(s, raw);
       extremes_.peak_force_n = std::max(extremes_.peak_force_n, raw.force_n.norm());
       reactions_[s] = limiters_[s].limit(raw, tick_s());
       contacts_[s] = contactOf(s, raw);
@@ -332,6 +326,7 @@ void Session::collectStats(Frame& frame, bool wait) {
   frame.has_stats = has_stats_;
   frame.reactions = reactions_;
   frame.contacts = contacts_;
+  frame.shafts_touch = shafts_->touch();
   frame.jaw_moments_nm = jaw_moments_nm_;
   frame.obstacle_forces = obstacle_forces_;
   frame.poses_received = posesOf(judged_).received;
@@ -349,6 +344,7 @@ void Session::reset() {
   for (ForceLimiter& limiter : limiters_) limiter.reset();
   reactions_ = {};
   contacts_ = {};
+  shafts_->reset();
   jaw_moments_nm_ = {};
   obstacle_forces_.assign(obstacle_forces_.size(), Reaction{});
   stats_ = {};

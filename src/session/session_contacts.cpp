@@ -7,6 +7,7 @@
 #include "solver/processes/blade/blades.h"
 #include "solver/processes/stylus_pull.h"
 #include "solver/processes/suture/suture_bodies.h"
+#include "tools/shaft_meeting.h"
 #include "viscera/session/session.h"
 
 namespace viscera {
@@ -36,7 +37,7 @@ TickContact Session::contactOf(size_t stylus, const Reaction& raw) const {
   out.to_m = motion.to.position_m;
   const bool feels = motion.feels_m > 0 && !kindOf(motion.mode).does(kHolds);  // a grip acts, its shaft may not yet
   const bool acts = motion.present && !feels && raw.force_n.allFinite() && raw.torque_nm.allFinite();
-  if (!acts || stats_.touched[stylus] + stats_.grabbed[stylus] == 0) return out;
+  if (!acts || (stats_.touched[stylus] + stats_.grabbed[stylus] == 0 && !shafts_->touch())) return out;
   out.reaction = raw;
   const StylusPull& pull = solver_->pull(static_cast<uint32_t>(stylus));
   if (pull.nodes > 0 && pull.nodes == stats_.grabbed[stylus]) {
@@ -48,6 +49,16 @@ TickContact Session::contactOf(size_t stylus, const Reaction& raw) const {
       kindOf(motion.mode).does(kCuts) ? bladeWork(*solver_, static_cast<uint32_t>(stylus)).limit_n : 0;
   if (limit_n > 0) out.limit_n = std::max(limit_n, raw.force_n.norm());
   return out;
+}
+
+/// Finds which styluses that may be inside tissue were not. Waits for this tick's measurements, so that the result, and
+/// with it the state, does not depend on their latency.
+void Session::detectInside(Frame& frame) {
+  for (size_t s = 0; s < limiters_.size(); ++s) {
+    if (!(request_.motions[s].feels_m > 0)) continue;
+    frame.inside[s] = frame.health.recovering || frame.stats.touched[s] > 0;
+    if (!frame.inside[s]) tools_.foundOutside(s);
+  }
 }
 
 }  // namespace viscera

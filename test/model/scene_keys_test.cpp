@@ -78,6 +78,8 @@ styluses:
     button2: cut_particles
     shaft_length_m: 0.0611
     trocar: {follows: handle, position_m: [0.0112, 0.0113, 0.0114]}
+    shaft_radius_m: 0.00611
+    shaft_contact: true
     probe: {radius_m: 0.0061}
     grab: {radius_m: 0.0062, release_speed_m_per_s: 0.65}
     cut: {blade_length_m: 0.063, blade_side: both, friction_n_per_m: 6.31, point_width_m: 0.0631}
@@ -319,6 +321,8 @@ TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   EXPECT_EQ(stylus.shaft_length_m, 0.0611);
   EXPECT_EQ(stylus.trocar.follows, TrocarMotion::kHandle);
   EXPECT_EQ(stylus.trocar.position_m, Vector3d(0.0112, 0.0113, 0.0114));
+  EXPECT_EQ(stylus.shaft_radius_m, 0.00611);
+  EXPECT_TRUE(stylus.shaft_contact);
   EXPECT_EQ(stylus.cut_particles.eraser_radius_m, 0.0064);
   EXPECT_EQ(stylus.grab.release_speed_m_per_s, 0.65);
   EXPECT_EQ(stylus.suction.radius_m, 0.0066);

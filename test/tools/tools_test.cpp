@@ -121,6 +121,45 @@ TEST(Tools, ANewModeOfThePressedButtonEndsTheHold) {
   EXPECT_EQ(tools.advance(one(0, true))[0].mode, ToolMode::kCut) << "modes stay over a reset";
 }
 
+TEST(Tools, AShaftGoesBackBehindABladeAtOnceAndComesForwardSlowly) {
+  constexpr double kRounding_m = 1e-12, kStep_m = 0.1 / 60;
+  StylusConfig config;
+  config.shaft_contact = true;
+  config.shaft_radius_m = 0.003;
+  config.cut.blade_length_m = 0.02;
+  Tools tools({config});
+  EXPECT_EQ(tools.advance(one(0))[0].shaft_to_m, 0) << "within the ball";
+  const StylusMotion cuts = tools.advance(one(0, false, true))[0];
+  EXPECT_NEAR(cuts.shaft_from_m, 0.023, kRounding_m);
+  EXPECT_NEAR(cuts.shaft_to_m, 0.023, kRounding_m);
+  const StylusMotion after = tools.advance(one(0))[0];
+  EXPECT_NEAR(after.shaft_from_m, 0.023, kRounding_m);
+  EXPECT_NEAR(after.shaft_to_m, 0.023 - kStep_m, kRounding_m);
+  for (int tick = 0; tick < 20; ++tick) tools.advance(one(0));
+  EXPECT_EQ(tools.advance(one(0))[0].shaft_to_m, 0);
+  tools.advance({});
+  EXPECT_EQ(tools.advance(one(0))[0].shaft_from_m, 0);
+  EXPECT_LT(oneStylus().advance(one(0))[0].shaft_to_m, 0) << "without shaft_contact";
+}
+
+/// A tip at rest, and a shaft that turns by 90 degrees.
+TEST(Tools, TheFarEndOfAShaftIsNoFasterThanATip) {
+  constexpr double kTravel_m = 0.01;
+  StylusConfig config;
+  config.shaft_contact = true;
+  ToolLimits limits;
+  limits.max_travel_m = kTravel_m;
+  Tools tools({config}, limits);
+  tools.advance(one(0));
+  StylusSamples turned = one(0);
+  turned[0].pose.orientation = Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitX());
+  const StylusMotion motion = tools.advance(turned)[0];
+  const Vector3d end(0, 0, config.shaft_length_m);
+  EXPECT_TRUE(motion.speed_limited);
+  EXPECT_LT((motion.to * end - motion.from * end).norm(), 1.2 * kTravel_m);
+  EXPECT_GT((motion.to * end - motion.from * end).norm(), 0.5 * kTravel_m);
+}
+
 TEST(Tools, AModeThatComesToPushFeelsFirst) {
   constexpr double kFeel_m = 0.01;
   StylusConfig config;

@@ -35,6 +35,7 @@ const std::vector<double> kPoses_hz = {1000, 250, 100, 60};
 /// Largest Young's modulus [kPa]: the ball feels it as 660 N/m, for which the loop is designed. Stiffer tissue needs a
 /// fast driver (docs/haptics.md 6).
 constexpr double kStiffest_kpa = 60;
+constexpr double kShaftStiffest_kpa = 10;  ///< a shaft of 5 cm on 2 cm of it: 600 N/m
 
 /// Returns every device and every tissue, with drivers of four rates.
 Matrix matrixOf(bool short_form) {
@@ -109,9 +110,11 @@ void measure(const Matrix& matrix, const HapticTrial& of_all, Table& table, Wors
 
 /// Measures all cells at a rate.
 /// @param swings  plot of the stiffest tissue with the fastest driver, a curve per delay
-Worst measure(Report& report, const Matrix& matrix, double rate_hz, Table& table, Plot& swings) {
+Worst measure(Report& report, const Matrix& matrix, double rate_hz, Table& table, Plot& swings,
+              HapticTool tool = HapticTool::kProbe) {
   Worst worst;
   HapticTrial trial;
+  trial.tool = tool;
   trial.rate_hz = rate_hz;
   for (HapticEvent event : matrix.events) {
     trial.event = event;
@@ -235,10 +238,31 @@ void probe(Report& report) {
   report.checkAtLeast("limit cycles without the local model, of those tested", without.cycling, 1);
 }
 
+/// Returns tissue that a line of 5 cm feels about as stiff as a ball feels the stiffest.
+Matrix shaftOf(bool short_form) {
+  if (short_form) return {{kShaftStiffest_kpa}, {2}, {0.05, 2}, {1000, 100}};
+  return {{1, kShaftStiffest_kpa}, {0, 2, 10}, {0.05, 0.2, 2}, {1000, 100}};
+}
+
+void shaft(Report& report) {
+  Table table = tableOf("the same device presses a shaft of 8 mm sideways into the tissue, along a line of 5 cm");
+  Plot none;
+  const Worst worst = measure(report, shaftOf(report.isShort()), 1000, table, none, HapticTool::kShaft);
+  report.add(table, "shaft");
+  report.checkAtMost("shaft, holds with a limit cycle", worst.cycling, 0);
+  report.checkAtMost("shaft, static force off the simulator's [1]", worst.error, kStaticError);
+  report.checkAtLeast("shaft, least energy that a device has given, poses of 1000 Hz [mJ]", worst.swift_mj,
+                      -kHapticsActive_mj);
+  report.checkAtLeast("shaft, the same, any poses, beyond the delay of the loop [mJ]", worst.least_mj,
+                      -kHapticsActive_mj);
+  report.checkAtMost("shaft, force in free motion [N]", worst.free_n, kFree_n);
+}
+
 }  // namespace
 
 void hapticsSuite(Report& report) {
-  measureParts(report, {{"probe", probe}, {"blade", hapticsBlade}, {"needle", needle}, {"suture", suture}});
+  measureParts(report,
+               {{"probe", probe}, {"shaft", shaft}, {"blade", hapticsBlade}, {"needle", needle}, {"suture", suture}});
 }
 
 }  // namespace viscera::bench

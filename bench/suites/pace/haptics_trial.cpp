@@ -74,21 +74,30 @@ double heightAt(const std::vector<HapticsTrialKey>& path, double time_s) {
   return path.back().height_m;
 }
 
+constexpr double kHapticsTrialShaft_m = 0.1;  ///< length of the shaft, which is wider than the slab on both sides
+
 /// Returns a slab of tissue on bone.
-Scene hapticsTrialSlab(double young_modulus_pa) {
+Scene hapticsTrialSlab(double young_modulus_pa, HapticTool tool) {
   Scene scene;
   scene.name = "slab";
   scene.environment.gravity_m_per_s2.setZero();
   scene.bodies.push_back(blockOnBone(Vector3d(0.05, 0.05, kTop_m), kHapticsTrialSpacing_m, young_modulus_pa));
   scene.styluses.resize(1);
   scene.styluses[0].probe.radius_m = kRadius_m;
+  if (tool == HapticTool::kShaft) {
+    scene.styluses[0].idle = ToolMode::kNone;
+    scene.styluses[0].shaft_contact = true;
+    scene.styluses[0].shaft_radius_m = kRadius_m;
+    scene.styluses[0].shaft_length_m = kHapticsTrialShaft_m;
+  }
   scene.solver.backend = Backend::kCpu;
   scene.solver.threads = 1;
   return scene;
 }
 
-Vector3d tipAt(double height_m) {
-  return {0.0013, -0.0007, kTop_m + kRadius_m + height_m};
+Vector3d tipAt(double height_m, HapticTool tool) {
+  const double aside_m = tool == HapticTool::kShaft ? 0.5 * kHapticsTrialShaft_m : 0;
+  return {0.0013 - aside_m, -0.0007, kTop_m + kRadius_m + height_m};
 }
 
 class HapticsTrialRun : public HeldTrial {
@@ -104,7 +113,7 @@ class HapticsTrialRun : public HeldTrial {
       hear();
       tick();
       tell();
-      device_.step(sent_force_n_, tipAt(heightAt(path_, now_s_)));
+      device_.step(sent_force_n_, tipAt(heightAt(path_, now_s_), trial_.tool));
       sample();
     }
     return outcome();
@@ -114,9 +123,11 @@ class HapticsTrialRun : public HeldTrial {
   HapticsTrialRun(const HapticTrial& trial, const Setting& setting)
       : HapticsTrialRun(trial, setting, offsets(trial, setting)) {}
   HapticsTrialRun(const HapticTrial& trial, const Setting& setting, const std::vector<HapticsTrialKey>& path)
-      : HeldTrial(hapticsTrialSlab(trial.young_modulus_pa), setting, tipAt(heightAt(path, 0))),
+      : HeldTrial(hapticsTrialSlab(trial.young_modulus_pa, trial.tool), setting, tipAt(heightAt(path, 0), trial.tool)),
         trial_(trial),
-        path_(path) {}
+        path_(path) {
+    if (trial.tool == HapticTool::kShaft) turned_ = Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitY());
+  }
   static std::vector<HapticsTrialKey> offsets(const HapticTrial& trial, const Setting& setting) {
     const SimulatedDeviceConfig device = deviceOf(setting);
     const double ring_s = 2 * trial.mass_kg / (device.damping_n_s_per_m + device.hand_damping_n_s_per_m);

@@ -23,6 +23,7 @@ const char* nameOf(HapticEvent event);
 /// The tool that the device moves.
 enum class HapticTool {
   kProbe,   ///< pressed into a block and held there
+  kShaft,   ///< a shaft, laid down and pressed sideways, likewise
   kNeedle,  ///< pressed at a surface, driven through it, held inside, driven through the far one, retracted
   kSuture   ///< held in mode grab, pulled taut, and further through channels
 };

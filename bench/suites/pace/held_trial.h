@@ -73,7 +73,7 @@ class HeldTrial {
       StylusSamples samples;
       samples[0].valid = !reappears_;
       reappears_ = false;
-      samples[0].pose.position_m = input_.tip_m;
+      samples[0].pose = {input_.tip_m, turned_};
       const Frame frame = session_.step(samples, {});
       answer_ = {frame.contacts[0].reaction, samples[0].valid && !clutched_, frame.contacts[0]};
       answer_s_ = now_s_ + kComputing * session_.tick_s();
@@ -100,6 +100,7 @@ class HeldTrial {
   ForceLoop loop_;
   ForceLoop::Input input_;
   Vector3d sent_force_n_ = Vector3d::Zero();
+  Quaterniond turned_ = Quaterniond::Identity();  ///< orientation of the stylus
   double now_s_ = 0, base_m_ = 0, ticks_n_ = 0;
   bool stalled_ = false, clutched_ = false, reappears_ = false;
 

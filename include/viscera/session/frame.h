@@ -95,6 +95,7 @@ struct Frame : Pictures {
   /// The stylus appeared inside tissue, coming from an unknown side: it neither pushes nor gets a force until it has
   /// been outside.
   std::array<bool, layout::kMaxStyluses> inside{};
+  bool shafts_touch = false;  ///< the shafts of the two styluses push each other, in the tick of `stats`
   std::array<bool, layout::kMaxStyluses> speed_limited{};  ///< the stylus was faster than tissue can follow
   ToolMotions tools;                 ///< motions of the tools in the tick: `to` is where they are shown
   std::vector<Pose> obstacles;       ///< [obstacles] poses at the end of the tick, tissue frame

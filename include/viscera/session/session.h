@@ -23,6 +23,7 @@
 
 namespace viscera {  // internal
 class Archive;
+class ShaftMeeting;
 class View;
 struct CarriedTissue;
 }  // namespace viscera
@@ -190,6 +191,7 @@ class VISCERA_PUBLIC Session {
   std::unique_ptr<MarkBoard> mark_board_;
   RenderRequest request_;  ///< what is shown of the last tick
   std::vector<ForceLimiter> limiters_;
+  std::unique_ptr<ShaftMeeting> shafts_;
   layout::TickStats stats_{};
   std::array<Reaction, layout::kMaxStyluses> reactions_;
   std::array<TickContact, layout::kMaxStyluses> contacts_;

@@ -163,6 +163,7 @@ void SimulationLoop::deliver(const Session& session, Frame&& frame, const Stylus
     status_.health = frame.health;
     status_.speed_limited = frame.speed_limited;
     status_.inside = frame.inside;
+    status_.shafts_touch = frame.shafts_touch;
     status_.facts = session.facts();
     status_.modes.clear();
     for (const StylusConfig& stylus : session.styluses())

@@ -36,6 +36,7 @@ struct LoopStatus {
   layout::TickStats stats{};
   Health health;
   std::array<bool, layout::kMaxStyluses> speed_limited{}, inside{};
+  bool shafts_touch = false;
   std::array<Reaction, layout::kMaxStyluses> reactions;
   /// [styluses] tool modes: without buttons, with button 1, with button 2
   std::vector<std::array<ToolMode, 3>> modes;

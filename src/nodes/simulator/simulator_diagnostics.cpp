@@ -227,6 +227,7 @@ void SimulatorDiagnostics::stylus(size_t index, Status& status) {
   if (!rivals.empty()) status.summary(Level::WARN, "several nodes send poses: " + rivals);
   if (now_ && now_->inside[index])
     status.summary(Level::WARN, "appeared inside tissue: no force until the tip has been outside");
+  if (now_ && now_->shafts_touch) status.summary(Level::WARN, "its shaft pushes the other stylus's shaft");
   if (dropping) status.summary(Level::WARN, "messages are dropped");
   status.add("device", input.mailbox().device().about);
   status.add("has_publisher", input.hasPublisher());

@@ -38,6 +38,22 @@ layout::ToolMotion row(ToolMode mode, const Pose& from, const Pose& to) {
   return rows[0];
 }
 
+/// Returns a shaft of 5 mm without a tip, from 2 mm behind the tip of the stylus on.
+layout::ToolMotion shaftRow(const Pose& from, const Pose& to) {
+  StylusConfig config;
+  config.shaft_contact = true;
+  config.shaft_radius_m = 0.005;
+  config.shaft_length_m = 0.05;
+  ToolMotions motions;
+  motions[0].present = true;
+  motions[0].from = from;
+  motions[0].to = to;
+  motions[0].shaft_from_m = motions[0].shaft_to_m = 0.002;
+  std::vector<layout::ToolMotion> rows;
+  interpolateMotions(motions, {config, config}, 1, rows);
+  return rows[0];
+}
+
 Pose at(const Vector3d& position_m, const Vector3d& turns_deg = Vector3d::Zero()) {
   return {position_m, rotationFromDegrees(turns_deg)};
 }
@@ -134,6 +150,25 @@ class CpuTools : public ::testing::Test {
 };
 
 }  // namespace
+
+TEST_F(CpuTools, ShaftsPushNodesAndSpringsLikeTheReferences) {
+  std::mt19937 random(5);
+  size_t moved = 0;
+  for (int t = 0; t < 20; ++t) {
+    SCOPED_TRACE(t);
+    write(drifting(randomVector(random, 0.01), randomVector(random, 1)));
+    const auto somewhere = [&](const Vector3d& position_m) { return at(position_m, randomVector(random, 90)); };
+    const Pose a = somewhere(Vector3d(0.03, 0.03, 0.05) + randomVector(random, 0.03));
+    const Pose b = somewhere(Vector3d(0.02, 0.04, 0.05) + randomVector(random, 0.03));
+    const auto moving = [&](const Pose& from) {
+      return Pose{from.position_m + randomVector(random, 2e-3),
+                  rotationFromDegrees(randomVector(random, 2)) * from.orientation};
+    };
+    moved += expectSameSubstep({shaftRow(a, moving(a)), shaftRow(b, moving(b))});
+    reactions(a.position_m, b.position_m);
+  }
+  EXPECT_GT(moved, 200u);
+}
 
 TEST_F(CpuTools, ProbesPushNodesLikeTheReferences) {
   std::mt19937 random(3);
