@@ -202,7 +202,7 @@ double Gallbladder::front(double z) const {
 
 /// Returns the distance to the fat of the triangle of duct, common duct and liver.
 double Gallbladder::triangle(const Vector3d& p) const {
-  const double s = aside(), grown = variant_.inflamed ? 4 : -0.8;
+  const double s = aside(), grown = variant_.inflamed ? 4 : 0.5;
   const std::array<Eigen::Vector2d, 4> corners = {
       Eigen::Vector2d(-3, -2), {13, -25.5}, {30.5 + s, variant_.junction_z}, {28 + s, -2}};
   const Eigen::Vector2d at(p.x(), p.z());
