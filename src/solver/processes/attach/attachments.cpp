@@ -65,7 +65,7 @@ void Attachments::updateSecants() {
   for (size_t f = 0; f < grown_.size(); ++f) updateSecant(f);
 }
 
-/// Moves the ends of fibres whose cells were cut to whole cells on their sides. Fibres without one are parted.
+/// Moves the ends of fibres in cut cells to whole cells on their sides. Parts fibres for which there is none.
 void Attachments::cutsChanged(const CutSprings& cuts) {
   if (cuts.nodes.empty()) return;
   const auto changed = [&](const TissuePoint& end) {
