@@ -30,7 +30,7 @@ styluses:
   - {name: hand, idle: none, button1: grab, button2: cut, grab: {radius_m: 0.0068}, cut: {blade_length_m: 0.03},
      max_force_rate_n_per_s: 1.0e+6}
 environment: {gravity_m_per_s2: [0, 0, 0]}
-solver: {backend: cpu, threads: 1}
+solver: {backend: cpu, threads: 1, tick_hz: 100}
 )";
 
 constexpr double kWidth_m = 0.012, kToughness_j_per_m2 = 20, kArm_m = 0.016, kSpeed_m_per_s = 0.04, kTick_s = 0.01;
@@ -156,17 +156,21 @@ TEST(AttachmentSession, FibresOfCutCellsStayWithTheirPieces) {
   EXPECT_GT(factOfFirst(session, "attached_m2"), kWhole_m2 - 3 * kBorder_m2);
 }
 
+/// Most fibres part with the cells that boil dry, some because nothing of their strength is left.
 TEST(AttachmentSession, BurnsPartFibres) {
   Session session(
       parseScene(kPeel, "peel.yaml", {"styluses[0].button1=cautery", "styluses[0].cautery.radius_m=0.002"}));
-  for (int t = 0; t < 150; ++t) {
+  for (int t = 0; t < 200; ++t) {
     StylusSamples samples;
     samples[0].valid = samples[0].button1 = true;
-    samples[0].pose.position_m = {0.0318, 0, 0.0005};
+    samples[0].pose.position_m = {0.0305, 0, 0};
     session.step(samples, {});
   }
-  EXPECT_GT(factOfFirst(session, "burnt_m2"), 0);
-  EXPECT_LT(factOfFirst(session, "burnt_m2"), 0.5 * kWhole_m2);
+  const double burnt_m2 = factOfFirst(session, "burnt_m2"), cut_m2 = factOfFirst(session, "cut_m2");
+  EXPECT_GT(burnt_m2, 0);
+  EXPECT_LT(burnt_m2 + cut_m2, 0.1 * kWhole_m2);
+  EXPECT_NEAR(factOfFirst(session, "attached_m2"), kWhole_m2 - burnt_m2 - cut_m2 - factOfFirst(session, "torn_m2"),
+              1e-6 * kWhole_m2);
 }
 
 }  // namespace
