@@ -78,6 +78,7 @@ class SubstepRule {
   double limitOf(const Model& model, Scene scene, const gpu::Context* context) const {
     scene.solver = config_;
     scene.solver.start = SolverStart::kRest;
+    scene.attachments.clear();  // the model has not all of their bodies
     return makeSolver(model, scene, context)->dtLimit_s();
   }
   double mostPerSecond(double spacing_m) const {

@@ -65,7 +65,7 @@ void Attachments::updateSecants() {
   for (size_t f = 0; f < grown_.size(); ++f) updateSecant(f);
 }
 
-/// Moves the ends of fibres whose cells were cut to whole cells on their sides. Fibres without one are parted.
+/// Moves the ends of fibres in cut cells to whole cells on their sides. Parts fibres for which there is none.
 void Attachments::cutsChanged(const CutSprings& cuts) {
   if (cuts.nodes.empty()) return;
   const auto changed = [&](const TissuePoint& end) {
@@ -239,6 +239,7 @@ FactGroup Attachments::facts() const {
                   {"stiffness_n_per_m3", stiffness[i] / area_m2[i]},
                   {"area_m2", area_m2[i]},
                   {"attached_m2", attached_m2[i]},
+                  {"torn_m2", std::max(0.0, area_m2[i] - attached_m2[i] - cut_m2_[i] - burnt_m2_[i])},
                   {"cut_m2", cut_m2_[i]},
                   {"burnt_m2", burnt_m2_[i]},
                   {"spent_j", spent_j_[i]}});

@@ -41,7 +41,7 @@ struct CohesiveLaw {
   }
 
  private:
-  /// Beyond the onset.
+  /// Returns the traction beyond the onset.
   double tractionAt(double largest_m) const {
     return end_m > onset_m() ? strength_pa * (end_m - largest_m) / (end_m - onset_m()) : 0;
   }

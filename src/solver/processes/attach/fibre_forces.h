@@ -25,15 +25,11 @@ class FibreForces {
   /// @param secant_n_per_m  force over opening; 0: the fibre is parted   @param grows_m  opening above which it changes
   void setSecant(size_t fibre, double secant_n_per_m, double grows_m);
 
-  /// Reads the nodes.
-  /// @param undone_s  substep that is undone: displacements are those at its start   @param dt_s  as in apply()
+  /// Reads the nodes. @param undone_s  substep that is undone: displacements are those at its start; 0: none
   void read(const TissuePort& port, double undone_s);
-  /// Returns the ends of a fibre less its position at rest.
-  Vector3d gap_m(size_t fibre) const;
-  /// Returns the displacement of the first end.
-  Vector3d firstEnd_m(size_t fibre) const;
-  /// Returns the displacements of the nodes of a point [m].
-  Vector3d displacement_m(uint32_t slot) const;
+  Vector3d gap_m(size_t fibre) const;            ///< from the first end to the second
+  Vector3d firstEnd_m(size_t fibre) const;       ///< displacement of the first end
+  Vector3d displacement_m(uint32_t slot) const;  ///< displacement of a node that carries an end
 
   /// Adds the impulses of a substep on the nodes.
   /// @param grow  called with the index of a fibre and its gap if the gap exceeds the opening at which it changes;
