@@ -38,11 +38,13 @@ float coverAt(float lip, vec2 steps, float pixel_m, vec3 rest_m) {
 /// @returns the share of it that paint covers
 float paintSkin(inout vec3 own, vec4 rest, vec4 rest_x, vec4 rest_y, bool wall) {
   if (wall || rest.w == 0.0) return 0.0;
+  vec3 rest_m = vec3(rest.x, rest.y, rest.z);
   if (rest.w < 0.0) {
-    own = burnt(own, -rest.w, rest.xyz);
+    own = burnt(own, -rest.w, rest_m);
     return min(-rest.w, 1.0);
   }
-  float covered = coverAt(rest.w, vec2(rest_x.w, rest_y.w), sqrt(length(cross(rest_x.xyz, rest_y.xyz))), rest.xyz);
+  vec3 step_x = vec3(rest_x.x, rest_x.y, rest_x.z), step_y = vec3(rest_y.x, rest_y.y, rest_y.z);
+  float covered = coverAt(rest.w, vec2(rest_x.w, rest_y.w), sqrt(length(cross(step_x, step_y))), rest_m);
   own = mix(own, kOoze, covered);
   return covered;
 }

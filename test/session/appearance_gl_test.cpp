@@ -209,7 +209,8 @@ TEST_P(Appearance, SkinIsPalerWhereItIsPressedAndNowhereElse) {
 }
 
 TEST_P(Appearance, PartsShowTheirOwnColorAndWoundsWithoutLayersTheirInside) {
-  constexpr int kRounded = 1;  // of 255
+  constexpr int kRounded = 1;      // of 255
+  constexpr double kInside = 0.8;  // of the walls' pixels: their edge oozes, and borders are mixed with what is there
   const Vector3d blue(0.15, 0.25, 0.7);
   for (const int supersampling : {0, 2}) {
     Scene body = scene(supersampling);
@@ -241,7 +242,7 @@ TEST_P(Appearance, PartsShowTheirOwnColorAndWoundsWithoutLayersTheirInside) {
       yellow_walls += of_fat.rgb[3 * i] > of_fat.rgb[3 * i + 2] ? 1 : 0;
     }
     EXPECT_GT(walls, 50U);
-    EXPECT_GT(blue_walls, walls * 9 / 10) << "edges are mixed with what is beside";
+    EXPECT_GT(static_cast<double>(blue_walls), kInside * static_cast<double>(walls));
     EXPECT_GT(yellow_walls, walls / 10) << "layers of skin and fat";
   }
 }

@@ -66,18 +66,19 @@ float between(float from, float to, float share) {
 
 /// Returns the cross-sections of a jaw with teeth from its tip to three quarters of its length.
 std::vector<Station> toothed(float length, float unit, int teeth, float half_y) {
-  constexpr float kToothed = 0.75F, kTooth = 0.35F, kPoint = 0.02F;  // shares of the length and of the unit
-  std::vector<Station> out = {{0, 0, 0.3F * unit, -0.3F * unit, 0.3F * unit}};
+  // Shares of the length, and of the unit: teeth of closed jaws mesh.
+  constexpr float kToothed = 0.75F, kPoint = 0.02F, kCrest = -0.2F, kValley = 0.1F;
+  std::vector<Station> out = {{0, kCrest * unit, 0.3F * unit, -0.3F * unit, 0.3F * unit}};
   const auto at = [&](float share, float inner) {
     const float half = unit * between(0.8F, 1, std::min(8 * share, 1.F)) * half_y;
     out.push_back({share * length, inner, unit * between(1.1F, 2.1F, share), -half, half});
   };
-  at(kPoint, 0);
+  at(kPoint, kCrest * unit);
   for (int tooth = 0; tooth < teeth; ++tooth) {
     const float from = between(kPoint, kToothed, static_cast<float>(tooth) / static_cast<float>(teeth));
     const float to = between(kPoint, kToothed, static_cast<float>(tooth + 1) / static_cast<float>(teeth));
-    at(between(from, to, 0.7F), kTooth * unit);
-    at(to, 0);
+    at(between(from, to, 0.7F), kValley * unit);
+    at(to, kCrest * unit);
   }
   at(0.9F, 0);
   at(1.05F, 0);
