@@ -1,15 +1,15 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
 # What rviz loads: a display, a panel and a tool (src/rviz), named in config/rviz_plugins.xml, which package.xml exports.
-# Of the project it has the messages, the names of tools, how a tip follows a mouse, and how numbers are read. Without rviz's headers the markers remain.
+# Of the project it has the messages, what viewers receive (src/nodes/received), the names of tools, how a tip follows a mouse, and how numbers are read. Without rviz's headers the markers remain.
 find_package(rviz QUIET)
 find_package(Qt5 QUIET COMPONENTS Widgets)
 if(NOT rviz_FOUND OR NOT Qt5_FOUND)
   message(STATUS "rviz's headers not found (Debian: librviz-dev): the rviz plugin is left out")
   return()
 endif()
-file(GLOB rviz_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/rviz/*.cpp)
-# Sources of devices and math themselves, not their libraries: rviz loads this one beside others.
+file(GLOB rviz_sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/rviz/*.cpp ${PROJECT_SOURCE_DIR}/src/nodes/received/*.cpp)
+# Sources of nodes, devices and math themselves, not their libraries: rviz loads this one beside others.
 add_library(viscera_rviz SHARED ${rviz_sources} ${PROJECT_SOURCE_DIR}/src/devices/steered_tool.cpp
                                 ${PROJECT_SOURCE_DIR}/src/math/number_text.cpp)
 viscera_unity(viscera_rviz 24)

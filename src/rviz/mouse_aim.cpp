@@ -21,14 +21,14 @@ double middleAlong(const ScreenRay& ray, const std::vector<float>& positions_m) 
 
 }  // namespace
 
-std::optional<Pose> MouseAim::at(const ScreenRay& ray, const SentSurface& live, double depth_m, double tilt_rad,
-                                 bool pressed) {
+std::optional<Pose> MouseAim::at(const ScreenRay& ray, const received::SentSurface& live, double depth_m,
+                                 double tilt_rad, bool pressed) {
   if (live.vertices() && live.topology() && (!vertices_ || (!pressed && depth_m < 0))) {
     topology_ = live.topology();
     vertices_ = live.vertices();
   }
   if (!vertices_ || vertices_->positions_m.empty()) return std::nullopt;
-  const auto hit = firstHit(*topology_, vertices_->positions_m, array(ray.origin_m), array(ray.direction));
+  const auto hit = received::firstHit(*topology_, vertices_->positions_m, array(ray.origin_m), array(ray.direction));
   if (hit) distance_m_ = hit->distance_m;
   if (!distance_m_) distance_m_ = middleAlong(ray, vertices_->positions_m);
   Pose pose;

@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "rviz/sent_surface.h"
+#include "nodes/received/sent_surface.h"
 #include "viscera/math/types.h"
 
 namespace viscera::rviz_plugin {
@@ -24,11 +24,12 @@ class MouseAim {
   /// @param depth_m  depth behind the surface, below 0 before it [m]
   /// @param tilt_rad  tilt of the shaft from the ray to the lower right
   /// @returns the pose, with the shaft along +z; nothing while no surface is known
-  std::optional<Pose> at(const ScreenRay& ray, const SentSurface& live, double depth_m, double tilt_rad, bool pressed);
+  std::optional<Pose> at(const ScreenRay& ray, const received::SentSurface& live, double depth_m, double tilt_rad,
+                         bool pressed);
   void clear() { *this = MouseAim(); }
 
  private:
-  std::shared_ptr<const SentTopology> topology_;  ///< topology of the frozen surface
+  std::shared_ptr<const received::SentTopology> topology_;  ///< topology of the frozen surface
   SurfaceVerticesConstPtr vertices_;
   std::optional<double> distance_m_;  ///< distance along the ray to the last hit [m]
 };

@@ -19,8 +19,8 @@
 #include <cmath>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "nodes/received/simulator_space.h"
 #include "rviz/panel_style.h"
-#include "rviz/simulator_space.h"
 #include "rviz/stylus_sender.h"
 
 namespace viscera::rviz_plugin {
@@ -95,7 +95,7 @@ void MouseTool::follow() {
   try {
     ros::NodeHandle node;
     node.setCallbackQueue(static_cast<rviz::VisualizationManager*>(context_)->getUpdateQueue());
-    const std::string space = simulatorSpace(space_->getStdString());
+    const std::string space = received::simulatorSpace(space_->getStdString());
     feed_.subscribe(node, space + "surface");
     topics_ = space;
   } catch (const ros::Exception&) {  // update() reports it
@@ -143,7 +143,7 @@ void MouseTool::update(float, float) {
 /// Returns the desired pose in the surface's frame; nothing while it is not known.
 std::optional<Pose> MouseTool::aim() {
   const SurfaceVerticesConstPtr& vertices = feed_.surface().vertices();
-  const SenderWatch::Senders senders = feed_.senders();
+  const received::SenderWatch::Senders senders = feed_.senders();
   if (senders.known && senders.alive.empty()) {
     tell(QString("no simulator sends ") + QString::fromStdString(topics_ + "surface"));
     return std::nullopt;

@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "nodes/received/surface_feed.h"
 #include "rviz/mouse_aim.h"
-#include "rviz/surface_feed.h"
 
 namespace rviz {
 class FloatProperty;
@@ -48,7 +48,7 @@ class MouseTool : public rviz::Tool {
 
   rviz::StringProperty *space_, *stylus_;
   rviz::FloatProperty *depth_, *step_, *speed_, *tilt_;
-  SurfaceFeed feed_;
+  received::SurfaceFeed feed_;
   MouseAim aim_;
   std::optional<ScreenPoint> position_;  ///< mouse position; empty before the mouse entered the window
   std::array<bool, 2> keys_{}, mouse_{};

@@ -24,9 +24,9 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <utility>
 
+#include "nodes/received/ros_worker.h"
+#include "nodes/received/simulator_space.h"
 #include "rviz/panel_style.h"
-#include "rviz/ros_worker.h"
-#include "rviz/simulator_space.h"
 #include "rviz/task_box.h"
 #include "rviz/tool_table.h"
 
@@ -83,7 +83,7 @@ SessionPanel::SessionPanel(QWidget* parent)
   warnings_->setStyleSheet("color: #c04000");
   auto* inside = new QWidget;
   auto* rows = new QVBoxLayout(inside);
-  worker_ = std::make_unique<RosWorker>([this](const std::string& text) {
+  worker_ = std::make_unique<received::RosWorker>([this](const std::string& text) {
     QMetaObject::invokeMethod(
         this, [this, text] { write(answer_, QString::fromStdString(text)); }, Qt::QueuedConnection);
   });
@@ -221,7 +221,7 @@ void SessionPanel::chooseSpace(const std::string& space) {
   const bool changed = std::exchange(wanted_, space) != space;
   const std::string before = space_;
   try {
-    space_ = simulatorSpace(space);
+    space_ = received::simulatorSpace(space);
   } catch (const ros::InvalidNameException&) {
     space_.clear();
   }
@@ -231,10 +231,10 @@ void SessionPanel::chooseSpace(const std::string& space) {
 }
 
 void SessionPanel::show() {
-  const std::vector<DiscoveredSimulator> simulators = simulators_.at(std::chrono::steady_clock::now());
-  std::vector<DiscoveredSimulator> here;
+  const std::vector<received::DiscoveredSimulator> simulators = simulators_.at(std::chrono::steady_clock::now());
+  std::vector<received::DiscoveredSimulator> here;
   QStringList spaces;
-  for (const DiscoveredSimulator& simulator : simulators) {
+  for (const received::DiscoveredSimulator& simulator : simulators) {
     if (simulator.space() == space_) here.push_back(simulator);
     spaces += QString::fromStdString(simulator.space());
   }
@@ -242,13 +242,13 @@ void SessionPanel::show() {
   offer(spaces_, spaces);
   choose(spaces_, QString::fromStdString(wanted_));
   const std::string scene_before = now_.scene;
-  now_ = here.empty() ? DiscoveredSimulator() : here.front();
+  now_ = here.empty() ? received::DiscoveredSimulator() : here.front();
   if (now_.scene != scene_before) choose(scenes_, QString::fromStdString(now_.scene));
   write(state_, QString::fromStdString(stateText(here)));
   showSession(here);
 }
 
-std::string SessionPanel::stateText(const std::vector<DiscoveredSimulator>& here) const {
+std::string SessionPanel::stateText(const std::vector<received::DiscoveredSimulator>& here) const {
   if (space_.empty()) return "'" + wanted_ + "' is not a valid namespace";
   if (here.empty()) return "no simulator in " + space_ + " sends /diagnostics";
   std::string text = now_.node + ": " + now_.state;
@@ -262,9 +262,9 @@ std::string SessionPanel::stateText(const std::vector<DiscoveredSimulator>& here
   return text;
 }
 
-void SessionPanel::showSession(const std::vector<DiscoveredSimulator>& here) {
+void SessionPanel::showSession(const std::vector<received::DiscoveredSimulator>& here) {
   QString warnings;
-  for (const DiscoveredSimulator& other : here)
+  for (const received::DiscoveredSimulator& other : here)
     if (other.node != now_.node)
       warnings += QString::fromStdString(other.node + " is also in this namespace; services belong to the last one\n");
   for (const std::string& warning : now_.warnings) warnings += QString::fromStdString(warning) + "\n";

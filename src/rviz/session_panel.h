@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "rviz/discovered_simulators.h"
+#include "nodes/received/discovered_simulators.h"
 
 class QComboBox;
 class QLabel;
@@ -17,10 +17,13 @@ class QPushButton;
 class QSpinBox;
 class QVBoxLayout;
 
+namespace viscera::received {
+class RosWorker;
+}
+
 namespace viscera::rviz_plugin {
 
 class ToolTable;
-class RosWorker;
 class TaskBox;
 struct PanelTopics;
 
@@ -41,8 +44,8 @@ class SessionPanel : public rviz::Panel {
   void follow();
   ros::NodeHandle queued() const;
   void show();
-  void showSession(const std::vector<DiscoveredSimulator>& here);
-  std::string stateText(const std::vector<DiscoveredSimulator>& here) const;
+  void showSession(const std::vector<received::DiscoveredSimulator>& here);
+  std::string stateText(const std::vector<received::DiscoveredSimulator>& here) const;
   template <class Service>
   void call(const char* service, const typename Service::Request& request = {});
   void record();
@@ -55,10 +58,10 @@ class SessionPanel : public rviz::Panel {
   TaskBox* task_;
   std::string wanted_;  ///< namespace as the user wrote it; empty: rviz's own
   std::string space_;   ///< full name of it, with a slash at its end; empty: it is not a valid name
-  DiscoveredSimulators simulators_;
-  DiscoveredSimulator now_;  ///< simulator that is displayed; without a node: none
+  received::DiscoveredSimulators simulators_;
+  received::DiscoveredSimulator now_;  ///< simulator that is displayed; without a node: none
   std::shared_ptr<PanelTopics> topics_;
-  std::unique_ptr<RosWorker> worker_;  ///< last member: its thread uses the ones above
+  std::unique_ptr<received::RosWorker> worker_;  ///< last member: its thread uses the ones above
 };
 
 }  // namespace viscera::rviz_plugin

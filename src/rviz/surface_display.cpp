@@ -156,7 +156,7 @@ void SurfaceDisplay::update(float, float) {
     clear();
     context_->queueRender();
   }
-  const SentSurface& sent = feed_.surface();
+  const received::SentSurface& sent = feed_.surface();
   if (sent.vertices() && sent.vertices() != drawn_vertices_) {
     const bool topology_is_new = sent.topology() != drawn_topology_;
     const std::optional<float> alpha =
@@ -181,7 +181,7 @@ void SurfaceDisplay::update(float, float) {
 void SurfaceDisplay::tellSenders() {
   using rviz::StatusProperty;
   const ros::Subscriber& vertices = feed_.vertices();
-  const SenderWatch::Senders senders = feed_.senders();
+  const received::SenderWatch::Senders senders = feed_.senders();
   if (!vertices || !senders.known) return;
   const std::string topic = vertices.getTopic();
   std::string text = "no simulator sends " + topic;
@@ -220,7 +220,7 @@ void SurfaceDisplay::fitView() {
 void SurfaceDisplay::paint() {
   if (!drawn_topology_) return;
   std::vector<Ogre::ColourValue> colors;
-  for (const SentPart& part : drawn_topology_->parts) {
+  for (const received::SentPart& part : drawn_topology_->parts) {
     const bool sent = part.color && color_by_->getOptionInt() != kByBody;
     colors.push_back(sent ? sentColor(*part.color, alpha_->getFloat())
                           : ofBody((part.walls ? wall_color_ : color_)->getColor(), by_body_->getBool() ? part.body : 0,

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "rviz/surface_feed.h"
+#include "nodes/received/surface_feed.h"
 
 namespace rviz {
 class BoolProperty;
@@ -55,11 +55,11 @@ class SurfaceDisplay : public rviz::Display {
   rviz::EnumProperty* color_by_;
   rviz::BoolProperty *by_body_, *fits_view_;
   rviz::FloatProperty* alpha_;
-  SurfaceFeed feed_;
+  received::SurfaceFeed feed_;
   std::unique_ptr<SurfaceMesh> mesh_;
   std::unique_ptr<ViewFit> view_;
   std::vector<std::string> fitted_;  ///< bodies to which the view was fitted
-  std::shared_ptr<const SentTopology> drawn_topology_;
+  std::shared_ptr<const received::SentTopology> drawn_topology_;
   SurfaceVerticesConstPtr drawn_vertices_;
   size_t drawn_ = 0;     ///< number of surfaces since told_
   std::string senders_;  ///< displayed status of the senders

@@ -88,7 +88,7 @@ void SurfaceMesh::make(size_t parts, bool colored) {
   }
 }
 
-bool SurfaceMesh::show(const SentTopology& topology, const SurfaceVertices& vertices, bool topology_is_new,
+bool SurfaceMesh::show(const received::SentTopology& topology, const SurfaceVertices& vertices, bool topology_is_new,
                        const std::optional<float>& alpha) {
   if (topology.triangles.empty()) {
     clear();
@@ -111,7 +111,7 @@ bool SurfaceMesh::show(const SentTopology& topology, const SurfaceVertices& vert
   return begins;
 }
 
-void SurfaceMesh::writeTriangles(const SentTopology& topology) {
+void SurfaceMesh::writeTriangles(const received::SentTopology& topology) {
   const size_t count = topology.triangles.size();
   if (!indices_ || indices_->getNumIndexes() < count)
     indices_ = Ogre::HardwareBufferManager::getSingleton().createIndexBuffer(
@@ -138,7 +138,7 @@ void SurfaceMesh::writeVertices(const SurfaceVertices& vertices) {
   unpacked_.resize(3 * count);
   Ogre::Vector3 least(vertices.positions_m.data()), most = least;
   for (size_t v = 0; v < count; ++v) {
-    const std::array<float, 3> normal = normalOf(vertices.normals[v]);
+    const std::array<float, 3> normal = received::normalOf(vertices.normals[v]);
     std::copy(normal.begin(), normal.end(), &unpacked_[3 * v]);
     const Ogre::Vector3 point(&vertices.positions_m[3 * v]);
     least.makeFloor(point);

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "rviz/sent_surface.h"
+#include "nodes/received/sent_surface.h"
 
 namespace Ogre {
 class Entity;
@@ -37,7 +37,7 @@ class SurfaceMesh {
   /// Updates the mesh. @param vertices  vertices of this topology
   /// @param alpha  opacity of vertex colours, if there are any; empty: the colours are those of paint()
   /// @returns whether materials were recreated, so that paint() must be called again
-  bool show(const SentTopology& topology, const SurfaceVertices& vertices, bool topology_is_new,
+  bool show(const received::SentTopology& topology, const SurfaceVertices& vertices, bool topology_is_new,
             const std::optional<float>& alpha);
   /// Returns the bounding box of the mesh.
   const Ogre::AxisAlignedBox& bounds() const { return mesh_->getBounds(); }
@@ -46,7 +46,7 @@ class SurfaceMesh {
 
  private:
   void make(size_t parts, bool colored);
-  void writeTriangles(const SentTopology& topology);
+  void writeTriangles(const received::SentTopology& topology);
   void writeVertices(const SurfaceVertices& vertices);
   void writeColors(const std::vector<uint32_t>& colors, float alpha);
 

@@ -20,8 +20,8 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "nodes/received/ros_worker.h"
 #include "rviz/panel_style.h"
-#include "rviz/ros_worker.h"
 #include "rviz/task_words.h"
 
 namespace viscera::rviz_plugin {
@@ -70,10 +70,11 @@ std::string sceneOf(const QString& task_file) {
 
 /// Starts a task, and loads its scene first if the simulator requires it.
 /// @param file  file of the task, if it is on this machine   @returns a text for the user
-std::string startTask(RosWorker& worker, const std::string& space, const std::string& task, const QString& file) {
+std::string startTask(received::RosWorker& worker, const std::string& space, const std::string& task,
+                      const QString& file) {
   StartTaskRequest request;
   request.task = task;
-  RosWorker::Answer answer = worker.ask<StartTask>(space + "start_task", request);
+  received::RosWorker::Answer answer = worker.ask<StartTask>(space + "start_task", request);
   if (answer.success || answer.text.find(StartTaskResponse::LOAD_SCENE_FIRST) == std::string::npos) return answer.text;
   LoadSceneRequest scene;
   scene.scene = sceneOf(file);
@@ -109,7 +110,7 @@ struct TaskBox::Inside {
   struct Topics {
     ros::Subscriber state, metrics;
   };
-  RosWorker& worker;
+  received::RosWorker& worker;
   std::string space;
   QString folder;  ///< folder of tasks with names
   bool runs = false, busy = false;
@@ -130,7 +131,7 @@ struct TaskBox::Inside {
   }
 };
 
-TaskBox::TaskBox(RosWorker& worker) : QGroupBox("Task"), inside_(new Inside{worker, {}, {}}) {
+TaskBox::TaskBox(received::RosWorker& worker) : QGroupBox("Task"), inside_(new Inside{worker, {}, {}}) {
   Inside& in = *inside_;
   in.tasks->setEditable(true);
   in.tasks->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
@@ -223,7 +224,7 @@ namespace viscera::rviz_plugin {
 
 struct TaskBox::Inside {};
 
-TaskBox::TaskBox(RosWorker&) {
+TaskBox::TaskBox(received::RosWorker&) {
   hide();
 }
 TaskBox::~TaskBox() = default;

@@ -8,15 +8,17 @@
 #include <memory>
 #include <string>
 
-namespace viscera::rviz_plugin {
-
+namespace viscera::received {
 class RosWorker;
+}
+
+namespace viscera::rviz_plugin {
 
 /// The task of a lesson: instructions, progress and score. choices() has the buttons that start and end it.
 class TaskBox : public QGroupBox {
  public:
   /// @param worker  must outlive all calls except the destructor
-  explicit TaskBox(RosWorker& worker);
+  explicit TaskBox(received::RosWorker& worker);
   ~TaskBox() override;
   /// Shows the task of another simulator. @param node  handle with a queue that rviz's own thread serves
   /// @param space  its namespace, with a slash at its end; empty: none

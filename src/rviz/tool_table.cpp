@@ -16,7 +16,7 @@ constexpr std::array<const char*, 3> kSwitches = {"idle", "button1", "button2"};
 constexpr int kModeLetters = 4;  // a dock may be narrow; the list shows full names
 constexpr int kForceLines = 2;
 
-QString forceText(const DiscoveredStylus& stylus_state) {
+QString forceText(const received::DiscoveredStylus& stylus_state) {
   const QString state = QString::fromStdString(stylus_state.state);
   if (stylus_state.force_n.empty()) return state;
   return QString("%1; %2 N, touches %3 nodes, holds %4")
@@ -30,10 +30,10 @@ ToolTable::ToolTable(ModeChosen chosen) : chosen_(std::move(chosen)) {
   (new QVBoxLayout(this))->setContentsMargins(0, 0, 0, 0);
 }
 
-void ToolTable::show(const std::vector<DiscoveredStylus>& styluses) {
-  const bool same =
-      std::equal(rows_.begin(), rows_.end(), styluses.begin(), styluses.end(),
-                 [](const Row& row, const DiscoveredStylus& stylus_state) { return row.stylus == stylus_state.name; });
+void ToolTable::show(const std::vector<received::DiscoveredStylus>& styluses) {
+  const bool same = std::equal(
+      rows_.begin(), rows_.end(), styluses.begin(), styluses.end(),
+      [](const Row& row, const received::DiscoveredStylus& stylus_state) { return row.stylus == stylus_state.name; });
   if (!same) makeRows(styluses);
   for (size_t i = 0; i < rows_.size(); ++i) {
     for (size_t which = 0; which < kSwitches.size(); ++which)
@@ -42,7 +42,7 @@ void ToolTable::show(const std::vector<DiscoveredStylus>& styluses) {
   }
 }
 
-void ToolTable::makeRows(const std::vector<DiscoveredStylus>& styluses) {
+void ToolTable::makeRows(const std::vector<received::DiscoveredStylus>& styluses) {
   delete table_;
   rows_.clear();
   table_ = new QWidget;
@@ -51,7 +51,7 @@ void ToolTable::makeRows(const std::vector<DiscoveredStylus>& styluses) {
   for (size_t which = 0; which < kSwitches.size() && !styluses.empty(); ++which)
     grid->addWidget(new QLabel(kSwitches[which]), 0, static_cast<int>(which) + 1);
   int line = 1;
-  for (const DiscoveredStylus& stylus : styluses) {
+  for (const received::DiscoveredStylus& stylus : styluses) {
     grid->addWidget(new QLabel(QString::fromStdString(stylus.name)), line, 0);
     Row row{stylus.name, {}, steadyLabel(kForceLines)};
     for (size_t which = 0; which < kSwitches.size(); ++which) {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "rviz/discovered_simulators.h"
+#include "nodes/received/discovered_simulators.h"
 
 class QComboBox;
 class QLabel;
@@ -24,7 +24,7 @@ class ToolTable : public QWidget {
   using ModeChosen = std::function<void(const std::string& stylus, const std::string& which, const std::string& mode)>;
   /// @param chosen  called when the user has chosen a mode
   explicit ToolTable(ModeChosen chosen);
-  void show(const std::vector<DiscoveredStylus>& styluses);
+  void show(const std::vector<received::DiscoveredStylus>& styluses);
 
  private:
   struct Row {
@@ -32,7 +32,7 @@ class ToolTable : public QWidget {
     std::array<QComboBox*, 3> modes;  ///< idle, button 1, button 2
     QLabel* force;
   };
-  void makeRows(const std::vector<DiscoveredStylus>& styluses);
+  void makeRows(const std::vector<received::DiscoveredStylus>& styluses);
 
   const ModeChosen chosen_;
   QWidget* table_ = nullptr;

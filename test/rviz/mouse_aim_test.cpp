@@ -13,7 +13,7 @@ namespace {
 constexpr double kEps_m = 1e-6;  // of positions in float32, within a metre
 
 /// A square of 2 m at this height.
-void send(SentSurface& surface, uint32_t version, float height_m) {
+void send(received::SentSurface& surface, uint32_t version, float height_m) {
   SurfaceTopology topology;
   topology.version = version;
   topology.vertices = 4;
@@ -35,7 +35,7 @@ ScreenRay down(double x) {
 }
 
 TEST(MouseAim, TipIsSoFarBeforeTheSkinOrBehindIt) {
-  SentSurface surface;
+  received::SentSurface surface;
   MouseAim aim;
   EXPECT_FALSE(aim.at(down(0), surface, 0, 0, false));
   send(surface, 1, 0.25F);
@@ -45,7 +45,7 @@ TEST(MouseAim, TipIsSoFarBeforeTheSkinOrBehindIt) {
 }
 
 TEST(MouseAim, BesideTheSkinItStaysAsFarAsItWas) {
-  SentSurface surface;
+  received::SentSurface surface;
   MouseAim aim;
   send(surface, 1, 0.25F);
   EXPECT_NEAR(aim.at(down(3), surface, -0.01, 0, false)->position_m.z(), 0.26, kEps_m) << "as far as the middle";
@@ -55,7 +55,7 @@ TEST(MouseAim, BesideTheSkinItStaysAsFarAsItWas) {
 }
 
 TEST(MouseAim, YieldingSkinIsNotFollowed) {
-  SentSurface surface;
+  received::SentSurface surface;
   MouseAim aim;
   send(surface, 1, 0.25F);
   aim.at(down(0), surface, -0.001, 0, false);
@@ -67,7 +67,7 @@ TEST(MouseAim, YieldingSkinIsNotFollowed) {
 }
 
 TEST(MouseAim, ShaftLeansFromTheLineOfSightToTheLowerRight) {
-  SentSurface surface;
+  received::SentSurface surface;
   MouseAim aim;
   send(surface, 1, 0);
   constexpr double kTilt = 0.7;

@@ -58,9 +58,10 @@ class SceneShapes {
 /// Returns the tubes of a moment: sutures and clips of the frame, then needles.
 VisibleTubes tubesOf(const Session& session, const Frame& now);
 
-/// Colours of the vertices of a model's surface mesh.
+/// Colours of the vertices of a surface mesh.
 class SceneColors {
  public:
+  SceneColors() = default;  ///< one colour per body and one for its walls
   explicit SceneColors(const Model& model);
   /// Returns the colour of every vertex, RGBA8: alpha as in surface/skins/part_colors.h. Walls of wounds are darker.
   std::vector<uint32_t> of(const VisibleMesh& skin) const;

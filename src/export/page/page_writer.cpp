@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "export/page/embedded_viewer.h"
+#include "export/page/viewer_text.h"
 #include "math/base64.h"
 #include "session/arrows.h"
 
@@ -23,34 +23,13 @@ double rounded(double value, double per) {
   return std::round(value * per) / per;
 }
 
-std::string viewerText(const std::string& name) {
-  for (int i = 0; i < kEmbeddedViewerFileCount; ++i)
-    if (name == kEmbeddedViewerFiles[i].name) return kEmbeddedViewerFiles[i].text;
-  return "";
-}
-
-/// Returns JSON for a script element of HTML, which "</" would end.
-std::string scriptText(const Json& json) {
-  std::string out;
-  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
-    if (c == '<')
-      out += "\\u003c";
-    else
-      out += c;
-  }
-  return out;
-}
-
 }  // namespace
 
 PageWriter::PageWriter(const std::string& path, double rate_hz)
     : file_(path, FileKind::kHtml),
       rate_hz_(rate_hz),
       block_frames_(std::max<size_t>(1, static_cast<size_t>(std::ceil(kBlock_s * rate_hz)))) {
-  std::string head = viewerText("page.html");
-  const std::string position = "/* page.css */";
-  const size_t at = head.find(position);
-  put(head.replace(at, position.size(), viewerText("page.css")));
+  put(viewerHead(ViewerData::kFile));
 }
 
 void PageWriter::put(std::string_view text) {
@@ -183,12 +162,7 @@ void PageWriter::finish() {
                       {"scenes", scenes_}, {"bases", bases_},      {"blocks", block_list_},
                       {"shapes", shapes_}, {"times", times_},      {"marks", marks_},
                       {"lines", lines_},   {"statuses", statuses_}};
-  put("<script type=\"application/json\" id=\"index\">" + scriptText(index) + "</script>\n");
-  for (int i = 0; i < kEmbeddedViewerFileCount; ++i) {
-    const std::string name = kEmbeddedViewerFiles[i].name;
-    if (name.size() > 3 && name.substr(name.size() - 3) == ".js") put("<script>\n" + viewerText(name) + "</script>\n");
-  }
-  put("</body>\n</html>\n");
+  put(viewerTail(ViewerData::kFile, index));
   file_.keep();
 }
 

@@ -262,15 +262,23 @@ class Painter {
   }
   shapeOf(number, shape) {
     if (this.shapes.has(number)) return this.shapes.get(number);
-    const gl = this.gl, array = gl.createVertexArray();
+    const gl = this.gl, array = gl.createVertexArray(), buffers = [gl.createBuffer(), gl.createBuffer()];
     gl.bindVertexArray(array);
-    this.fill(gl.ARRAY_BUFFER, gl.createBuffer(), shape.vertices);
+    this.fill(gl.ARRAY_BUFFER, buffers[0], shape.vertices);
     this.attribute(0, 3, gl.FLOAT, false, 28, 0);
     this.attribute(1, 3, gl.FLOAT, false, 28, 12);
     this.attribute(2, 4, gl.UNSIGNED_BYTE, true, 28, 24);
-    this.fill(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer(), shape.indices);
-    this.shapes.set(number, {array, solid: shape.solid, all: shape.indices.length});
+    this.fill(gl.ELEMENT_ARRAY_BUFFER, buffers[1], shape.indices);
+    this.shapes.set(number, {array, buffers, solid: shape.solid, all: shape.indices.length});
     return this.shapes.get(number);
+  }
+  /** Frees a shape that no frame shows any more. */
+  drop(number) {
+    const shape = this.shapes.get(number);
+    if (!shape) return;
+    this.gl.deleteVertexArray(shape.array);
+    for (const buffer of shape.buffers) this.gl.deleteBuffer(buffer);
+    this.shapes.delete(number);
   }
   use(program, view, mesh) {
     this.gl.useProgram(program.program);

@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rviz/discovered_simulators.h"
+#include "nodes/received/discovered_simulators.h"
 
 #include <utility>
 
-namespace viscera::rviz_plugin {
+namespace viscera::received {
 namespace {
 
 using Status = diagnostic_msgs::DiagnosticStatus;
@@ -67,4 +67,4 @@ std::vector<DiscoveredSimulator> DiscoveredSimulators::at(Time now) const {
   return out;
 }
 
-}  // namespace viscera::rviz_plugin
+}  // namespace viscera::received

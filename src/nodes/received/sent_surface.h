@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace viscera::rviz_plugin {
+namespace viscera::received {
 
 /// Triangles of one body that are drawn alike.
 struct SentPart {
@@ -72,4 +72,4 @@ struct SurfaceHit {
 std::optional<SurfaceHit> firstHit(const SentTopology& topology, const std::vector<float>& positions_m,
                                    const std::array<double, 3>& origin, const std::array<double, 3>& direction);
 
-}  // namespace viscera::rviz_plugin
+}  // namespace viscera::received

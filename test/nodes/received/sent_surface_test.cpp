@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rviz/sent_surface.h"
+#include "nodes/received/sent_surface.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-namespace viscera::rviz_plugin {
+namespace viscera::received {
 namespace {
 
 /// Two bodies: a square of two triangles, of which one is a wall, and a triangle.
@@ -212,4 +212,4 @@ TEST(SentSurface, ARayFindsTheNearestTriangle) {
 }
 
 }  // namespace
-}  // namespace viscera::rviz_plugin
+}  // namespace viscera::received

@@ -9,10 +9,10 @@
 #include <string>
 #include <utility>
 
-#include "rviz/sender_watch.h"
-#include "rviz/sent_surface.h"
+#include "nodes/received/sender_watch.h"
+#include "nodes/received/sent_surface.h"
 
-namespace viscera::rviz_plugin {
+namespace viscera::received {
 
 /// Receives the surface of a simulator from its three topics. Callbacks run on the thread that serves the node's queue;
 /// call all functions on that thread.
@@ -69,4 +69,4 @@ class SurfaceFeed {
   std::string wrong_;
 };
 
-}  // namespace viscera::rviz_plugin
+}  // namespace viscera::received

@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace viscera::rviz_plugin {
+namespace viscera::received {
 
 /// Returns the full name of a simulator's namespace, with a slash at its end.
 /// @param space  as the user wrote it; empty: rviz's own   @throws ros::InvalidNameException
@@ -16,4 +16,4 @@ inline std::string simulatorSpace(const std::string& space) {
   return name.back() == '/' ? name : name + "/";
 }
 
-}  // namespace viscera::rviz_plugin
+}  // namespace viscera::received

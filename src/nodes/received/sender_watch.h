@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-namespace viscera::rviz_plugin {
+namespace viscera::received {
 
 /// Returns whether a server accepts connections at an address.
 /// @param uri  as in http://host:port/   @param limit  timeout
@@ -46,4 +46,4 @@ class SenderWatch {
   std::thread thread_;  ///< last member: it uses all of the above
 };
 
-}  // namespace viscera::rviz_plugin
+}  // namespace viscera::received

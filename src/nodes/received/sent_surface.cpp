@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rviz/sent_surface.h"
+#include "nodes/received/sent_surface.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace viscera::rviz_plugin {
+namespace viscera::received {
 namespace {
 
 constexpr size_t kMostBodies = 1000;    // a hundred have labels in images
@@ -193,4 +193,4 @@ std::optional<SurfaceHit> firstHit(const SentTopology& topology, const std::vect
   return nearest;
 }
 
-}  // namespace viscera::rviz_plugin
+}  // namespace viscera::received

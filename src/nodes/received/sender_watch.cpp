@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rviz/sender_watch.h"
+#include "nodes/received/sender_watch.h"
 
 #include <netdb.h>
 #include <poll.h>
@@ -16,7 +16,7 @@
 #include <optional>
 #include <utility>
 
-namespace viscera::rviz_plugin {
+namespace viscera::received {
 namespace {
 
 constexpr std::chrono::milliseconds kCheckEvery{500};
@@ -123,4 +123,4 @@ void SenderWatch::main() {
   }
 }
 
-}  // namespace viscera::rviz_plugin
+}  // namespace viscera::received

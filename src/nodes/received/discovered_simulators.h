@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace viscera::rviz_plugin {
+namespace viscera::received {
 
 struct DiscoveredStylus {
   std::string name;
@@ -52,4 +52,4 @@ class DiscoveredSimulators {
   std::map<std::string, std::map<std::string, Heard>> heard_;  ///< status by node and part
 };
 
-}  // namespace viscera::rviz_plugin
+}  // namespace viscera::received

@@ -12,7 +12,7 @@
 #include <string>
 #include <thread>
 
-namespace viscera::rviz_plugin {
+namespace viscera::received {
 
 /// Runs jobs that wait for a master or a simulator, one after another on a thread of its own. An answer may take a
 /// minute, and a window that waits for it would freeze.
@@ -66,4 +66,4 @@ class RosWorker {
   std::thread thread_;  ///< last member: it uses all of the above
 };
 
-}  // namespace viscera::rviz_plugin
+}  // namespace viscera::received

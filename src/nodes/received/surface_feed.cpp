@@ -1,13 +1,13 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rviz/surface_feed.h"
+#include "nodes/received/surface_feed.h"
 
 #include <ros/transport_hints.h>
 
 #include <algorithm>
 #include <utility>
 
-namespace viscera::rviz_plugin {
+namespace viscera::received {
 namespace {
 
 constexpr uint32_t kChangesQueue = 1000;  // none may be lost: the next whole topology may be half a second away
@@ -80,4 +80,4 @@ void SurfaceFeed::clear() {
   wrong_.clear();
 }
 
-}  // namespace viscera::rviz_plugin
+}  // namespace viscera::received

@@ -1,13 +1,13 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rviz/ros_worker.h"
+#include "nodes/received/ros_worker.h"
 
 #include <ros/exception.h>
 
 #include <chrono>
 #include <utility>
 
-namespace viscera::rviz_plugin {
+namespace viscera::received {
 namespace {
 
 constexpr size_t kMostJobs = 8;                       // as in the simulator's queue
@@ -66,4 +66,4 @@ void RosWorker::main() {
   changed_.notify_all();
 }
 
-}  // namespace viscera::rviz_plugin
+}  // namespace viscera::received

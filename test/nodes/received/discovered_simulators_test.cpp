@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rviz/discovered_simulators.h"
+#include "nodes/received/discovered_simulators.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace viscera::rviz_plugin {
+namespace viscera::received {
 namespace {
 
 using std::chrono::seconds;
@@ -65,4 +65,4 @@ TEST(DiscoveredSimulators, WhoIsSilentIsGone) {
 }
 
 }  // namespace
-}  // namespace viscera::rviz_plugin
+}  // namespace viscera::received

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rviz/sender_watch.h"
+#include "nodes/received/sender_watch.h"
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 #include <string>
 
-namespace viscera::rviz_plugin {
+namespace viscera::received {
 namespace {
 
 constexpr std::chrono::milliseconds kLimit{300};
@@ -36,4 +36,4 @@ TEST(SenderWatch, AnAddressThatIsNoneDoesNotListen) {
 }
 
 }  // namespace
-}  // namespace viscera::rviz_plugin
+}  // namespace viscera::received
