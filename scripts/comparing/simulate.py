@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs one session of viscera for scripts/compare: reads a job as JSON from standard input, writes its answer as JSON.
+
+Processor times are those of Session.step() alone. Needs viscera's Python package.
+"""
+import json
+import sys
+import time
+
+import numpy as np
+import viscera
+
+
+def opened(scene, **solver):
+    """Returns a session of a scene, with further keys of `solver`."""
+    scene = dict(scene, solver={"threads": 1, "sleep_speed_m_per_s": 0.0, **scene.get("solver", {}), **solver})
+    return viscera.Session(viscera.Scene(scene))
+
+
+def vertices(session):
+    """Returns the positions of the surface mesh [m], as a copy in float64."""
+    return session.skin().positions_m.astype(float)
+
+
+def nearest(positions, points):
+    """Returns the number of the closest position to each point, and the largest distance [m]."""
+    out = np.empty(len(points), int)
+    largest = 0.0
+    for first in range(0, len(points), 256):
+        apart = ((points[first:first + 256, None, :] - positions[None, :, :]) ** 2).sum(-1)
+        out[first:first + 256] = apart.argmin(1)
+        largest = max(largest, float(np.sqrt(apart.min(1).max())))
+    return out, largest
+
+
+def skin(job):
+    """Returns the surface mesh at rest."""
+    with opened(job["scene"]) as session:
+        mesh = session.skin()
+        return {"at": mesh.positions_m.astype(float).tolist(), "triangles": mesh.triangles.astype(int).tolist()}
+
+
+def settle(job):
+    """Returns the displacement of points of the surface in equilibrium with weight [m], and what finding it took [s]."""
+    with opened(job["scene"]) as session:
+        rest = vertices(session)
+    begun = time.process_time()
+    with opened(job["scene"], start="equilibrium") as session:
+        seconds = time.process_time() - begun
+        chosen, far = nearest(rest, np.load(job["points"]))
+        moved = (vertices(session) - rest)[chosen]
+        np.save(job["moved"], moved)
+        return {"nodes": session.diagnostics["nodes"], "seconds": seconds, "far": far}
+
+
+def cost(job):
+    """Returns the processor time of a simulated second under weight, which begins to act at the start [s/s]."""
+    with opened(job["scene"]) as session:
+        session.step(n=job.get("before", 3))
+        ticks, begun = job["ticks"], time.process_time()
+        session.step(n=ticks)
+        seconds = time.process_time() - begun
+        return {"nodes": session.diagnostics["nodes"], "cost": seconds / (ticks * session.tick_s),
+                "dt_s": session.diagnostics["dt_s"]}
+
+
+def drive(job):
+    """Moves styluses through phases and reads the force on each at the end of a phase.
+
+    job["begin"]: a position per stylus; job["phases"]: list of {"to": positions, "ticks", "hold"}. Returns for each phase
+    the mean force over the last third of its hold [N], and the displacement of points if there are some.
+    """
+    with opened(job["scene"]) as session:
+        rest = vertices(session)
+        chosen = nearest(rest, np.load(job["points"]))[0] if "points" in job else None
+        at = np.array(job["begin"], float)
+        put = lambda where: [viscera.Stylus(list(map(float, p))) for p in where]
+        session.step(put(at), n=job.get("wait", 1))
+        out, moved, used, ticks = [], [], 0.0, 0
+        for phase in job["phases"]:
+            to, count = np.array(phase["to"], float), phase["ticks"]
+            begun = time.process_time()
+            for k in range(count):
+                session.step(put(at + (to - at) * (k + 1) / count))
+            forces = []
+            for _ in range(phase["hold"]):
+                session.step(put(to))
+                forces.append(session.wrenches[:, :3].copy())
+            used, ticks, at = used + time.process_time() - begun, ticks + count + phase["hold"], to
+            out.append(np.mean(forces[-max(1, len(forces) // 3):], 0).tolist())
+            if chosen is not None:
+                moved.append((vertices(session) - rest)[chosen])
+        if moved:
+            np.save(job["moved"], np.array(moved))
+        if "shape" in job:
+            mesh = session.skin()
+            np.savez(job["shape"], at=mesh.positions_m, triangles=mesh.triangles)
+        said = session.diagnostics
+        return {"nodes": said["nodes"], "forces": out, "cost": used / (ticks * session.tick_s), "roll_backs": said["roll_backs"],
+                "inverted": said["cells_inverted"], "speed": said["speed_now_m_per_s"]}
+
+
+def swing(job):
+    """Returns the mean displacement of chosen nodes over time [m]: (ticks, 3). Nodes are those in the box job["seen"]."""
+    with opened(job["scene"]) as session:
+        rest = session.rest_m[session.nodes]
+        low, high = np.array(job["seen"], float)
+        seen = session.nodes[((rest >= low) & (rest <= high)).all(1)]
+        out = []
+        for _ in range(job["ticks"]):
+            session.step()
+            out.append(session.displacement_m[seen].astype(float).mean(0))
+        np.save(job["moved"], np.array(out))
+        return {"nodes": session.diagnostics["nodes"], "seen": len(seen)}
+
+
+def main():
+    """Runs the job."""
+    job = json.load(sys.stdin)
+    print(json.dumps({"skin": skin, "settle": settle, "cost": cost, "drive": drive, "swing": swing}[job["kind"]](job)))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
