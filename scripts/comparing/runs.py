@@ -6,6 +6,7 @@ import os
 import pathlib
 import subprocess
 import sys
+import tempfile
 import time
 
 import numpy as np
@@ -17,14 +18,15 @@ TICK_S = 1 / 60
 
 
 class Place:
-    """Folders and programs of a comparison. build: viscera's build folder; small: whether runs are short."""
+    """Folders and programs of a comparison. build: viscera's build folder."""
 
-    def __init__(self, build, small=False):
-        self.build, self.small = pathlib.Path(build).resolve(), small
+    def __init__(self, build):
+        self.build = pathlib.Path(build).resolve()
         self.folder = self.build / "compare"
         self.cache = self.folder / "calculix"
-        self.work = self.folder / "work"
-        self.work.mkdir(parents=True, exist_ok=True)
+        self.folder.mkdir(exist_ok=True)
+        self.kept_work = tempfile.TemporaryDirectory(dir=self.folder)
+        self.work = pathlib.Path(self.kept_work.name)
         self.package = self.build / "devel" / "lib" / "python3" / "dist-packages"
         if not (self.package / "viscera").is_dir():
             sys.exit("scripts/compare: %s has no Python package of viscera; run scripts/build, or name its folder by --build" % self.build)

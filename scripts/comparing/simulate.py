@@ -14,9 +14,9 @@ import viscera
 
 
 def opened(scene, **solver):
-    """Returns a session of a scene, with further keys of `solver`."""
+    """Returns a session of a scene, with further keys of `solver`; it draws if the scene has cameras."""
     scene = dict(scene, solver={"threads": 1, "sleep_speed_m_per_s": 0.0, **scene.get("solver", {}), **solver})
-    return viscera.Session(viscera.Scene(scene))
+    return viscera.Session(viscera.Scene(scene), pictures=bool(scene.get("cameras")))
 
 
 def vertices(session):
@@ -79,7 +79,7 @@ def drive(job):
         put = lambda where: [viscera.Stylus(list(map(float, p))) for p in where]
         session.step(put(at), n=job.get("wait", 1))
         out, moved, used, ticks = [], [], 0.0, 0
-        for phase in job["phases"]:
+        for number, phase in enumerate(job["phases"]):
             to, count = np.array(phase["to"], float), phase["ticks"]
             begun = time.process_time()
             for k in range(count):
@@ -90,30 +90,36 @@ def drive(job):
                 forces.append(session.wrenches[:, :3].copy())
             used, ticks, at = used + time.process_time() - begun, ticks + count + phase["hold"], to
             out.append(np.mean(forces[-max(1, len(forces) // 3):], 0).tolist())
+            if number == job.get("shown"):
+                np.save(job["picture"], session.picture())
             if chosen is not None:
                 moved.append((vertices(session) - rest)[chosen])
         if moved:
             np.save(job["moved"], np.array(moved))
-        if "shape" in job:
-            mesh = session.skin()
-            np.savez(job["shape"], at=mesh.positions_m, triangles=mesh.triangles)
         said = session.diagnostics
         return {"nodes": said["nodes"], "forces": out, "cost": used / (ticks * session.tick_s), "roll_backs": said["roll_backs"],
                 "inverted": said["cells_inverted"], "speed": said["speed_now_m_per_s"]}
 
 
 def swing(job):
-    """Returns the mean displacement of chosen nodes over time [m]: (ticks, 3). Nodes are those in the box job["seen"]."""
+    """Returns the mean displacement of the nodes in each box of job["seen"] over time [m]: (ticks, boxes, 3).
+
+    With job["pull"], two positions, a stylus grabs at the first, moves to the second in job["pull_ticks"] and lets go.
+    """
     with opened(job["scene"]) as session:
         rest = session.rest_m[session.nodes]
-        low, high = np.array(job["seen"], float)
-        seen = session.nodes[((rest >= low) & (rest <= high)).all(1)]
+        seen = [session.nodes[((rest >= low) & (rest <= high)).all(1)] for low, high in np.array(job["seen"], float)]
+        if "pull" in job:
+            begin, end = np.array(job["pull"], float)
+            session.step(viscera.Stylus(begin.tolist(), button1=True))
+            for k in range(job["pull_ticks"]):
+                session.step(viscera.Stylus((begin + (end - begin) * (k + 1) / job["pull_ticks"]).tolist(), button1=True))
         out = []
         for _ in range(job["ticks"]):
             session.step()
-            out.append(session.displacement_m[seen].astype(float).mean(0))
+            out.append([session.displacement_m[slots].astype(float).mean(0) for slots in seen])
         np.save(job["moved"], np.array(out))
-        return {"nodes": session.diagnostics["nodes"], "seen": len(seen)}
+        return {"nodes": session.diagnostics["nodes"], "seen": [len(slots) for slots in seen]}
 
 
 def main():

@@ -68,7 +68,7 @@ def organ(name, level):
 
 class Skin:
     """A closed surface through the nodes of a solid. at: positions; source: their nodes; sign: what multiplies a node's
-    displacement, -1 along the mirror's normal in the reflected half; outside: whether a vertex is not inside, on the border of two parts;
+    displacement, -1 along the mirror's normal in the reflected half; outside: whether a vertex is on the outside of the body, not on a border of parts or halves;
     parts: {name: triangles}."""
 
     def __init__(self, solid, mirror=None, part_of=None):
@@ -78,7 +78,10 @@ class Skin:
         nodes = np.unique(np.concatenate([np.ravel(t) for part in faces.values() for t in part]))
         self.source, self.at = nodes, solid.nodes[nodes]
         self.sign = np.ones_like(self.at)
-        self.outside = np.isin(nodes, np.unique(list(outer_faces(solid, None).values())[0])) if part_of else np.ones(len(nodes), bool)
+        around = np.array(outer_faces(solid, None)["tissue"] if part_of else faces["tissue"])
+        if mirror is not None:
+            around = around[(np.abs(solid.nodes[around][:, :, mirror]) > SAME_M).any(1)]
+        self.outside = np.isin(nodes, around)
         index = np.full(len(solid.nodes), -1)
         index[nodes] = np.arange(len(nodes))
         self.parts = {name: index[np.array(part)] for name, part in faces.items()}

@@ -137,18 +137,16 @@ def in_bullet(name, body, place, size, ratio, law, g, moved):
 
 def measure(name, place, body):
     """Returns the results of one body: list of runs, in the order in which they were made."""
-    spacings = SPACINGS_M[:2] if place.small else SPACINGS_M
-    out, ratios = [], RATIOS[:1] if place.small else RATIOS
-    for ratio in ratios:
+    out = []
+    for ratio in RATIOS:
         g, moved, run = gravity_for(name, body, place, ratio)
         runs.say(name, "nu %g: CalculiX %d nodes, %.1f s" % (ratio, len(body.solid.used), run.seconds))
         out.append({"program": "CalculiX", "ratio": ratio, "nodes": len(body.solid.used), "seconds": run.seconds})
-        for spacing_m in spacings:
+        for spacing_m in SPACINGS_M:
             out.append(settled(name, body, place, spacing_m, ratio, g, moved))
             runs.say(name, "nu %g, %.3g mm: mean %+.1f %%, rms %.1f %%, most %.1f %%" %
                      (ratio, 1e3 * spacing_m, *(100 * out[-1][k] for k in ("mean", "rms", "most"))))
-    if not place.small:
-        add_costs(name, body, place, out)
+    add_costs(name, body, place, out)
     return out
 
 
