@@ -10,9 +10,10 @@ from comparing import calculix, runs, solids, strains
 # --- Half a sphere, its rim held; a disc at its pole is pushed in.
 BOWL_M, WALL_M, DISC_M = 0.040, 0.003, 0.012  # outer radius, wall, radius of the disc: the chord of the middle of the wall
 BOWL_SHARES = (0.05, 0.1, 0.2, 0.3, 0.5, 0.8)  # of the radius
-BOWL_RATIO, BOWL_SPACINGS_M = 0.3, (0.004, 0.003, 0.002)
+BOWL_RATIO, BOWL_SPACINGS_M = 0.3, (0.004, 0.003)
 BOWL_ELEMENTS = (44, 2)  # along the meridian, across the wall
 FIRST_RAD = 2 * math.asin(DISC_M / (2 * BOWL_M - WALL_M))  # angle from the axis to the edge of the disc
+EDGE = 0.25  # what a grab reaches beyond the disc, in spacings: 0 gives a disc that is too small, 1/2 one that is too large
 SECTORS = 180  # CalculiX sums the reactions of axisymmetric elements over a sector of two degrees
 SHOWN = 4  # the share that the picture shows
 CAMERA = {"name": "side", "position_m": [0.075, -0.09, -0.115], "target_m": [0, 0, -0.018], "width_px": 480, "height_px": 400}
@@ -67,10 +68,10 @@ def bowl(place):
     angle = np.arctan2(np.hypot(skin.at[:, 0], skin.at[:, 1]), -skin.at[:, 2])
     outer = np.linalg.norm(skin.at, axis=1) > BOWL_M - 1e-6
     points = skin.at[outer & (angle > FIRST_RAD) & (angle < math.pi / 2 - 1e-6)]
-    for spacing_m in BOWL_SPACINGS_M:  # the last held nodes are between this radius and a spacing less: the disc's on average
+    for spacing_m in BOWL_SPACINGS_M:
         pole = np.array([0, 0, -BOWL_M + WALL_M / 2])
         phases = [{"to": [(pole + (0, 0, share * BOWL_M)).tolist()], "ticks": 40, "hold": 60} for share in BOWL_SHARES]
-        scene = strains.scene("snap", {"source": "mesh", "mesh_file": str(path), "textures": False}, {"idle": "grab", "grab": {"radius_m": DISC_M + spacing_m / 2}},
+        scene = strains.scene("snap", {"source": "mesh", "mesh_file": str(path), "textures": False}, {"idle": "grab", "grab": {"radius_m": DISC_M + EDGE * spacing_m}},
                               BOWL_RATIO, spacing_m, ((0, 0, 0), (0, 0, -1)), walls="rows")
         scene["cameras"] = [CAMERA]
         found = runs.simulate(place, "drive", scene, begin=[pole.tolist()], phases=phases, points=points,

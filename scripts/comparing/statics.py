@@ -81,7 +81,7 @@ def organ(name, level=FINEST_LEVEL):
 BODIES = {"cantilever": cantilever, "materials": lambda: organ("block"), "tube": lambda: organ("tube"), "bowl": lambda: organ("bowl"),
           "bladder": lambda: organ("bladder")}
 BULLET_MESHES = {  # boxes of five tetrahedra: counts of the cantilever; size along the wall [m] and number across it
-    "cantilever": [(20, 4, 3), (28, 6, 4), (40, 8, 6)], "tube": [(0.006, 1), (0.004, 1)], "bowl": [(0.006, 1), (0.004, 1)],
+    "cantilever": [(20, 4, 3), (28, 6, 4)], "tube": [(0.006, 1), (0.004, 1)], "bowl": [(0.006, 1), (0.004, 1)],
     "bladder": [(0.006, 1)]}
 
 

@@ -37,6 +37,7 @@ BLOCK_M = np.array([0.024, 0.024, 0.036])
 SHARES = (0.1, 0.2, 0.35, 0.5)  # of the height
 WAYS = {"pulled": (2, 1), "squeezed": (2, -1), "sheared": (0, 1)}  # axis, direction
 BLOCK_RATIOS = (0.3, 0.45)
+PRESS_RATIOS = (0.3,)
 BLOCK_ELEMENTS = (6, 6, 9)
 BLOCK_SPACINGS_M = (0.004, 0.003)
 
@@ -148,7 +149,7 @@ def press_deck(ratio):
 def press(place):
     """Returns forces on the ball."""
     out = []
-    for ratio in BLOCK_RATIOS:
+    for ratio in PRESS_RATIOS:
         deck, nodes = press_deck(ratio)
         run = calculix.solve(deck, place.cache)
         truth = [4 * abs(force[2]) for _, force in run.forces("HELD")]
