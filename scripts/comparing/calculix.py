@@ -66,9 +66,9 @@ class Deck:
             self.node_set(name, nodes)
             self.out.write("*BOUNDARY\n%s, %d, %d\n" % (name, first, last))
 
-    def static(self, moves=(), gravity=None, pressure=(), shown="ALL", forces=(), first=0.25, most=400):
+    def static(self, moves=(), gravity=None, shown="ALL", forces=(), totals=None, first=0.25, most=400):
         """Adds a static step. @param moves: list of (set, axis 1 to 3, displacement [m]) at its end; gravity: [m/s2];
-        forces: sets of which the sum of reactions is printed."""
+        forces: sets of which the sum of reactions is printed; totals: quantities of which the sum over all elements is."""
         write = self.out.write
         if self.nonlinear:
             write("*STEP, NLGEOM, INC=%d\n*STATIC\n%g, 1., 1e-6, %g\n" % (most, first, max(first, 0.25)))
@@ -77,14 +77,14 @@ class Deck:
         if gravity is not None:
             size = float(np.linalg.norm(gravity))
             write("*DLOAD\nALL, GRAV, %.9g, %.9g, %.9g, %.9g\n" % (size, *(np.asarray(gravity, float) / size)))
-        for element, face, pascals in pressure:
-            write("*DLOAD\n%d, P%d, %.9g\n" % (element + 1, face, pascals))
         for name, axis, metres in moves:
             write("*BOUNDARY\n%s, %d, %d, %.9g\n" % (name, axis, axis, metres))
         if shown:
             write("*NODE PRINT, NSET=%s, FREQUENCY=%d\nU\n" % (shown, most))
         for name in forces:
             write("*NODE PRINT, NSET=%s, TOTALS=ONLY, FREQUENCY=%d\nRF\n" % (name, most))
+        if totals:
+            write("*EL PRINT, ELSET=ALL, TOTALS=ONLY\n%s\n" % totals)
         write("*END STEP\n")
 
     def frequencies(self, count, shown):
