@@ -66,9 +66,9 @@ class Deck:
             self.node_set(name, nodes)
             self.out.write("*BOUNDARY\n%s, %d, %d\n" % (name, first, last))
 
-    def static(self, moves=(), gravity=None, shown="ALL", forces=(), totals=None, first=0.25, most=400):
+    def static(self, moves=(), gravity=None, shown="ALL", forces=(), reactions=(), totals=None, first=0.25, most=400):
         """Adds a static step. @param moves: list of (set, axis 1 to 3, displacement [m]) at its end; gravity: [m/s2];
-        forces: sets of which the sum of reactions is printed; totals: quantities of which the sum over all elements is."""
+        forces, reactions: sets of which the sum of reactions, or each one, is printed; totals: quantities of which the sum over all elements is."""
         write = self.out.write
         if self.nonlinear:
             write("*STEP, NLGEOM, INC=%d\n*STATIC\n%g, 1., 1e-6, %g\n" % (most, first, max(first, 0.25)))
@@ -83,6 +83,8 @@ class Deck:
             write("*NODE PRINT, NSET=%s, FREQUENCY=%d\nU\n" % (shown, most))
         for name in forces:
             write("*NODE PRINT, NSET=%s, TOTALS=ONLY, FREQUENCY=%d\nRF\n" % (name, most))
+        for name in reactions:
+            write("*NODE PRINT, NSET=%s, FREQUENCY=%d\nRF\n" % (name, most))
         if totals:
             write("*EL PRINT, ELSET=ALL, TOTALS=ONLY\n%s\n" % totals)
         write("*END STEP\n")
@@ -104,11 +106,12 @@ class Run:
         self.text, self.seconds, self.ended = text, seconds, ended
         self.tables = list(tables_of(text))
 
-    def displacements(self, count):
-        """Returns the displacement of nodes at the end of each step, (count, 3), NaN where none was printed."""
+    def displacements(self, count, of="displacements"):
+        """Returns the displacement of nodes at the end of each step, (count, 3), NaN where none was printed; or their
+        reactions, with "forces"."""
         out = []
         for title, _, rows in self.tables:
-            if title.startswith("displacements"):
+            if title.startswith(of):
                 moved = np.full((count, 3), np.nan)
                 moved[rows[:, 0].astype(int) - 1] = rows[:, 1:4]
                 out.append(moved)

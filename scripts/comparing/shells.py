@@ -71,7 +71,8 @@ def bowl(place):
     for spacing_m in BOWL_SPACINGS_M:
         pole = np.array([0, 0, -BOWL_M + WALL_M / 2])
         phases = [{"to": [(pole + (0, 0, share * BOWL_M)).tolist()], "ticks": 40, "hold": 60} for share in BOWL_SHARES]
-        scene = strains.scene("snap", {"source": "mesh", "mesh_file": str(path), "textures": False}, {"idle": "grab", "grab": {"radius_m": DISC_M + EDGE * spacing_m}},
+        body = {"source": "mesh", "mesh_file": str(path), "textures": False}
+        scene = strains.scene("snap", body, {"idle": "grab", "grab": {"radius_m": DISC_M + EDGE * spacing_m}},
                               BOWL_RATIO, spacing_m, ((0, 0, 0), (0, 0, -1)), walls="rows")
         scene["cameras"] = [CAMERA]
         found = runs.simulate(place, "drive", scene, begin=[pole.tolist()], phases=phases, points=points,

@@ -66,30 +66,37 @@ def cost(job):
                 "dt_s": session.diagnostics["dt_s"]}
 
 
-def drive(job):
-    """Moves styluses through phases and reads the force on each at the end of a phase.
+def straight(begin, end, ticks):
+    """Returns positions of styluses at each tick on the way to their end."""
+    begin, end = np.array(begin, float), np.array(end, float)
+    return [(begin + (end - begin) * (k + 1) / ticks).tolist() for k in range(ticks)]
 
-    job["begin"]: a position per stylus; job["phases"]: list of {"to": positions, "ticks", "hold"}. Returns for each phase
-    the mean force over the last third of its hold [N], and the displacement of points if there are some.
+
+def drive(job):
+    """Moves styluses through phases and reads what each feels at the end of a phase.
+
+    job["begin"]: a pose per stylus (position [m], perhaps quaternion); job["phases"]: list of {"to": positions, "ticks",
+    "hold"}, or with "path", poses at each tick, in place of both. Returns for each phase the mean force and torque over the
+    last third of its hold [N, N m], and the displacement of points if there are some. job["picture"] is the file for what the
+    camera shows after the phase job["shown"].
     """
     with opened(job["scene"]) as session:
         rest = vertices(session)
         chosen = nearest(rest, np.load(job["points"]))[0] if "points" in job else None
-        at = np.array(job["begin"], float)
-        put = lambda where: [viscera.Stylus(list(map(float, p))) for p in where]
-        session.step(put(at), n=job.get("wait", 1))
+        put = lambda poses: [viscera.Stylus(pose[:3], *([pose[3:]] if len(pose) > 3 else [])) for pose in poses]
+        last = job["begin"]
+        session.step(put(last))
         out, moved, used, ticks = [], [], 0.0, 0
         for number, phase in enumerate(job["phases"]):
-            to, count = np.array(phase["to"], float), phase["ticks"]
-            begun = time.process_time()
-            for k in range(count):
-                session.step(put(at + (to - at) * (k + 1) / count))
-            forces = []
+            path = phase["path"] if "path" in phase else straight(last, phase["to"], phase["ticks"])
+            last, felt, begun = path[-1], [], time.process_time()
+            for poses in path:
+                session.step(put(poses))
             for _ in range(phase["hold"]):
-                session.step(put(to))
-                forces.append(session.wrenches[:, :3].copy())
-            used, ticks, at = used + time.process_time() - begun, ticks + count + phase["hold"], to
-            out.append(np.mean(forces[-max(1, len(forces) // 3):], 0).tolist())
+                session.step(put(last))
+                felt.append(session.wrenches.copy())
+            used, ticks = used + time.process_time() - begun, ticks + len(path) + phase["hold"]
+            out.append(np.mean(felt[-max(1, len(felt) // 3):], 0).tolist())
             if number == job.get("shown"):
                 np.save(job["picture"], session.picture())
             if chosen is not None:

@@ -68,8 +68,8 @@ def organ(name, level):
 
 class Skin:
     """A closed surface through the nodes of a solid. at: positions; source: their nodes; sign: what multiplies a node's
-    displacement, -1 along the mirror's normal in the reflected half; outside: whether a vertex is on the outside of the body, not on a border of parts or halves;
-    parts: {name: triangles}."""
+    displacement, -1 along the mirror's normal in the reflected half; outside: whether a vertex is on the outside of the
+    body, not on a border of parts or halves; parts: {name: triangles}."""
 
     def __init__(self, solid, mirror=None, part_of=None):
         """@param mirror: axis of the plane of symmetry, through the origin   @param part_of: function from the centre

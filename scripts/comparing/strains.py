@@ -134,7 +134,8 @@ def press_deck(ratio):
     nodes, cells = ball_cap()
     first, count = len(solid.nodes), len(elements)
     text = "*NODE, NSET=BALL\n" + "".join("%d, %.12g, %.12g, %.12g\n" % (first + k + 1, *at) for k, at in enumerate(nodes))
-    text += "*ELEMENT, TYPE=C3D8, ELSET=BALL\n" + "".join("%d, %s\n" % (count + k + 1, ", ".join(str(first + n + 1) for n in cell)) for k, cell in enumerate(cells))
+    text += "*ELEMENT, TYPE=C3D8, ELSET=BALL\n"
+    text += "".join("%d, %s\n" % (count + k + 1, ", ".join(str(first + n + 1) for n in cell)) for k, cell in enumerate(cells))
     text += "*MATERIAL, NAME=BALL\n*ELASTIC\n%g, 0.3\n*DENSITY\n1000\n*SOLID SECTION, ELSET=BALL, MATERIAL=BALL\n" % (CAP_STIFF * runs.YOUNG_PA)
     text += "*SURFACE, NAME=SLAVE\n" + "".join("%d, S%d\n" % face for face in slave)
     text += "*SURFACE, NAME=MASTER\n" + "".join("%d, S1\n" % (count + k + 1) for k in range(len(cells)))

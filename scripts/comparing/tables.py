@@ -1,7 +1,7 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Tables of the page about large strain and motion, each a function of a row's results that returns lines."""
-from comparing import motions, shells, strains
+from comparing import bends, motions, shells, strains
 
 PERCENT, MM = 100, 1e3
 
@@ -65,9 +65,10 @@ def press(found):
 
 def swings(found):
     """Returns frequencies."""
-    out = ["Frequencies at nu %g, CalculiX's in Hz, errors in %%, without damping. The plate (80 x 60 x 6 mm) and the ring (radii 27 and 33 mm, 6 mm high)" % motions.RATIO,
-           "are free. With `mass_damping_per_s: %g` the cantilever's modes decay at %s /s (theory: %g)." %
-           (motions.DAMPING_PER_S, ", ".join("%.3f" % d for run in mine(found) if run["damping_per_s"] for d in run["decay_per_s"]), motions.DAMPING_PER_S / 2), ""]
+    decays = ", ".join("%.3f" % decay for run in mine(found) if run["damping_per_s"] for decay in run["decay_per_s"])
+    out = [f"Frequencies at nu {motions.RATIO:g}, CalculiX's in Hz, errors in %, without damping. The plate (80 x 60 x 6 mm) and the ring",
+           f"(radii 27 and 33 mm, 6 mm high) are free. With `mass_damping_per_s: {motions.DAMPING_PER_S:g}` the cantilever's modes decay at",
+           f"{decays} /s (theory: {motions.DAMPING_PER_S / 2:g}).", ""]
     out += heading("body", "CalculiX", "5.67 mm", "4 mm", "3 mm")
     for body in ("cantilever", "plate", "ring"):
         runs = {run["spacing_m"]: run for run in mine(found, body=body, damping_per_s=0.0)}
@@ -78,10 +79,10 @@ def swings(found):
 
 def snap(found):
     """Returns the bowl's forces."""
-    out = ["A half sphere of radius 40 mm, wall 3 mm, nu %g, its rim held, is pushed in by a disc of %g mm radius at its pole. Its force falls from 10 %% of the"
-           % (shells.BOWL_RATIO, MM * shells.DISC_M),
-           "radius on: it snaps through. CalculiX's force in N (axisymmetric), errors in %. A grab holds nodes, so the disc's edge is known to a quarter of a",
-           "spacing: that is what errors before the snap show. Roll-backs: %d." % sum(run["roll_backs"] for run in mine(found)), ""]
+    rolled = sum(run["roll_backs"] for run in mine(found))
+    out = [f"A half sphere of radius 40 mm, wall 3 mm, nu {shells.BOWL_RATIO:g}, its rim held, is pushed in by a disc of {MM * shells.DISC_M:g} mm radius at its pole.",
+           "CalculiX's force in N (axisymmetric), errors in %. A grab holds nodes, so the disc's edge is known to a quarter of a",
+           f"spacing. Roll-backs: {rolled}.", ""]
     out += heading("pushed by", *("%g %%" % (PERCENT * share) for share in shells.BOWL_SHARES))
     out.append(row("CalculiX", *(number(force) for force in truth(found)["forces_n"])))
     for run in mine(found):
@@ -91,4 +92,17 @@ def snap(found):
     return out + ["", "![The bowl after the snap, and its section with CalculiX's](images/comparison_snap.png)"]
 
 
-TABLES = {"swings": ("Motion", swings), "block": ("Large strain", block), "press": (None, press), "snap": ("A bowl that snaps through", snap)}
+def bend(found):
+    """Returns the bent tube's moments."""
+    out = [f"A tube of {MM * bends.LENGTH_M:g} mm, radius {MM * bends.OUTER_M:g} mm, wall {MM * bends.WALL_M:g} mm, nu {bends.RATIO:g}, ends clamped, is bent along an arc:",
+           "CalculiX's moment in N mm, errors in %.", ""]
+    out += heading("bent by", *("%g deg" % degrees for degrees in bends.TURNS_DEG))
+    out.append(row("CalculiX", *(number(None if moment is None else MM * moment) for moment in truth(found)["moments_nm"])))
+    for run in mine(found):
+        out.append(row("%g mm: moment" % (MM * run["spacing_m"]), *map(signed, run["error"])))
+    for run in mine(found):
+        out.append(row("%g mm: shape, largest" % (MM * run["spacing_m"]), *("%.1f" % (PERCENT * e) for e in run["most"])))
+    return out
+
+
+TABLES = {"swings": ("Motion", swings), "block": ("Large strain", block), "press": (None, press), "snap": ("Thin walls at large strain", snap), "bend": (None, bend)}
