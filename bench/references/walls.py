@@ -16,12 +16,15 @@ reduced integration have different errors; the reference is the common limit of 
 """
 import argparse
 import math
-import os
+import pathlib
 import re
-import subprocess
 import sys
+import types
 
 import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+from comparing import calculix  # pylint: disable=wrong-import-position
 
 YOUNG_PA, DENSITY, GRAVITY = 20e3, 1060.0, 9.81
 RATIOS = (0.3, 0.45, 0.49)
@@ -171,65 +174,23 @@ class Block:
         self.soft = np.where(self.nodes[self.elements[20]].mean(1)[:, 0] < self.BORDER)[0]
 
 
-def write_ids(out, ids):
-    """Writes numbers of nodes or elements, counted from 1, as lines of a set."""
-    for i in range(0, len(ids), 12):
-        out.write(", ".join(str(k + 1) for k in ids[i:i + 12]) + ",\n")
-
-
-def write_deck(path, mesh, kind_of_20, ratio, load, mirror):
-    """Writes CalculiX's input: weight only, linear."""
-    soft = set(getattr(mesh, "soft", ()))
-    with open(path, "w") as out:
-        out.write("*NODE, NSET=ALL\n")
-        out.writelines("%d, %.12g, %.12g, %.12g\n" % (i + 1, *mesh.nodes[i]) for i in mesh.used)
-        number = 0
-        for count, kind in ((20, kind_of_20), (15, "C3D15")):
-            if len(mesh.elements[count]) > 0:
-                out.write("*ELEMENT, TYPE=%s, ELSET=N%d\n" % (kind, count))
-            for element in mesh.elements[count]:
-                number += 1
-                ids = [str(k + 1) for k in element]
-                out.write("%d, %s,\n%s\n" % (number, ", ".join(ids[:10]), ", ".join(ids[10:])))
-        parts = [(sorted(soft), YOUNG_PA / 10), (sorted(set(range(number)) - soft), YOUNG_PA)]
-        out.write("*ELSET, ELSET=ALL\n")
-        write_ids(out, list(range(number)))
-        for k, (ids, young) in enumerate(parts):
-            if not ids:
-                continue
-            out.write("*ELSET, ELSET=P%d\n" % k)
-            write_ids(out, ids)
-            out.write("*MATERIAL, NAME=M%d\n*ELASTIC\n%.9g, %.9g\n*DENSITY\n%.9g\n" % (k, young, ratio, DENSITY))
-            out.write("*SOLID SECTION, ELSET=P%d, MATERIAL=M%d\n" % (k, k))
-        out.write("*NSET, NSET=HELD\n")
-        write_ids(out, mesh.held)
-        out.write("*BOUNDARY\nHELD, 1, 3\n")
-        free = np.setdiff1d(mesh.mirrored, mesh.held)
-        if len(free):
-            out.write("*NSET, NSET=MIRROR\n")
-            write_ids(out, free)
-            out.write("*BOUNDARY\nMIRROR, %d, %d\n" % (mirror + 1, mirror + 1))
-        out.write("*STEP\n*STATIC\n*DLOAD\nALL, GRAV, %g, %g, %g, %g\n" % (GRAVITY, *load))
-        out.write("*EL PRINT, ELSET=ALL, TOTALS=ONLY\nELSE, EVOL\n*NODE PRINT, NSET=ALL\nU\n*END STEP\n")
-
-
-def run(folder, name, mesh, kind, ratio, load, mirror):
-    """Returns the mean displacement along the load [m], the largest displacement [m] and the volume [m3]."""
-    path = os.path.join(folder, name)
-    write_deck(path + ".inp", mesh, kind, ratio, load, mirror)
-    done = subprocess.run(["ccx", "-i", name], cwd=folder, capture_output=True, text=True, check=False)
-    if "Job finished" not in done.stdout:
-        raise RuntimeError(done.stdout[-2000:])
-    with open(path + ".dat") as lines:
-        text = lines.read()
-    energy = float(re.search(r"total internal energy[^\n]*\n\s*\n?\s*([-+0-9.E]+)", text).group(1))
-    volume = float(re.search(r"total volume[^\n]*\n\s*\n?\s*([-+0-9.E]+)", text).group(1))
-    moved = re.search(r"displacements[^\n]*\n\s*\n(.*?)(\n\s*\n|\Z)", text, re.S).group(1)
-    u = np.array([[float(x) for x in line.split()[1:4]] for line in moved.splitlines()])
-    for end in (".inp", ".dat", ".frd", ".sta", ".cvg", ".12d"):
-        if os.path.exists(path + end):
-            os.remove(path + end)
-    return 2 * energy / (DENSITY * GRAVITY * volume), np.linalg.norm(u, axis=1).max(), volume
+def run(folder, mesh, kind, ratio, load, mirror):
+    """Returns the mean displacement along the load [m], the largest displacement [m] and the volume [m3] of a mesh that
+    hangs under its weight, linear."""
+    solid = types.SimpleNamespace(nodes=mesh.nodes, used=mesh.used, elements={kind: mesh.elements[20], "C3D15": mesh.elements[15]})
+    soft = np.array(getattr(mesh, "soft", ()), int)
+    stiff = np.setdiff1d(np.arange(sum(map(len, solid.elements.values()))), soft)
+    parts = [(ids, young, ratio) for ids, young in ((soft, YOUNG_PA / 10), (stiff, YOUNG_PA)) if len(ids)]
+    deck = calculix.Deck(solid, "linear", parts, density=DENSITY)
+    deck.hold("HELD", mesh.held)
+    deck.hold("MIRROR", np.setdiff1d(mesh.mirrored, mesh.held), (mirror or 0) + 1, (mirror or 0) + 1)
+    deck.static(gravity=GRAVITY * np.array(load), totals="ELSE, EVOL")
+    done = calculix.solve(deck, folder)
+    if not done.ended:
+        raise RuntimeError("CalculiX found no equilibrium")
+    energy, volume = (float(re.search(r"total %s[^\n]*\n\s*\n?\s*([-+0-9.E]+)" % what, done.text).group(1)) for what in ("internal energy", "volume"))
+    moved = np.linalg.norm(done.displacements(len(mesh.nodes))[-1], axis=1)
+    return 2 * energy / (DENSITY * GRAVITY * volume), np.nanmax(moved), volume
 
 
 def limit(coarse, fine):
@@ -248,7 +209,6 @@ def main():
     parser.add_argument("--levels", type=int, nargs="+", default=[1, 2], help="half of the elements across the wall")
     parser.add_argument("names", nargs="*", default=[*ORGANS, "block"])
     asked = parser.parse_args()
-    os.makedirs(asked.work, exist_ok=True)
     rows = []
     for name in asked.names:
         organ = ORGANS.get(name)
@@ -257,7 +217,7 @@ def main():
         for level in asked.levels:
             mesh = Mesh(organ, level) if organ else Block(level)
             for ratio in RATIOS:
-                both = [run(asked.work, "%s_%d" % (name, level), mesh, kind, ratio, load, mirror) for kind in KINDS]
+                both = [run(asked.work, mesh, kind, ratio, load, mirror) for kind in KINDS]
                 found[ratio, level] = [1e3 * mean for mean, _, _ in both]
                 print("%-10s nu %.2f level %d nodes %6d mean %.5f mm by C3D20, %.5f mm by C3D20R, largest %.4f mm, meshed %.4f cm3" %
                       (name, ratio, level, len(mesh.used), *found[ratio, level], 1e3 * both[0][1], 1e6 * both[0][2]), flush=True)

@@ -11,6 +11,7 @@
 #include "model/shape/mesh/box_surface.h"
 #include "model/skin_shapes.h"
 #include "surface/wound_checks.h"
+#include "surface/wounds/wound_cells.h"
 
 namespace viscera::testing {
 namespace {
@@ -182,6 +183,26 @@ TEST(Wound, BallOfPartialCellsIsClosed) {
     expectClosed(ball);
     EXPECT_NEAR(volume(ball, ball.positions(ball.still())) / signedVolume(ball.skin.mesh), 1, kWoundVolume);
   }
+}
+
+/// Bricks beyond the lattice's bounds hold ghosts of rows of nodes (RowGhost), which are no nodes of wounds.
+TEST(Wound, BricksBeyondTheLatticeHaveNoNodes) {
+  Lattice lattice = woundedBox().lattice;
+  constexpr int kEdge = static_cast<int>(layout::kBrickEdge);
+  const int after = (lattice.nodes_per_axis.x() + kEdge - 1) / kEdge;
+  for (const Vector3i& at : {Vector3i(after, 0, 0), Vector3i(0, 0, -1)}) {
+    layout::Brick brick{};
+    brick.coord_x = at.x();
+    brick.coord_z = at.z();
+    lattice.bricks.push_back(brick);
+  }
+  const size_t slots = lattice.bricks.size() * layout::kBrickSlots;
+  lattice.nodes.resize(slots);
+  lattice.labels.resize(slots);
+  lattice.cell_labels.resize(slots);
+  const CutCells cells(lattice);
+  for (const uint32_t slot : lattice.active_slots)
+    EXPECT_EQ(cells.slotAt(lattice.nodeAt(slot)), static_cast<int64_t>(slot));
 }
 
 }  // namespace

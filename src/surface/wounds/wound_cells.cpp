@@ -90,9 +90,9 @@ CutCells::CutCells(const Lattice& lattice)
   bricks_per_axis_ = (lattice.nodes_per_axis.array() + kEdge - 1) / kEdge;
   brick_at_.assign(static_cast<size_t>(bricks_per_axis_.prod()), 0);
   for (size_t b = 0; b < lattice.bricks.size(); ++b) {
-    const layout::Brick& brick = lattice.bricks[b];
-    brick_at_[static_cast<size_t>(brick.coord_x +
-                                  bricks_per_axis_.x() * (brick.coord_y + bricks_per_axis_.y() * brick.coord_z))] =
+    const Vector3i at(lattice.bricks[b].coord_x, lattice.bricks[b].coord_y, lattice.bricks[b].coord_z);
+    if ((at.array() < 0).any() || (at.array() >= bricks_per_axis_.array()).any()) continue;  // of ghosts alone
+    brick_at_[static_cast<size_t>(at.x() + bricks_per_axis_.x() * (at.y() + bricks_per_axis_.y() * at.z()))] =
         static_cast<uint32_t>(b) + 1;
   }
 }
