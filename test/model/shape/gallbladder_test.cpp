@@ -8,10 +8,10 @@
 #include <set>
 
 #include "math/union_find.h"
-#include "mesh_samples.h"
+#include "model/mesh_samples.h"
 #include "model/shape/organ/gallbladder_variant.h"
 #include "model/shape/organ/phantom.h"
-#include "solid_probe.h"
+#include "model/solid_probe.h"
 #include "viscera/math/error.h"
 
 namespace viscera::test {

@@ -38,8 +38,8 @@ struct PartLook {
   const char* name;
   Vector3d color;  ///< sRGB, by eye
 };
-const std::array<PartLook, kPartCount> kGallbladderParts = {{{"liver", {0.45, 0.17, 0.13}},
-                                                             {"liver_capsule", {0.47, 0.18, 0.14}},
+const std::array<PartLook, kPartCount> kGallbladderParts = {{{"liver", {0.56, 0.22, 0.17}},
+                                                             {"liver_capsule", {0.58, 0.23, 0.18}},
                                                              {"gallbladder_bed", {0.80, 0.66, 0.50}},
                                                              {"gallbladder", {0.50, 0.57, 0.44}},
                                                              {"infundibulum", {0.55, 0.60, 0.46}},
@@ -65,7 +65,7 @@ constexpr double kFillet = 1.2, kWideFillet = 3;
 /// centre within 0.87 and takes the part of most of it, so that a strand thinner than a cell is one connected part.
 constexpr double kOwnCells = 1.15;
 
-const Vector3d kLow(-49, -32, kFloor), kHigh(53, 20, 48);
+const Vector3d kLow(-48, -31, kFloor), kHigh(52, 17, 48);
 
 double waves(const Vector3d& p) {
   return (std::sin(0.9 * p.x() + 0.4 * p.z()) + std::sin(0.7 * p.z() - 0.5 * p.x() + 1) +
@@ -187,7 +187,7 @@ Vector3d Gallbladder::onWall(Vector3d p) const {
 
 /// Returns the distance to the liver without the hollow for the gallbladder: a slab with round edges and a wavy face.
 double Gallbladder::liver(const Vector3d& p) const {
-  constexpr double kCorner = 18, kEdge = 6, kMiddle = 8.5;
+  constexpr double kCorner = 18, kEdge = 6, kMiddle = 7;
   const Eigen::Vector2d beyond = Eigen::Vector2d(std::abs(p.x() - 2) - 48, std::abs(p.z() - 16) - 22).array() + kCorner;
   const double outline = beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0) - kCorner;
   const double y = p.y() + 1.2 * std::sin(p.x() / 13 + 0.6) * std::cos(p.z() / 11);
