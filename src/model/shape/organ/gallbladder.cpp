@@ -19,37 +19,38 @@
 namespace viscera {
 namespace {
 
+/// In order of precedence: vertices between parts have the colour of the first, so that strands keep their width.
 enum GallbladderPart : uint16_t {
-  kLiver,
-  kLiverCapsule,
-  kGallbladderBed,
-  kGallbladder,
-  kInfundibulum,
+  kCysticArtery,
+  kHepaticArtery,
   kCysticDuct,
   kCommonHepaticDuct,
   kCommonBileDuct,
-  kHepaticArtery,
-  kCysticArtery,
-  kFatPart,
+  kInfundibulum,
+  kGallbladder,
+  kGallbladderBed,
   kPeritoneum,
+  kFatPart,
+  kLiverCapsule,
+  kLiver,
   kPartCount
 };
 struct PartLook {
   const char* name;
   Vector3d color;  ///< sRGB, by eye
 };
-const std::array<PartLook, kPartCount> kGallbladderParts = {{{"liver", {0.56, 0.22, 0.17}},
-                                                             {"liver_capsule", {0.58, 0.23, 0.18}},
-                                                             {"gallbladder_bed", {0.80, 0.66, 0.50}},
-                                                             {"gallbladder", {0.50, 0.57, 0.44}},
-                                                             {"infundibulum", {0.55, 0.60, 0.46}},
+const std::array<PartLook, kPartCount> kGallbladderParts = {{{"cystic_artery", {0.80, 0.16, 0.14}},
+                                                             {"hepatic_artery", {0.74, 0.13, 0.12}},
                                                              {"cystic_duct", {0.80, 0.78, 0.62}},
                                                              {"common_hepatic_duct", {0.60, 0.66, 0.50}},
                                                              {"common_bile_duct", {0.60, 0.66, 0.50}},
-                                                             {"hepatic_artery", {0.74, 0.13, 0.12}},
-                                                             {"cystic_artery", {0.80, 0.16, 0.14}},
+                                                             {"infundibulum", {0.55, 0.60, 0.46}},
+                                                             {"gallbladder", {0.50, 0.57, 0.44}},
+                                                             {"gallbladder_bed", {0.80, 0.66, 0.50}},
+                                                             {"peritoneum", {0.92, 0.76, 0.52}},
                                                              {"fat", {0.93, 0.78, 0.38}},
-                                                             {"peritoneum", {0.92, 0.76, 0.52}}}};
+                                                             {"liver_capsule", {0.58, 0.23, 0.18}},
+                                                             {"liver", {0.56, 0.22, 0.17}}}};
 
 constexpr double kLength = 80;         ///< from the top of the fundus to the lowest point of the infundibulum
 constexpr double kFar = 7;             ///< wider than any fillet: farther strands have no effect
