@@ -8,10 +8,10 @@
 #include <set>
 
 #include "math/union_find.h"
-#include "mesh_samples.h"
+#include "model/mesh_samples.h"
 #include "model/shape/organ/gallbladder_variant.h"
 #include "model/shape/organ/phantom.h"
-#include "solid_probe.h"
+#include "model/solid_probe.h"
 #include "viscera/math/error.h"
 
 namespace viscera::test {
@@ -26,7 +26,7 @@ constexpr double kCells = 0.0015;
 /// Spacing of samples [m] that measure ducts and vessels.
 constexpr double kStep = 0.0014;
 
-enum Label { kGallbladder = 4, kInfundibulum, kCysticDuct, kHepaticDuct, kBileDuct, kHepaticArtery, kCysticArtery };
+enum Label { kCysticArtery = 1, kHepaticArtery, kCysticDuct, kHepaticDuct, kBileDuct, kInfundibulum, kGallbladder };
 
 Phantom natural(int seed) {
   return gallbladderPhantom(kNatural, 1, seed);

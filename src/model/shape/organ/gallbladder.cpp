@@ -19,37 +19,38 @@
 namespace viscera {
 namespace {
 
+/// In order of precedence: vertices between parts have the colour of the first, so that strands keep their width.
 enum GallbladderPart : uint16_t {
-  kLiver,
-  kLiverCapsule,
-  kGallbladderBed,
-  kGallbladder,
-  kInfundibulum,
+  kCysticArtery,
+  kHepaticArtery,
   kCysticDuct,
   kCommonHepaticDuct,
   kCommonBileDuct,
-  kHepaticArtery,
-  kCysticArtery,
-  kFatPart,
+  kInfundibulum,
+  kGallbladder,
+  kGallbladderBed,
   kPeritoneum,
+  kFatPart,
+  kLiverCapsule,
+  kLiver,
   kPartCount
 };
 struct PartLook {
   const char* name;
   Vector3d color;  ///< sRGB, by eye
 };
-const std::array<PartLook, kPartCount> kGallbladderParts = {{{"liver", {0.45, 0.17, 0.13}},
-                                                             {"liver_capsule", {0.47, 0.18, 0.14}},
-                                                             {"gallbladder_bed", {0.80, 0.66, 0.50}},
-                                                             {"gallbladder", {0.50, 0.57, 0.44}},
-                                                             {"infundibulum", {0.55, 0.60, 0.46}},
+const std::array<PartLook, kPartCount> kGallbladderParts = {{{"cystic_artery", {0.80, 0.16, 0.14}},
+                                                             {"hepatic_artery", {0.74, 0.13, 0.12}},
                                                              {"cystic_duct", {0.80, 0.78, 0.62}},
                                                              {"common_hepatic_duct", {0.60, 0.66, 0.50}},
                                                              {"common_bile_duct", {0.60, 0.66, 0.50}},
-                                                             {"hepatic_artery", {0.74, 0.13, 0.12}},
-                                                             {"cystic_artery", {0.80, 0.16, 0.14}},
+                                                             {"infundibulum", {0.55, 0.60, 0.46}},
+                                                             {"gallbladder", {0.50, 0.57, 0.44}},
+                                                             {"gallbladder_bed", {0.80, 0.66, 0.50}},
+                                                             {"peritoneum", {0.92, 0.76, 0.52}},
                                                              {"fat", {0.93, 0.78, 0.38}},
-                                                             {"peritoneum", {0.92, 0.76, 0.52}}}};
+                                                             {"liver_capsule", {0.58, 0.23, 0.18}},
+                                                             {"liver", {0.56, 0.22, 0.17}}}};
 
 constexpr double kLength = 80;         ///< from the top of the fundus to the lowest point of the infundibulum
 constexpr double kFar = 7;             ///< wider than any fillet: farther strands have no effect
@@ -65,7 +66,7 @@ constexpr double kFillet = 1.2, kWideFillet = 3;
 /// centre within 0.87 and takes the part of most of it, so that a strand thinner than a cell is one connected part.
 constexpr double kOwnCells = 1.15;
 
-const Vector3d kLow(-49, -32, kFloor), kHigh(53, 20, 48);
+const Vector3d kLow(-48, -31, kFloor), kHigh(52, 17, 48);
 
 double waves(const Vector3d& p) {
   return (std::sin(0.9 * p.x() + 0.4 * p.z()) + std::sin(0.7 * p.z() - 0.5 * p.x() + 1) +
@@ -187,7 +188,7 @@ Vector3d Gallbladder::onWall(Vector3d p) const {
 
 /// Returns the distance to the liver without the hollow for the gallbladder: a slab with round edges and a wavy face.
 double Gallbladder::liver(const Vector3d& p) const {
-  constexpr double kCorner = 18, kEdge = 6, kMiddle = 8.5;
+  constexpr double kCorner = 18, kEdge = 6, kMiddle = 7;
   const Eigen::Vector2d beyond = Eigen::Vector2d(std::abs(p.x() - 2) - 48, std::abs(p.z() - 16) - 22).array() + kCorner;
   const double outline = beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0) - kCorner;
   const double y = p.y() + 1.2 * std::sin(p.x() / 13 + 0.6) * std::cos(p.z() / 11);

@@ -49,8 +49,9 @@ constexpr int kMostPhantomSeed = 1000000;
 /// Returns a gallbladder on the liver, with its ducts, vessels, fat and peritoneum. Seen from the front, by a camera
 /// that looks along +y with z up, the liver is lifted: the fundus points to +z, and the common duct is at +x, the
 /// patient's left. It ends at a plane below, where ducts and vessels are to be fixed. The gallbladder and the common
-/// duct are hollow; strands thinner than a cell are solid. Parts: liver, liver_capsule, gallbladder_bed, gallbladder,
-/// infundibulum, cystic_duct, common_hepatic_duct, common_bile_duct, hepatic_artery, cystic_artery, fat, peritoneum.
+/// duct are hollow; strands thinner than a cell are solid. Parts: cystic_artery, hepatic_artery, cystic_duct,
+/// common_hepatic_duct, common_bile_duct, infundibulum, gallbladder, gallbladder_bed, peritoneum, fat, liver_capsule,
+/// liver.
 /// @param length_m    of the gallbladder from the top of its fundus to the lowest point of its infundibulum [m],
 /// 0.01..1;
 ///                    all sizes follow it. docs/user_guide.md has those at 0.08
