@@ -23,7 +23,6 @@ struct Phantom {
   /// Returns the field for cells of a spacing [m]: the same solid, in which strands thinner than a cell own all tissue
   /// of the cells that their axis passes through. Null: `field`.
   std::function<DistanceField(double spacing_m)> field_for_cells;
-  DistanceField rounded;  ///< the same with round rims of vessels, which a surface mesh shows without notches
   std::vector<std::string> part_names;
   std::vector<Vector3d> part_colors;  ///< sRGB of each part; empty: parts have the body's colour
   Vector3d min_m, max_m;              ///< box around the tissue
@@ -52,9 +51,8 @@ constexpr int kMostPhantomSeed = 1000000;
 /// duct are hollow; strands thinner than a cell are solid. Parts: cystic_artery, hepatic_artery, cystic_duct,
 /// common_hepatic_duct, common_bile_duct, infundibulum, gallbladder, gallbladder_bed, peritoneum, fat, liver_capsule,
 /// liver.
-/// @param length_m    of the gallbladder from the top of its fundus to the lowest point of its infundibulum [m],
-/// 0.01..1;
-///                    all sizes follow it. docs/user_guide.md has those at 0.08
+/// @param length_m    from the top of the fundus to the lowest point of the infundibulum [m], 0.01..1; all sizes follow
+///                    it. docs/user_guide.md has those at 0.08
 /// @param wall_scale  multiplies the walls of the gallbladder and the common duct, 0.1..2
 /// @param seed        variant (gallbladder_variant.h), 0..kMostPhantomSeed
 /// @throws SceneError  a parameter out of its range
