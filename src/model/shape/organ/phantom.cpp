@@ -35,7 +35,6 @@ constexpr double kBase = 1;            ///< z of the valves
 constexpr double kBlend = 0.05;        ///< width over which walls merge
 constexpr double kRim = 0.08;          ///< rounding of the ventricles at the base
 constexpr double kSeptumWall = 0.1;    ///< thickness between the ventricles
-constexpr double kRoundRim = 0.5;      ///< width of a round rim, over the thinnest wall
 constexpr double kLumenOverrun = 0.2;  ///< distance by which a lumen is cut past the end of its vessel
 
 /// Chamber or lumen of a vessel, with the wall around it.
@@ -58,9 +57,9 @@ struct Cavity {
     return smoothMax(shell, floor, kRim);
   }
 
-  /// Returns the distance to the cavity with a wall around it; a vessel is open at its end. @param rim  see Tube
-  double wrapped(const Vector3d& p, double thickness, double rim) const {
-    if (kind == Kind::kVessel) return tube.distance(p, thickness, rim);
+  /// Returns the distance to the cavity with a wall around it; a vessel is open at its end.
+  double wrapped(const Vector3d& p, double thickness) const {
+    if (kind == Kind::kVessel) return tube.distance(p, thickness);
     return grown(p, thickness);
   }
 
@@ -112,8 +111,7 @@ const Tube& septalDefect() {
 /// Heart with its apex at (0, 0, 0) of its own frame, in fractions of its length.
 class Heart {
  public:
-  /// @param rim  width over which rims of vessels are round
-  explicit Heart(double wall_scale, double rim = 0) : wall_scale_(wall_scale), rim_(rim) {}
+  explicit Heart(double wall_scale) : wall_scale_(wall_scale) {}
 
   LabelledDistance at(const Vector3d& p) const {
     double outside = std::numeric_limits<double>::infinity(), hollow = outside;
@@ -126,14 +124,14 @@ class Heart {
       const Cavity& cavity = all[i];
       const double own = cavity.grown(p, 0), distance = hollowOf(i, own, p), depth = distance / cavity.wall;
       if (i <= kRightVentricle) ventricles[i] = own;
-      outside = smoothMin(outside, cavity.wrapped(p, wall_scale_ * cavity.wall, rim_), wall_scale_ * kBlend);
+      outside = smoothMin(outside, cavity.wrapped(p, wall_scale_ * cavity.wall), wall_scale_ * kBlend);
       hollow = std::min(hollow, distance);
       if (depth >= least_depth) continue;
       least_depth = depth;
       part = cavity.part;
     }
     hollow = std::min(hollow, septalDefect().distance(p));
-    return {smoothMax(outside, -hollow, rim_), isSeptum(ventricles) ? uint16_t{kSeptum} : part};
+    return {std::max(outside, -hollow), isSeptum(ventricles) ? uint16_t{kSeptum} : part};
   }
 
  private:
@@ -158,7 +156,7 @@ class Heart {
   }
 
   static constexpr double kFar = 0.15;  ///< farther from a cavity than any wall is thick, its shape has no effect
-  double wall_scale_, rim_;
+  double wall_scale_;
 };
 
 /// Returns the rotation of the heart's axis: the apex points down, to the patient's left and forward.
@@ -240,15 +238,11 @@ Phantom heartPhantom(double length_m, double wall_scale) {
   phantom.defect_from_m = position(defect.from());
   phantom.defect_to_m = position(defect.to());
   phantom.defect_radius_m = length_m * defect.radius();
-  const auto fieldOf = [=](const Heart& shape) {
-    return [heart = shape, upright = tilt().conjugate(), middle, length_m](const Vector3d& point_m) {
-      LabelledDistance at = heart.at(upright * (point_m / length_m + middle));
-      at.distance_m *= length_m;
-      return at;
-    };
+  phantom.field = [heart = Heart(wall_scale), upright = tilt().conjugate(), middle, length_m](const Vector3d& point_m) {
+    LabelledDistance at = heart.at(upright * (point_m / length_m + middle));
+    at.distance_m *= length_m;
+    return at;
   };
-  phantom.field = fieldOf(Heart(wall_scale));
-  phantom.rounded = fieldOf(Heart(wall_scale, kRoundRim * phantom.walls.front().thickness_m / length_m));
   return phantom;
 }
 

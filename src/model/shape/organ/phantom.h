@@ -19,7 +19,6 @@ struct Wall {
 /// Built-in organ that needs no download: a distance field with its bounds and part names.
 struct Phantom {
   DistanceField field;
-  DistanceField rounded;  ///< the same with round rims of vessels, which a surface mesh shows without notches
   std::vector<std::string> part_names;
   Vector3d min_m, max_m;  ///< box around the tissue
   /// A point in each chamber: left and right ventricle, left and right atrium.

@@ -45,10 +45,10 @@ class Tube {
   const Vector3d& axis() const { return axis_; }
   double radius() const { return radius_; }
 
-  /// Returns the distance to the tube with a radius larger by `margin`. @param rim  width over which its ends are round
-  double distance(const Vector3d& p, double margin = 0, double rim = 0) const {
+  /// Returns the distance to the tube with a radius larger by `margin`.
+  double distance(const Vector3d& p, double margin = 0) const {
     const double along = (p - from_).dot(axis_), aside = (p - from_ - along * axis_).norm();
-    return smoothMax(aside - (radius_ + margin), std::max(-along, along - length_), rim);
+    return std::max(aside - (radius_ + margin), std::max(-along, along - length_));
   }
 
  private:

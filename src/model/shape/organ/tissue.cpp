@@ -110,7 +110,6 @@ class PhantomTissue : public Tissue {
     phantom_.min_m = box.min();
     phantom_.max_m = box.max();
     phantom_.field = movedField(phantom_.field, pose);
-    phantom_.rounded = movedField(phantom_.rounded, pose);
     planes_ = clampPlanes(config, bounds());
   }
 
@@ -126,7 +125,7 @@ class PhantomTissue : public Tissue {
     if (skin_spacing_m_ > 0) spacing_m = std::min(spacing_m, skin_spacing_m_);
     for (const Wall& wall : phantom_.walls)
       if (moments_) spacing_m = std::min(spacing_m, kSkinInWall * wall.thickness_m);
-    return extractSkin(phantom_.rounded, phantom_.part_names, phantom_.min_m, phantom_.max_m, spacing_m);
+    return shell(spacing_m);
   }
   TriangleMesh shell(double spacing_m) const override {
     return extractSkin(phantom_.field, phantom_.part_names, phantom_.min_m, phantom_.max_m, spacing_m);
