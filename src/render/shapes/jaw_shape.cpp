@@ -71,7 +71,7 @@ std::vector<Station> toothed(float length, float unit, int teeth, float half_y) 
   std::vector<Station> out = {{0, kCrest * unit, 0.3F * unit, -0.3F * unit, 0.3F * unit}};
   const auto at = [&](float share, float inner) {
     const float half = unit * between(0.8F, 1, std::min(8 * share, 1.F)) * half_y;
-    out.push_back({share * length, inner, unit * between(1.1F, 2.1F, share), -half, half});
+    out.push_back({share * length, inner, unit * between(1.45F, 2.2F, share), -half, half});
   };
   at(kPoint, kCrest * unit);
   for (int tooth = 0; tooth < teeth; ++tooth) {

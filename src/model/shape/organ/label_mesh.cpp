@@ -45,7 +45,9 @@ TriangleMesh labelMesh(const BodyConfig& config, const std::string& folder, std:
     std::vector<uint8_t> all;
     for (size_t n = 1; n < map.names.size(); ++n) all.push_back(static_cast<uint8_t>(n));
     notes.push_back(noteOf(path, map, net));
-    return labelSurfaces(net, map.names, all);
+    TriangleMesh mesh = labelSurfaces(net, map.names, all);
+    if (!config.textures) mesh.detail.reset();
+    return mesh;
   } catch (const SceneError& error) {
     throw SceneError("body '" + config.name + "': scan: " + error.what());
   }
@@ -63,6 +65,7 @@ TriangleMesh withoutSharedBorders(const TriangleMesh& mesh) {
   std::vector<uint32_t> number(mesh.positions_m.size(), kUnused);
   TriangleMesh out;
   out.part_names = mesh.part_names;
+  out.detail = mesh.detail;
   for (size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (parts_at.at(corners(t)) > 1) continue;
     std::array<uint32_t, 3> triangle = mesh.triangles[t];
