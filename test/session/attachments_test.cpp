@@ -160,7 +160,7 @@ TEST(AttachmentSession, FibresOfCutCellsStayWithTheirPieces) {
 TEST(AttachmentSession, BurnsPartFibres) {
   Session session(
       parseScene(kPeel, "peel.yaml", {"styluses[0].button1=cautery", "styluses[0].cautery.radius_m=0.002"}));
-  for (int t = 0; t < 200; ++t) {
+  for (int t = 0; t < 160; ++t) {
     StylusSamples samples;
     samples[0].valid = samples[0].button1 = true;
     samples[0].pose.position_m = {0.0305, 0, 0};

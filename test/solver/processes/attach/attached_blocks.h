@@ -6,6 +6,7 @@
 
 #include "math/number_text.h"
 #include "math/vec4.h"
+#include "solver/processes/process.h"
 #include "viscera/model/model.h"
 #include "viscera/model/scene/scene.h"
 #include "viscera/solver/solver.h"
