@@ -5,7 +5,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <cstdlib>
 
 #include "session/block_session.h"
 #include "support/temporary_folder.h"
@@ -33,8 +32,9 @@ environment: {gravity_m_per_s2: [0, 0, 0]}
 solver: {backend: cpu, threads: 1, tick_hz: 100}
 )";
 
-constexpr double kWidth_m = 0.012, kToughness_j_per_m2 = 20, kArm_m = 0.016, kSpeed_m_per_s = 0.04, kTick_s = 0.01;
-constexpr double kPath_m = 0.026;         ///< by which the strip is peeled
+constexpr double kWidth_m = 0.012, kPeelToughness_j_per_m2 = 20, kArm_m = 0.016, kSpeed_m_per_s = 0.04, kTick_s = 0.01;
+constexpr double kPeeled = 0.1;    ///< share of the force: the claim of docs/physics.md 17; the strip stretches by 5 %
+constexpr double kPath_m = 0.026;  ///< by which the strip is peeled
 const Vector3d kFront(-0.014, 0, 0.002);  ///< the strip above the border of the bed
 
 /// Returns the stylus that turns the end of the strip up by 90 degrees, then moves so that it stays upright over the
@@ -53,37 +53,24 @@ StylusSamples peel(int tick) {
 constexpr int kArcTicks = static_cast<int>(0.5 * 3.14159265 * kArm_m / kSpeed_m_per_s / kTick_s) + 1;
 constexpr int kPathTicks = static_cast<int>(kPath_m / kSpeed_m_per_s / kTick_s);
 
-double fact(const Session& session, const char* name) {
+double attachedFact(const Session& session, const char* name) {
   return std::get<double>(*findFact(session.facts(), "attachments", name));
 }
 
 TEST(AttachmentSession, PeelingTakesToughnessTimesWidth) {
-  Overrides overrides;
-  if (const char* more = std::getenv("PEEL")) {
-    std::istringstream words(more);
-    for (std::string word; words >> word;) overrides.push_back(word);
-  }
-  Session session(parseScene(kPeel, "peel.yaml", overrides));
-  double sum_n = 0, sum2 = 0, before_j = 0;
+  Session session(parseScene(kPeel, "peel.yaml"));
+  double sum_n = 0;
   int count = 0;
   for (int t = 1; t <= kArcTicks + kPathTicks; ++t) {
     const Frame frame = session.step(peel(t), {});
     const Vector3d force_n = -frame.reactions[0].force_n;
-    const int on = t - kArcTicks;
-    if (on < kPathTicks / 2) {
-      before_j = fact(session, "spent_j");
-      continue;
-    }
+    if (t - kArcTicks < kPathTicks / 2) continue;
     sum_n += force_n.x() + force_n.z();
-    sum2 += std::pow(force_n.x() + force_n.z(), 2);
     ++count;
   }
   const double mean_n = sum_n / count;
-  std::printf("mean force %.4f N, expected %.4f: %+.1f %%; sd %.3f; torn %.3f of G w path\n", mean_n,
-              kToughness_j_per_m2 * kWidth_m, 100 * (mean_n / (kToughness_j_per_m2 * kWidth_m) - 1),
-              std::sqrt(sum2 / count - mean_n * mean_n),
-              (fact(session, "spent_j") - before_j) / (kToughness_j_per_m2 * kWidth_m * kPath_m / 2));
-  EXPECT_NEAR(mean_n, kToughness_j_per_m2 * kWidth_m, 0.1 * kToughness_j_per_m2 * kWidth_m);
+  // The work of the hand over the path of the front, which is as long along x and along z.
+  EXPECT_NEAR(mean_n, kPeelToughness_j_per_m2 * kWidth_m, kPeeled * kPeelToughness_j_per_m2 * kWidth_m);
   EXPECT_EQ(session.drain().health.trips, 0U);
 }
 
@@ -98,7 +85,7 @@ TEST(AttachmentSession, SavedHalfWayThroughAPeelGoesOnAsItWas) {
   }
   whole.save(folder.file("half"));
   resumed.restore(folder.file("half"));
-  EXPECT_GT(fact(resumed, "spent_j"), 0);
+  EXPECT_GT(attachedFact(resumed, "spent_j"), 0);
   for (int t = half + 1; t <= end; ++t) {
     for (Session* session : {&whole, &again, &resumed}) session->step(peel(t), {});
   }
@@ -108,7 +95,7 @@ TEST(AttachmentSession, SavedHalfWayThroughAPeelGoesOnAsItWas) {
   whole.reset();
   EXPECT_NE(whole.stateHash(), before);
   EXPECT_EQ(whole.stateHash(), Session(parseScene(kPeel, "peel.yaml")).stateHash());
-  EXPECT_EQ(fact(whole, "spent_j"), 0);
+  EXPECT_EQ(attachedFact(whole, "spent_j"), 0);
 }
 
 /// Returns a fact of the first attachment.
@@ -160,7 +147,7 @@ TEST(AttachmentSession, FibresOfCutCellsStayWithTheirPieces) {
 TEST(AttachmentSession, BurnsPartFibres) {
   Session session(
       parseScene(kPeel, "peel.yaml", {"styluses[0].button1=cautery", "styluses[0].cautery.radius_m=0.002"}));
-  for (int t = 0; t < 200; ++t) {
+  for (int t = 0; t < 160; ++t) {
     StylusSamples samples;
     samples[0].valid = samples[0].button1 = true;
     samples[0].pose.position_m = {0.0305, 0, 0};

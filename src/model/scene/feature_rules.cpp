@@ -99,7 +99,7 @@ constexpr Rule kRules[] = {
      in(Integrator::kLeapfrog), in(Backend::kAuto, Backend::kCpu), false},
     {"a stylus with mode cautery", nullptr, [](const Scene& scene) { return mayBurn(scene.styluses); }, kAll,
      in(Integrator::kLeapfrog)},
-    {"attachments", nullptr, [](const Scene& scene) { return !scene.attachments.empty(); }, kAll,
+    {"attachments", nullptr, [](const Scene& scene) { return !scene.attachments.empty(); }, in(Structure::kLattice),
      in(Integrator::kLeapfrog), in(Backend::kAuto, Backend::kCpu), true,
      "fibres would have to wait for a GPU in every substep"},
     {"material.stiffening above 0", [](const BodyConfig& b) { return b.material.stiffening > 0; }, nullptr,

@@ -15,9 +15,9 @@ namespace viscera {
 
 namespace {
 
-constexpr double kNothingLeft = 0.02;  // share of strength below which a burnt fibre is parted
-constexpr double kBurnSeen = 1e-3;     // smallest change of that share
-constexpr double kSquare_mm = 1e6;     // mm2 per m2
+constexpr double kNothingLeft = 0.1;  // share of strength below which a burnt fibre is parted
+constexpr double kBurnSeen = 1e-3;    // smallest change of that share
+constexpr double kSquare_mm = 1e6;    // mm2 per m2
 
 bool isSame(const layout::NodeBits& a, const layout::NodeBits& b) {
   return a.lo == b.lo && a.hi == b.hi;

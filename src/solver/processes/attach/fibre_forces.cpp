@@ -32,22 +32,42 @@ void FibreForces::embed(const std::vector<Fibre>& fibres) {
   std::sort(slots_.begin(), slots_.end());
   slots_.erase(std::unique(slots_.begin(), slots_.end()), slots_.end());
   for (uint32_t i = 0; i < slots_.size(); ++i) node_of_[slots_[i]] = i;
-  starts_.assign(1, 0);
-  terms_.clear();
-  first_ends_.clear();
-  for (const Fibre& fibre : fibres) {
+  patches_.clear();
+  patch_of_.clear();
+  nodes_.clear();
+  weights_.clear();
+  std::vector<uint32_t> nodes;
+  for (uint32_t f = 0; f < fibres.size(); ++f) {
+    nodes.clear();
+    const auto before = static_cast<uint32_t>(weights_.size());
+    uint32_t first_ends = 0;
     for (size_t e = 0; e < 2; ++e) {
-      if (e == 1) first_ends_.push_back(static_cast<uint32_t>(terms_.size()));
-      const TissuePoint& end = fibre.ends[e];
+      const TissuePoint& end = fibres[f].ends[e];
       for (uint32_t c = 0; c < end.count; ++c) {
-        if (end.weights[c] != 0) terms_.push_back({node_of_[end.slots[c]], e == 0 ? -end.weights[c] : end.weights[c]});
+        if (end.weights[c] == 0) continue;
+        nodes.push_back(node_of_[end.slots[c]]);
+        weights_.push_back(e == 0 ? -end.weights[c] : end.weights[c]);
       }
+      if (e == 0) first_ends = static_cast<uint32_t>(nodes.size());
     }
-    starts_.push_back(static_cast<uint32_t>(terms_.size()));
+    if (!addToPatch(f, nodes)) {
+      patches_.push_back(
+          {f, f + 1, static_cast<uint32_t>(nodes_.size()), static_cast<uint32_t>(nodes.size()), first_ends, before});
+      nodes_.insert(nodes_.end(), nodes.begin(), nodes.end());
+    }
+    patch_of_.push_back(static_cast<uint32_t>(patches_.size() - 1));
   }
   secant_n_per_m_.assign(fibres.size(), 0);
   grows_m2_.assign(fibres.size(), std::numeric_limits<float>::max());
   u_m_.assign(slots_.size(), Eigen::Array4f::Zero());
+}
+
+/// Adds a fibre to the last patch. @returns whether it has the same nodes
+bool FibreForces::addToPatch(uint32_t fibre, const std::vector<uint32_t>& nodes) {
+  if (patches_.empty() || patches_.back().nodes != nodes.size()) return false;
+  if (!std::equal(nodes.begin(), nodes.end(), nodes_.begin() + patches_.back().first_node)) return false;
+  patches_.back().last = fibre + 1;
+  return true;
 }
 
 void FibreForces::setSecant(size_t fibre, double secant_n_per_m, double grows_m) {
@@ -63,14 +83,21 @@ void FibreForces::read(const TissuePort& port, double undone_s) {
   for (size_t i = 0; i < slots_.size(); ++i) u_m_[i].head<3>() = (read_u_[i] - back_s * read_v_[i]).array();
 }
 
+/// Sums over nodes of a fibre's patch.
+Vector3d FibreForces::sumOver(size_t fibre, uint32_t first_node, uint32_t last_node) const {
+  const Patch& patch = patches_[patch_of_[fibre]];
+  const float* const weights = &weights_[patch.first_weight + (fibre - patch.first) * patch.nodes];
+  Eigen::Array4f out = Eigen::Array4f::Zero();
+  for (uint32_t i = first_node; i < last_node; ++i) out += weights[i] * u_m_[nodes_[patch.first_node + i]];
+  return out.head<3>().cast<double>();
+}
+
 Vector3d FibreForces::gap_m(size_t fibre) const {
-  return gapOf(fibre).head<3>().cast<double>();
+  return sumOver(fibre, 0, patches_[patch_of_[fibre]].nodes);
 }
 
 Vector3d FibreForces::firstEnd_m(size_t fibre) const {
-  Eigen::Array4f out = Eigen::Array4f::Zero();
-  for (uint32_t t = starts_[fibre]; t < first_ends_[fibre]; ++t) out -= terms_[t].weight * u_m_[terms_[t].node];
-  return out.head<3>().cast<double>();
+  return -sumOver(fibre, 0, patches_[patch_of_[fibre]].first_ends);
 }
 
 Vector3d FibreForces::displacement_m(uint32_t slot) const {

@@ -38,14 +38,23 @@ class FibreForces {
   void pull(const Grow& grow) {
     impulse_.assign(slots_.size(), Eigen::Array4f::Zero());
     stored_j_ = 0;
-    for (size_t f = 0; f < count(); ++f) {
-      if (secant_n_per_m_[f] == 0) continue;
-      const Eigen::Array4f gap = gapOf(f);
-      const float squared = gap.matrix().squaredNorm();
-      if (squared > grows_m2_[f]) grow(f, Vector3d(gap.head<3>().cast<double>()));
-      stored_j_ += 0.5 * static_cast<double>(secant_n_per_m_[f] * squared);
-      const Eigen::Array4f force = secant_n_per_m_[f] * gap;
-      for (uint32_t t = starts_[f]; t < starts_[f + 1]; ++t) impulse_[terms_[t].node] -= terms_[t].weight * force;
+    Nodal u_m, force_n;
+    for (const Patch& patch : patches_) {
+      for (uint32_t i = 0; i < patch.nodes; ++i) {
+        u_m[i] = u_m_[nodes_[patch.first_node + i]];
+        force_n[i].setZero();
+      }
+      const float* weights = &weights_[patch.first_weight];
+      for (uint32_t f = patch.first; f < patch.last; ++f, weights += patch.nodes) {
+        if (secant_n_per_m_[f] == 0) continue;
+        const Eigen::Array4f gap = weighted(patch.nodes, weights, u_m);
+        const float squared = gap.matrix().squaredNorm();
+        if (squared > grows_m2_[f]) grow(f, Vector3d(gap.head<3>().cast<double>()));
+        stored_j_ += 0.5 * static_cast<double>(secant_n_per_m_[f] * squared);
+        const Eigen::Array4f force = secant_n_per_m_[f] * gap;
+        for (uint32_t i = 0; i < patch.nodes; ++i) force_n[i] -= weights[i] * force;
+      }
+      for (uint32_t i = 0; i < patch.nodes; ++i) impulse_[nodes_[patch.first_node + i]] += force_n[i];
     }
   }
   /// Writes the impulses. @returns  work on the tissue [J]
@@ -53,22 +62,34 @@ class FibreForces {
   double stored_j() const { return stored_j_; }  ///< elastic energy at the last pull()
 
  private:
-  struct Term {
-    uint32_t node;  ///< index into slots_
-    float weight;   ///< negative in the first body
+  using Nodal = std::array<Eigen::Array4f, 2 * TissuePoint::kMost>;
+  /// Fibres that follow each other with the same nodes.
+  struct Patch {
+    uint32_t first, last;                    ///< fibres, without the last
+    uint32_t first_node, nodes, first_ends;  ///< index into nodes_; number of nodes, and of those in the first body
+    uint32_t first_weight;                   ///< index into weights_
   };
-  Eigen::Array4f gapOf(size_t fibre) const {
-    Eigen::Array4f out = Eigen::Array4f::Zero();
-    for (uint32_t t = starts_[fibre]; t < starts_[fibre + 1]; ++t) out += terms_[t].weight * u_m_[terms_[t].node];
-    return out;
+  /// Returns the sum of weights times vectors.
+  static Eigen::Array4f weighted(uint32_t count, const float* weights, const Nodal& vectors) {
+    Eigen::Array4f even = Eigen::Array4f::Zero(), odd = Eigen::Array4f::Zero();
+    uint32_t i = 0;
+    for (; i + 1 < count; i += 2) {
+      even += weights[i] * vectors[i];
+      odd += weights[i + 1] * vectors[i + 1];
+    }
+    if (i < count) even += weights[i] * vectors[i];
+    return even + odd;
   }
+  Vector3d sumOver(size_t fibre, uint32_t first_node, uint32_t last_node) const;
+  bool addToPatch(uint32_t fibre, const std::vector<uint32_t>& nodes);
 
   std::vector<float> inverse_mass_, mass_kg_;  ///< [slots of the model]; inverse 0 for fixed and missing nodes
   std::vector<uint32_t> node_of_;              ///< [slots of the model] index into slots_, valid for those in it
   std::vector<uint32_t> slots_;                ///< slots of the nodes, ascending
-  std::vector<uint32_t> starts_;               ///< [fibres + 1]
-  std::vector<Term> terms_;
-  std::vector<uint32_t> first_ends_;              ///< [fibres] index of the first term of the second body
+  std::vector<Patch> patches_;
+  std::vector<uint32_t> patch_of_;                ///< [fibres]
+  std::vector<uint32_t> nodes_;                   ///< of patches: indices into slots_
+  std::vector<float> weights_;                    ///< of fibres: one per node of the patch, negative in the first body
   std::vector<float> secant_n_per_m_, grows_m2_;  ///< [fibres]
   double stored_j_ = 0;
   // Data of a substep, by node; the fourth number is 0.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "math/number_text.h"
 #include "model/shape/mesh/triangle_tree.h"
@@ -18,12 +19,13 @@ namespace viscera {
 
 namespace {
 
-constexpr double kPerSpacing = 2;   // fibres along an edge of a cell of the finer body
-constexpr double kStiffest = 10;    // stiffness over Young's modulus per spacing: costs 1 % of compliance
-constexpr double kMostReach = 2;    // finer spacings: an end is at most one spacing outside its cell
-constexpr double kAhead = 0.7;      // cosine: largest angle between a surface's normal and the other surface
-constexpr double kOnBorder = 1e-6;  // of a spacing: a position this near to a cell's border is on it
-constexpr double kInside = 1e-3;    // of a spacing: distance of a seat from the border of its cell
+constexpr double kPerSpacing = 2;     // fibres along an edge of a cell of the finer body
+constexpr double kStiffest = 10;      // stiffness over Young's modulus per spacing: costs 1 % of compliance
+constexpr double kMostReach = 2;      // finer spacings: an end is at most one spacing outside its cell
+constexpr double kAhead = 0.7;        // cosine: largest angle between a surface's normal and the other surface
+constexpr double kNearBorder = 1e-4;  // of a spacing: a fibre this near to a cell's border is moved onto it
+constexpr double kOnBorder = 1e-6;    // of a spacing: a position this near to a cell's border is on it
+constexpr double kInside = 1e-3;      // of a spacing: distance of a seat from the border of its cell
 /// Stiffness of fibres on a node over its mass, in the squared frequency of safeTimeStep(), which is 2.6 times that of
 /// the fastest mode of a block at nu = 0.45.
 constexpr double kBudget = 1;
@@ -83,7 +85,7 @@ class Facing {
       there += static_cast<double>(found.weights[static_cast<Eigen::Index>(c)]) * corners[c];
     }
     const Vector3d facing = (corners[1] - corners[0]).cross(corners[2] - corners[0]), gap = there - sample.at_m;
-    const bool close = gap.norm() < kOnBorder * spacing_m_;
+    const bool close = gap.norm() < kNearBorder * spacing_m_;
     if (facing.dot(sample.normal) >= 0 || (!close && std::abs(gap.dot(sample.normal)) < kAhead * gap.norm()))
       return std::nullopt;
     Fibre out;
@@ -93,10 +95,13 @@ class Facing {
     const std::array<std::pair<uint32_t, Vector3d>, 2> sides = {{{fine_, sample.at_m}, {coarse_, there}}};
     for (size_t s = 0; s < 2; ++s) {
       const std::optional<Vector3d> seat = cells_.seatNear(sides[s].first, sides[s].second);
-      const std::optional<TissuePoint> end =
-          seat ? cells_.carry(sides[s].first, *seat, out.rest_m, {}) : std::optional<TissuePoint>();
-      if (!end) return std::nullopt;
+      if (!seat) return std::nullopt;
       out.seats_m[s] = *seat;
+      out.rest_m = cells_.onBorder(sides[s].first, *seat, out.rest_m);
+    }
+    for (size_t s = 0; s < 2; ++s) {
+      const std::optional<TissuePoint> end = cells_.carry(sides[s].first, out.seats_m[s], out.rest_m, {});
+      if (!end) return std::nullopt;
       out.ends[s] = *end;
     }
     return out;
@@ -207,6 +212,18 @@ std::optional<Vector3d> FibreCells::seatNear(uint32_t body, const Vector3d& at_m
          model_.bodies[body].lattice.spacing_m * t;
 }
 
+Vector3d FibreCells::onBorder(uint32_t body, const Vector3d& seat_m, const Vector3d& at_m) const {
+  const std::optional<TissuePoint> around = elements_[body].embed(seat_m, {});
+  if (!around) return at_m;
+  const Vector3d t = inCell(*around, at_m);
+  Vector3d out = at_m;
+  for (int a = 0; a < 3; ++a) {
+    const double off = std::round(t[a]) - t[a];
+    if (std::abs(off) < kNearBorder) out[a] += off * model_.bodies[body].lattice.spacing_m;
+  }
+  return out;
+}
+
 Eigen::Matrix<double, 8, 3> FibreCells::slopes(const TissuePoint& point) const {
   const Vector3d t = inCell(point, point.rest_m);
   Eigen::Matrix<double, 8, 3> out;
@@ -249,6 +266,11 @@ std::vector<Fibre> growFibres(const Scene& scene, const Model& model, const Fibr
                        "' face each other within reach_m = " + numberText(config.reach_m) +
                        " m at rest; the nearest point is " + numberText(facing.nearest_m(), 3) + " m away");
   }
+  // Fibres between the same two cells follow each other: FibreForces handles them together.
+  std::stable_sort(out.begin(), out.end(), [](const Fibre& a, const Fibre& b) {
+    return std::make_tuple(a.attachment, a.ends[0].slots[0], a.ends[1].slots[0]) <
+           std::make_tuple(b.attachment, b.ends[0].slots[0], b.ends[1].slots[0]);
+  });
   keepBudget(model, out);
   for (Fibre& fibre : out) {
     const AttachmentConfig& config = scene.attachments[fibre.attachment];

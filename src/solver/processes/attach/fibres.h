@@ -37,8 +37,11 @@ class FibreCells {
   /// cut and there is no whole one on the seat's side
   std::optional<TissuePoint> carry(uint32_t body, const Vector3d& seat_m, const Vector3d& rest_m,
                                    const CutSprings& cuts) const;
-  /// Returns the nearest position within a cell's tissue.
+  /// Returns the nearest position within a cell of a body.
   std::optional<Vector3d> seatNear(uint32_t body, const Vector3d& at_m) const;
+  /// Returns a position, moved onto the border of the cell around a seat if it is as good as on it: then four nodes
+  /// carry it instead of eight.
+  Vector3d onBorder(uint32_t body, const Vector3d& seat_m, const Vector3d& at_m) const;
   /// Returns the derivatives of the weights by position: columns for x, y, z [1/m].
   Eigen::Matrix<double, 8, 3> slopes(const TissuePoint& point) const;
 

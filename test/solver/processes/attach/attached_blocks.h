@@ -6,21 +6,22 @@
 
 #include "math/number_text.h"
 #include "math/vec4.h"
+#include "solver/processes/process.h"
 #include "viscera/model/model.h"
 #include "viscera/model/scene/scene.h"
 #include "viscera/solver/solver.h"
 
 namespace viscera::test {
 
-inline std::string textOf(const Vector3d& v) {
+inline std::string listText(const Vector3d& v) {
   return "[" + exactText(v.x()) + ", " + exactText(v.y()) + ", " + exactText(v.z()) + "]";
 }
 
 /// Returns a body: a box of tissue with its lower face at a height.
 inline std::string boxText(const std::string& name, const Vector3d& size_m, double low_m, double spacing_m,
                            const std::string& more) {
-  return "  - {name: " + name + ", source: box, box_size_m: " + textOf(size_m) +
-         ", position_m: " + textOf({0, 0, low_m + 0.5 * size_m.z()}) + ", spacing_m: " + exactText(spacing_m) + ", " +
+  return "  - {name: " + name + ", source: box, box_size_m: " + listText(size_m) +
+         ", position_m: " + listText({0, 0, low_m + 0.5 * size_m.z()}) + ", spacing_m: " + exactText(spacing_m) + ", " +
          more + "}\n";
 }
 
