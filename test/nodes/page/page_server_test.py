@@ -7,6 +7,7 @@ VISCERA_WEB_MESSAGES is the number of random messages, 100,000 in the long form.
 Chromium, and VISCERA_PICTURES names a folder for pictures of it.
 """
 import base64
+import json
 import os
 import pathlib
 import random
@@ -214,6 +215,14 @@ class PageServerTest(unittest.TestCase):
             page.call("load_scene")
             while True:
                 page.frame()
+
+    def test_the_layout_of_foxglove_names_topics_of_the_simulator(self):
+        layout = (pathlib.Path(__file__).resolve().parents[3] / "config/foxglove_layout.json").read_text()
+        panels = json.loads(layout)["configById"]
+        named = {name.split(".")[0] for name in re.findall(r'"(/[^"]*)"', layout)}
+        self.assertLessEqual({"/surface_marker", "/scene_markers", "/camera/image_raw", "/diagnostics"}, named)
+        self.assertEqual(named - {topic for topic, _ in rospy.get_published_topics()}, set())
+        self.assertEqual(sorted(panels), sorted(re.findall(r'"(?:first|second)": "([^"]*)"', layout)), "every panel has a place")
 
     def test_no_more_pages_than_allowed(self):
         for _ in range(3):
