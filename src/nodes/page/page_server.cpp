@@ -178,7 +178,9 @@ void PageServer::update() {
   if (now >= state_due_) {
     state_due_ = now + kStateEvery;
     if (feed_.renew()) scene_.clear();
-    server_->setState(stateText());
+    std::string text = stateText();
+    if (text != state_) server_->setState(text);
+    state_ = std::move(text);
   }
   if (now < due_) return;
   if (server_->clientsSoFar() != welcomed_) scene_.repeat();

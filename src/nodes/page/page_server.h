@@ -75,6 +75,7 @@ class PageServer {
   received::DiscoveredSimulators simulators_;
   TaskState task_;
   LiveScene scene_;
+  std::string state_;  ///< last text of the state
   uint64_t welcomed_ = 0;  ///< clients so far, when the last frame was made
   Clock::time_point due_{}, state_due_{}, left_{};
   std::mutex refused_mutex_;

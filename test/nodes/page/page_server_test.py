@@ -7,6 +7,7 @@ VISCERA_WEB_MESSAGES is the number of random messages, 100,000 in the long form.
 Chromium, and VISCERA_PICTURES names a folder for pictures of it.
 """
 import base64
+import json
 import os
 import pathlib
 import random
@@ -71,6 +72,7 @@ class PageServerTest(unittest.TestCase):
 
     @classmethod
     def tearDownClass(cls):
+        cls.stylus.end()
         for program in cls.servers.values():
             program.end()
 
@@ -163,15 +165,15 @@ class PageServerTest(unittest.TestCase):
 
     def test_a_pose_is_soon_on_the_page(self):
         poses = Crtk("right")  # at None: it sends what we tell it
+        wait_until(lambda: poses.poses.get_num_connections() > 0, 20, "a simulator that listens to it")
         page, took = self.page(), []
         page.frame()
-        self.stylus.at = IN_FRONT
         for i in range(40):
             at = (0.03, -0.09 - 1e-4 * i, -0.021)
             began = time.monotonic()
             poses.tell(at, ((1, 0, 0), (0, 1, 0), (0, 0, 1)))
-            while time.monotonic() < began + 5:
-                if struct.pack("<3f", *at) in page.frame()[1]:
+            while time.monotonic() < began + 2:
+                if struct.pack("<3f", *at) in page.frame(limit_s=2)[1]:
                     took.append(time.monotonic() - began)
                     break
         took = sorted(took[5:])  # the tool appears
@@ -186,10 +188,8 @@ class PageServerTest(unittest.TestCase):
         for i in range(30):
             self.stylus.at = (0.0, -0.09, -0.02 + 1e-3 * (i % 2))
             time.sleep(0.05)
-        page.socket.socket.settimeout(1.5)
         with self.assertRaises(TimeoutError):
-            page.frame(shown=False)
-        page.socket.socket.settimeout(30)
+            page.frame(shown=False, limit_s=1.5)
         page.socket.send('{"shown": %d}' % first[1])
         self.assertGreater(page.frame()[0]["frame"], first[1] + 5, "the newest frame, not the next one")
 
@@ -215,6 +215,14 @@ class PageServerTest(unittest.TestCase):
             page.call("load_scene")
             while True:
                 page.frame()
+
+    def test_the_layout_of_foxglove_names_topics_of_the_simulator(self):
+        layout = (pathlib.Path(__file__).resolve().parents[3] / "config/foxglove_layout.json").read_text()
+        panels = json.loads(layout)["configById"]
+        named = {name.split(".")[0] for name in re.findall(r'"(/[^"]*)"', layout)}
+        self.assertLessEqual({"/surface_marker", "/scene_markers", "/camera/image_raw", "/diagnostics"}, named)
+        self.assertEqual(named - {topic for topic, _ in rospy.get_published_topics()}, set())
+        self.assertEqual(sorted(panels), sorted(re.findall(r'"(?:first|second)": "([^"]*)"', layout)), "every panel has a place")
 
     def test_no_more_pages_than_allowed(self):
         for _ in range(3):

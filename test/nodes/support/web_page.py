@@ -6,6 +6,7 @@ import json
 import os
 import socket
 import struct
+import time
 
 import numpy
 
@@ -191,9 +192,13 @@ class Page:
     def call(self, service, **more):
         self.socket.send(json.dumps({"call": service, **more}))
 
-    def frame(self, shown=True):
-        """Waits for the next frame and returns (header, data). @param shown  whether to say that it was drawn"""
+    def frame(self, shown=True, limit_s=PATIENCE_S):
+        """Waits for the next frame and returns (header, data). Raises TimeoutError without one.
+
+        shown: whether to say that it was drawn."""
+        end = time.monotonic() + limit_s
         while True:
+            self.socket.socket.settimeout(max(end - time.monotonic(), 1e-3))
             message = self.socket.receive()
             self.bytes_received += len(message)
             if isinstance(message, str):

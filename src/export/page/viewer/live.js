@@ -83,9 +83,9 @@ class Live extends View {
     if (!this.frame) byId('fault').firstElementChild.textContent = state.text;
     const cameras = JSON.stringify(state.cameras);
     if (cameras !== this.offered) {
-      const chosen = byId('camera').value;
+      const chosen = byId('camera').value, first = !this.cameras.length;
       this.offer(state.cameras);
-      if (!this.offered) this.look(Math.max(0, state.cameras.findIndex((camera) => camera.name === this.options.get('camera'))));
+      if (first) this.look(Math.max(0, state.cameras.findIndex((camera) => camera.name === this.options.get('camera'))));
       else byId('camera').value = state.cameras[chosen] ? chosen : 'free';
       this.offered = cameras;
     }
