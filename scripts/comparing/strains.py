@@ -36,7 +36,7 @@ def against(forces, truth):
 BLOCK_M = np.array([0.024, 0.024, 0.036])
 SHARES = (0.1, 0.2, 0.35, 0.5)  # of the height
 WAYS = {"pulled": (2, 1), "squeezed": (2, -1), "sheared": (0, 1)}  # axis, direction
-BLOCK_RATIOS = (0.3, 0.45)
+BLOCK_RATIOS = (0.3,)
 PRESS_RATIOS = (0.3,)
 BLOCK_ELEMENTS = (6, 6, 9)
 BLOCK_SPACINGS_M = (0.004, 0.003)
