@@ -134,19 +134,18 @@ def draw_snap(place, path):
             right.plot(side * true[::6, 0], -true[::6, 1], "k.", markersize=3)
     right.set_aspect("equal")
     right.set_xlabel("mm, outside of the wall; dots: CalculiX")
-    right.legend(fontsize=7, loc="lower right")
+    right.legend(fontsize=7, loc="upper center", title="pushed by", title_fontsize=7)
     figure.tight_layout()
     figure.savefig(path)
     pyplot.close(figure)
 
 
 def origins(results):
-    """Returns which rows were measured where."""
+    """Returns which rows were measured where, as one paragraph."""
     groups = {}
     for name, found in results.items():
-        machine = found["machine"]
-        groups.setdefault("commit %(commit)s, %(date)s, %(processor)s, %(threads)d threads" % machine, []).append(name)
-    return ["* %s: %s." % (", ".join(names), place) for place, names in groups.items()]
+        groups.setdefault("%(processor)s, %(threads)d threads, %(date)s, commit %(commit)s" % found["machine"], []).append(name)
+    return ["; ".join("%s: %s" % (place, ", ".join(names)) for place, names in groups.items()) + "."]
 
 
 METHOD = """`scripts/compare [--only ROW]` repeats it and installs what it needs. CalculiX gets hexahedra of 20 nodes (the heart: tetrahedra of 10),
