@@ -86,7 +86,7 @@ def block(place):
 PRESSED_M, BALL_M = np.array([0.06, 0.06, 0.03]), 0.015
 DEPTHS_M = (0.001, 0.002, 0.004, 0.006)
 PRESS_SPACINGS_M = (0.006, 0.005, 0.003)  # whole cells over 30 mm: the top is a plane of nodes
-FINE_M, CONTACT_M = 0.0015, 0.009  # edges of elements below the ball, and how far they go
+FINE_M, CONTACT_M = 0.002, 0.008  # edges of elements below the ball, and how far they go
 CAP_STEPS, CAP_DEG, CAP_STIFF = 14, 62.0, 100  # steps of the ball's surface, its half angle, E over the block's
 PENALTY = 50  # stiffness of the contact: E over the edge, times this
 
@@ -143,7 +143,7 @@ def press_deck(ratio):
     text += "*CONTACT PAIR, INTERACTION=CONTACT, TYPE=SURFACE TO SURFACE\nSLAVE, MASTER\n*BOUNDARY\nBALL, 1, 2\n"
     deck.raw(text)
     for depth_m in DEPTHS_M:
-        deck.static([("BALL", 3, -depth_m)], shown=None, forces=["HELD"])
+        deck.static([("BALL", 3, -depth_m)], shown=None, forces=["HELD"], first=0.5)
     return deck, len(solid.used)
 
 
