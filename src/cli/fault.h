@@ -8,6 +8,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,21 @@ inline int giveUp(const std::exception& error) {
   std::cerr << "viscera: error: " << oneLine(error.what()) << '\n';
   const auto* command_line = dynamic_cast<const CommandLineError*>(&error);
   return command_line ? command_line->status : 1;
+}
+
+/// Returns a check that accepts the names of `values` and converts them; `--help` lists the names.
+template <class Value>
+CLI::Validator oneOf(const std::map<std::string, Value>& values) {
+  std::string names;
+  for (const auto& value : values) names += (names.empty() ? "" : ",") + value.first;
+  names = "{" + names + "}";
+  const auto convert = [values, names](std::string& text) {
+    const auto value = values.find(text);
+    if (value == values.end()) return text + " not in " + names;
+    text = std::to_string(static_cast<int>(value->second));
+    return std::string();
+  };
+  return CLI::Validator(convert, names);
 }
 
 inline std::vector<const CLI::App*> commandsOf(const CLI::App& app) {

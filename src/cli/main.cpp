@@ -54,29 +54,33 @@ CLI::App* addCheck(CLI::App& app, Options& o) {
 
 /// Adds the export options of `run`. @param out  its option --out
 void addExports(CLI::App* run, CLI::Option* out, Options& o) {
-  const std::map<std::string, ExportSource> sources = {{"skin", ExportSource::kSkin},
-                                                       {"lattice", ExportSource::kLattice},
-                                                       {"network", ExportSource::kNetwork},
-                                                       {"sutures", ExportSource::kSutures}};
-  const std::map<std::string, ExportFormat> formats = {{"vtp", ExportFormat::kVtp},
-                                                       {"xdmf", ExportFormat::kXdmf},
-                                                       {"ply", ExportFormat::kPly},
-                                                       {"glb", ExportFormat::kGlb},
-                                                       {"pc2", ExportFormat::kPc2}};
-  const std::map<std::string, ExportFrame> frames = {{"ros", ExportFrame::kRos}, {"lps_mm", ExportFrame::kLpsMm}};
+  using Source = ExportSource;
+  using Format = ExportFormat;
+  const auto sources = cli::oneOf<Source>({{"skin", Source::kSkin},
+                                           {"lattice", Source::kLattice},
+                                           {"network", Source::kNetwork},
+                                           {"sutures", Source::kSutures}});
+  const auto formats = cli::oneOf<Format>({{"vtp", Format::kVtp},
+                                           {"xdmf", Format::kXdmf},
+                                           {"ply", Format::kPly},
+                                           {"glb", Format::kGlb},
+                                           {"pc2", Format::kPc2}});
+  const auto frames = cli::oneOf<ExportFrame>({{"ros", ExportFrame::kRos}, {"lps_mm", ExportFrame::kLpsMm}});
   CLI::Option* exported = o.exports =
       run->add_option("--export", o.exported.source,
                       "object to export into DIR/export: skin, lattice, network or sutures")
-          ->transform(CLI::CheckedTransformer(sources))
+          ->transform(sources)
           ->needs(out);
   run->add_option("--every", o.exported.every_s, "simulated seconds between two exports; default 0.1")
       ->check(CLI::Range(1e-6, 86400.0))
       ->needs(exported);
   run->add_option("--format", o.exported.format, "format of exports: vtp, xdmf, ply, glb or pc2; default vtp")
-      ->transform(CLI::CheckedTransformer(formats))
+      ->transform(formats)
+      ->type_name("NAME")
       ->needs(exported);
   run->add_option("--export-frame", o.exported.frame, "axes and unit of exports: ros, or lps_mm as 3D Slicer has them")
-      ->transform(CLI::CheckedTransformer(frames))
+      ->transform(frames)
+      ->type_name("NAME")
       ->needs(exported);
 }
 

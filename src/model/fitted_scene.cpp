@@ -147,6 +147,8 @@ void followTools(const OrganFit& fit, const Scene& made, const BodyConfig& is, K
   for (size_t i = 0; i < made.styluses.size(); ++i) {
     StylusConfig stylus = scaledTools(made.styluses[i], fit.tool_scale, cells);
     for (const ToolSize& size : kToolSizes) keys.set(item("styluses", i) + size.key, size.of(stylus));
+    if (stylus.trocar.follows != TrocarMotion::kNone)
+      keys.set(item("styluses", i) + "trocar.position_m", fit.viewed(stylus.trocar.position_m));
   }
 }
 

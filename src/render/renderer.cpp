@@ -96,7 +96,7 @@ void Renderer::makeTissue(bool marks) {
                                             std::any_of(cameras_.begin(), cameras_.end(), by_pixels), features);
 }
 
-void Renderer::showMarks(const std::shared_ptr<const ShownMarks>& marks) {
+void Renderer::showMarks(const std::shared_ptr<const VisibleMarks>& marks) {
   if (marks && !has_marks_ && model_) makeTissue(true);
   if (has_marks_) tissue_->showMarks(marks);
 }

@@ -74,7 +74,7 @@ class Renderer {
   /// Sets the colours of surfaces for later images, one per vertex; 0: their own.
   void showColors(uint32_t colors) { shown_colors_ = colors; }
   /// Sets the marks on tissue for later images, but not for depths and labels; null: none. Needs a current context.
-  void showMarks(const std::shared_ptr<const ShownMarks>& marks);
+  void showMarks(const std::shared_ptr<const VisibleMarks>& marks);
   /// Adds sutures to draw in later images, once they are placed. Needs a current context.
   void addTubes(const std::vector<TubeStyle>& sutures);
   void placeTubes(const VisibleTubes& shown) { visible_tubes_ = shown; }

@@ -28,7 +28,7 @@ class TissuePainter {
   TissuePainter(const Model* model, bool samples, bool pixels, std::vector<std::string> features);
   void lightFor(const CameraConfig& camera);  ///< for drawing after this call
   /// Sets the marks for drawing after this call, which needs feature MARKS; null: none.
-  void showMarks(const std::shared_ptr<const ShownMarks>& marks) { marks_.show(marks); }
+  void showMarks(const std::shared_ptr<const VisibleMarks>& marks) { marks_.show(marks); }
   /// Draws into the bound framebuffer; depth test, front face and blending are the caller's.
   void draw(const MeshView& mesh, const ToolShadows& shadows, const Pose& optical_from_tissue,
             const Eigen::Matrix4f& clip_from_optical);

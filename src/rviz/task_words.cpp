@@ -28,7 +28,8 @@ const MeasureWords kWords[] = {
     {"weak_knots", "Weak knots", "", 0, {"close_wound"}},
     {"clip_off_mm", "Largest distance of a clip from its place", " mm", 1, {"clip_and_divide"}},
     {"bad_clips", "Misplaced clips", "", 0, {"clip_and_divide"}},
-    {"blood_ml", "Blood lost", " ml", 1, {"clip_and_divide"}},
+    {"blood_ml", "Blood lost", " ml", 1, {"clip_and_divide", "operation"}},
+    {"spared_cuts", "Cuts in tissue to be spared", "", 0, {"operation"}},
     {"force_s", "Time above the force limit", " s", 1},
     {"peak_force_n", "Largest force", " N", 2},
     {"strain_s", "Time above the strain limit", " s", 1},
@@ -57,7 +58,7 @@ QString measuresText(const std::string& kind, const std::vector<SentMeasure>& me
   QString out;
   for (const SentMeasure& measure : measures) {
     const MeasureWords* const words = wordsOf(measure.name);
-    if (words && !isOf(*words, kind) && measure.cost_s <= 0) continue;
+    if (words && !isOf(*words, kind) && measure.value == 0 && measure.cost_s <= 0) continue;
     out += words ? QString(words->words) + ": " + QString::number(measure.value, 'f', words->digits) + words->unit
                  : QString::fromStdString(measure.name) + ": " + QString::number(measure.value, 'g', 4);
     if (measure.cost_s > 0) out += ", costs " + QString::number(measure.cost_s, 'f', 1) + " s";

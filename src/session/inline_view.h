@@ -62,7 +62,7 @@ class InlineView : public View {
     Overlays overlays;
     std::vector<Arrow> arrows;
     ProcessVisuals processes;
-    std::shared_ptr<const ShownMarks> marks;
+    std::shared_ptr<const VisibleMarks> marks;
   };
   struct Channel {  ///< one kind of image of an eye, in flight
     PictureKind kind = PictureKind::kColor;

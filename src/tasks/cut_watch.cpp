@@ -61,8 +61,8 @@ UnionFind piecesOf(const Model& model, size_t body, const CutState& cuts) {
 
 }  // namespace
 
-std::vector<Vector3d> CutWatch::fresh(const CutState& cuts) {
-  std::vector<Vector3d> out;
+std::vector<FreshCut> CutWatch::fresh(const CutState& cuts) {
+  std::vector<FreshCut> out;
   seen_springs_.resize(cuts.spring_cut.size());
   seen_axial_.resize(cuts.axial_cut.size());
   size_t spring = 0;
@@ -74,7 +74,7 @@ std::vector<Vector3d> CutWatch::fresh(const CutState& cuts) {
       seen_springs_[spring] = true;
       if (!hasOwnNetwork(body) || it.against_bending) continue;
       const Vector3d &from = body.network->positions_m[it.a], &to = body.network->positions_m[it.b];
-      out.push_back(from + shareAlong(cuts.spring_cut[spring]) * (to - from));
+      out.push_back({from + shareAlong(cuts.spring_cut[spring]) * (to - from), b, it.a});
     }
     if (hasOwnNetwork(body)) continue;
     const size_t offset = size_t{3} * model_.slotOffset(b);
@@ -83,8 +83,8 @@ std::vector<Vector3d> CutWatch::fresh(const CutState& cuts) {
         const size_t at = offset + size_t{3} * slot + static_cast<size_t>(axis);
         if (at >= cuts.axial_cut.size() || cuts.axial_cut[at] == 0 || seen_axial_[at]) continue;
         seen_axial_[at] = true;
-        out.push_back(body.lattice.restPosition(slot) +
-                      shareAlong(cuts.axial_cut[at]) * body.lattice.spacing_m * Vector3d::Unit(axis));
+        const Vector3d along_m = shareAlong(cuts.axial_cut[at]) * body.lattice.spacing_m * Vector3d::Unit(axis);
+        out.push_back({body.lattice.restPosition(slot) + along_m, b, slot});
       }
     }
   }
@@ -105,6 +105,32 @@ Joint::Joint(const Model& model, const Vector3d& one_m, const Vector3d& other_m)
 bool Joint::isApart(const CutState& cuts) const {
   UnionFind pieces = piecesOf(model_, body_, cuts);
   return pieces.find(one_) != pieces.find(other_);
+}
+
+HeldPiece::HeldPiece(const Model& model, const Vector3d& position_m) : model_(model) {
+  std::tie(body_, node_) = nearestNode(model, position_m);
+  const Body& body = model.bodies[body_];
+  const auto held = [&](uint32_t slot) { return isFixed(body.lattice.nodes[slot]); };
+  const std::vector<uint32_t>& slots = body.lattice.active_slots;
+  if (body.network || std::none_of(slots.begin(), slots.end(), held))
+    throw TaskError(
+        "'detach.position_m' must be in a body of structure lattice with nodes that 'fixed' holds; it is in " +
+        body.name);
+}
+
+bool HeldPiece::isApart(const CutState& cuts) const {
+  const Lattice& lattice = model_.bodies[body_].lattice;
+  UnionFind pieces = piecesOf(model_, body_, cuts);
+  const uint32_t piece = pieces.find(node_);
+  size_t alike = 0, within = 0;
+  for (const uint32_t slot : lattice.active_slots) {
+    const bool is_within = pieces.find(slot) == piece;
+    if (is_within && isFixed(lattice.nodes[slot])) return false;
+    if (lattice.labels[slot] != lattice.labels[node_]) continue;
+    ++alike;
+    within += is_within;
+  }
+  return 2 * within >= alike;
 }
 
 DiscPiece::DiscPiece(const Model& model, const Vector3d& center_m, const Vector3d& normal, double radius_m,

@@ -9,14 +9,20 @@
 
 namespace viscera {
 
-/// Positions of cut springs, in the rest shape.
+/// A spring that was cut.
+struct FreshCut {
+  Vector3d at_m;  ///< position of the cut in the rest shape, tissue frame
+  size_t body;
+  uint32_t slot;  ///< one end, a slot of the body
+};
+
+/// Record of cut springs.
 class CutWatch {
  public:
   /// @param model  must outlive this
   explicit CutWatch(const Model& model) : model_(model) {}
-  /// Returns the positions, tissue frame [m], of springs that were whole at the last call. Springs against bending are
-  /// left out.
-  std::vector<Vector3d> fresh(const CutState& cuts);
+  /// Returns the springs that are cut and were whole at the last call. Springs against bending are left out.
+  std::vector<FreshCut> fresh(const CutState& cuts);
 
  private:
   const Model& model_;
@@ -34,6 +40,21 @@ class Joint {
   const Model& model_;
   size_t body_ = 0;
   uint32_t one_ = 0, other_ = 0;
+};
+
+/// Tissue of a lattice that is to be cut free from what holds it in space.
+class HeldPiece {
+ public:
+  /// Uses the node nearest to the position. @throws TaskError  its body is no lattice, or nothing of it is held
+  HeldPiece(const Model& model, const Vector3d& position_m);
+  /// Returns whether no path of intact springs leads from the node to a held one, and the piece has at least half of
+  /// the nodes of the node's part: a crumb around the node is none.
+  bool isApart(const CutState& cuts) const;
+
+ private:
+  const Model& model_;
+  size_t body_ = 0;
+  uint32_t node_ = 0;
 };
 
 /// Test whether a disc is a piece by itself. No path of intact springs leads from the node nearest to its centre to a

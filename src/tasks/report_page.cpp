@@ -40,7 +40,7 @@ std::string measureTable(const TaskResult& result) {
   out += measureRow("time", plainNumber(status.time_s), "s", plainNumber(status.time_s),
                     "at most " + plainNumber(task.time_limit_s), late);
   for (const TaskMeasure& measure : kTaskMeasures) {
-    if (!isCounted(measure.name, task.kind)) continue;
+    if (!isCounted(measure.name, task)) continue;
     const double value = status.tally.*measure.value, cost = costOf(task, status.tally, measure);
     const std::optional<double> most = mostOf(task, measure);
     out += measureRow("<span title='" + htmlText(measure.meaning) + "'>" + htmlText(phraseOf(task, measure)) +

@@ -14,7 +14,7 @@ namespace viscera {
 // structs has one entry in task_fields.h. Positions are in the rest shape of the tissue, in the tissue frame.
 
 /// Goal of a task: the rows of kTaskKinds (task_kinds.h), each with a group of keys of its own below.
-enum class TaskGoal { kFollowLine, kCutDisc, kTouchTargets, kLift, kCloseWound, kClipDivide };
+enum class TaskGoal { kFollowLine, kCutDisc, kTouchTargets, kLift, kCloseWound, kClipDivide, kDetach, kOperation };
 
 struct TaskPosition {
   Vector3d position_m = Vector3d::Zero();
@@ -65,11 +65,43 @@ struct CloseGoal {
   int throws = 3;
 };
 
-/// Clip tissue at two or more positions, and divide it between the innermost two.
+/// Clip tissue at two or more positions, and divide it between two of them.
 struct ClipGoal {
   bool given = false;
-  std::vector<TaskPosition> clips;  ///< an even number, in their order along the tissue
+  std::vector<TaskPosition> clips;  ///< in their order along the tissue
+  int divide_after = 0;             ///< number of clips before the division; 0: half of them
   double radius_m = 0.003;
+
+  size_t before() const { return divide_after > 0 ? static_cast<size_t>(divide_after) : clips.size() / 2; }
+};
+
+/// Cut tissue until no path leads from a position to tissue that is held in space.
+struct DetachGoal {
+  bool given = false;
+  Vector3d position_m = Vector3d::Zero();
+};
+
+/// Kind of a goal with the keys of all kinds.
+struct TaskGoals {
+  TaskGoal kind = TaskGoal::kCutDisc;
+  LineGoal line;
+  DiscGoal disc;
+  TouchGoal touch;
+  LiftGoal lift;
+  CloseGoal close;
+  ClipGoal clip;
+  DetachGoal detach;
+};
+
+/// One stage of an operation: a goal of any other kind.
+struct TaskStage : TaskGoals {
+  std::string title;
+};
+
+/// Reach the goals of stages, one after another.
+struct OperationGoal {
+  bool given = false;
+  std::vector<TaskStage> stages;
 };
 
 /// Limits above which time is counted.
@@ -85,18 +117,13 @@ struct TaskRule {
   double most = 1e9;
 };
 
-struct TaskConfig {
+struct TaskConfig : TaskGoals {
   std::string scene, title, instructions;
-  TaskGoal kind = TaskGoal::kCutDisc;
   double time_limit_s = 300;
   double proficiency_s = 0;  ///< time of a proficient user [s]; 0: unknown
   double pass_score = 0;
-  LineGoal line;
-  DiscGoal disc;
-  TouchGoal touch;
-  LiftGoal lift;
-  CloseGoal close;
-  ClipGoal clip;
+  OperationGoal operation;
+  std::vector<std::string> spared_parts;  ///< names of parts or bodies that must not be cut
   TaskLimits limits;
   std::vector<TaskRule> measures;
 

@@ -71,11 +71,50 @@ void visitFields(V& v, CloseGoal& c) {
 template <class V>
 void visitFields(V& v, ClipGoal& c) {
   v.given(c.given);
-  v.list(
-      "clips", c.clips, kMostTaskPositions,
-      "positions of the clips, an even number in their order along the tissue, which is to be divided in the middle");
+  v.list("clips", c.clips, kMostTaskPositions, "positions of the clips, in their order along the tissue");
+  v.integer("divide_after", c.divide_after, {0, kMostTaskPositions},
+            "number of clips before the place where the tissue is to be divided; 0: half of them, of an even number");
   v.number("radius_m", c.radius_m, kTaskWidth, "m",
            "distance from a position within which a clip counts as placed there");
+}
+
+template <class V>
+void visitFields(V& v, DetachGoal& c) {
+  v.given(c.given);
+  v.vector("position_m", c.position_m, kCoordinate, "m",
+           "position in the tissue to be cut free, at rest, in the tissue frame");
+}
+
+template <class V>
+void visitGoals(V& v, TaskGoals& c) {
+  v.group("follow_line", c.line, "goal: cut along a line, with the blade within a corridor");
+  v.group("cut_disc", c.disc, "goal: cut out a disc; reached when nothing connects it to the tissue around it");
+  v.group("touch_targets", c.touch, "goal: touch positions one after another, and nothing else");
+  v.group("lift", c.lift, "goal: grasp tissue, lift it and keep it there");
+  v.group("close_wound", c.close, "goal: open tissue along a line, tie the scene's sutures, and let go");
+  v.group("clip_and_divide", c.clip, "goal: set clips at positions of the tissue, and divide it between them");
+  v.group("detach", c.detach, "goal: cut until nothing connects the tissue at a position to tissue that is held");
+}
+
+/// Returns the choices of kinds. @param of_stages  without operation
+inline std::vector<Choice<TaskGoal>> kindChoices(bool of_stages) {
+  std::vector<Choice<TaskGoal>> out;
+  for (const TaskKind& kind : kTaskKinds)
+    if (!of_stages || kind.goal != TaskGoal::kOperation) out.push_back({kind.name, kind.goal});
+  return out;
+}
+
+template <class V>
+void visitFields(V& v, TaskStage& c) {
+  v.text("title", c.title, "title of the stage, before what the trainee has to do");
+  v.choice("kind", c.kind, kindChoices(true), "kind of the stage; the group of this name gives its goal");
+  visitGoals(v, c);
+}
+
+template <class V>
+void visitFields(V& v, OperationGoal& c) {
+  v.given(c.given);
+  v.list("stages", c.stages, 32, "stages, in the order in which their goals have to be reached");
 }
 
 template <class V>
@@ -97,23 +136,19 @@ void visitFields(V& v, TaskRule& c) {
 
 template <class V>
 void visitFields(V& v, TaskConfig& c) {
-  std::vector<Choice<TaskGoal>> kinds;
-  for (const TaskKind& kind : kTaskKinds) kinds.push_back({kind.name, kind.goal});
   v.text("scene", c.scene, "name of a shipped scene, or of a scene file next to this one");
   v.text("title", c.title, "title, one line");
   v.text("instructions", c.instructions, "instructions that the trainee reads");
-  v.choice("kind", c.kind, kinds, "kind of task; the group of this name gives its goal");
+  v.choice("kind", c.kind, kindChoices(false), "kind of task; the group of this name gives its goal");
   v.number("time_limit_s", c.time_limit_s, {0.1, 86400}, "s",
            "limit of simulated time, from the first tick with a tracked stylus");
   v.number("proficiency_s", c.proficiency_s, kTaskSeconds, "s",
            "time of a proficient user, for the report; 0: not known");
   v.number("pass_score", c.pass_score, kTaskSeconds, "s", "lowest score that passes the task");
-  v.group("follow_line", c.line, "goal: cut along a line, with the blade within a corridor");
-  v.group("cut_disc", c.disc, "goal: cut out a disc; reached when nothing connects it to the tissue around it");
-  v.group("touch_targets", c.touch, "goal: touch positions one after another, and nothing else");
-  v.group("lift", c.lift, "goal: grasp tissue, lift it and keep it there");
-  v.group("close_wound", c.close, "goal: open tissue along a line, tie the scene's sutures, and let go");
-  v.group("clip_and_divide", c.clip, "goal: set clips at positions of the tissue, and divide it between them");
+  visitGoals(v, c);
+  v.group("operation", c.operation, "goal: reach the goals of stages, one after another");
+  v.texts("spared_parts", c.spared_parts, 64,
+          "names of parts or bodies that must not be cut; the measure spared_cuts counts their cuts");
   v.group("limits", c.limits, "limits above which time is counted");
   v.list("measures", c.measures, 100, "costs of measures, and the values with which the task is passed");
 }

@@ -20,8 +20,10 @@ namespace viscera {
 /// Results of a tick by which a task is judged.
 struct TaskTick {
   ToolMotions motions{};
-  std::vector<Vector3d> cuts_m;      ///< positions of springs cut in the tick, in the rest shape
-  bool apart = false;                ///< TaskJudge::isApart() after the tick, where something was cut in it
+  std::vector<Vector3d> cuts_m;  ///< positions of springs cut in the tick, in the rest shape
+  /// TaskJudge::piecesApart() after the tick, where something was cut in it.
+  uint32_t apart = 0;
+  size_t spared_cuts = 0;            ///< springs cut in TaskConfig::spared_parts
   std::vector<SutureState> sutures;  ///< where the task needs them
   ClipStates clips;                  ///< where the task needs them
   double blood_ml = 0;               ///< lost since the last reset
@@ -54,8 +56,13 @@ class TaskJudge {
   virtual void judge(const TaskTick& tick, TaskTally& tally) = 0;
   /// Returns whether it needs the positions of cut springs. Then ticks that may have cut are waited for.
   virtual bool usesCuts() const { return false; }
-  /// Returns whether the piece to be cut off is separate; called on the session's thread.
-  virtual bool isApart(const CutState&) const { return false; }
+  /// Returns whether the piece to be cut off is separate: 1 or 0, for an operation one bit per stage. Called on the
+  /// session's thread.
+  virtual uint32_t piecesApart(const CutState&) const { return 0; }
+  /// Returns whether it has to see ticks before and after its own stage of an operation.
+  virtual bool judgesAlways() const { return false; }
+  /// Returns whether a clip at this position at rest [m] is one of its own.
+  virtual bool claims(const Vector3d&) const { return false; }
   /// Returns whether it needs knots.
   virtual bool usesSutures() const { return false; }
   /// Returns whether it needs clips.

@@ -44,6 +44,16 @@ std::string clipFault(const TaskConfig&);
 std::unique_ptr<TaskJudge> clipJudge(const TaskConfig&, const Session&);
 TaskShapes clipShapes(const TaskConfig&);
 
+std::string detachFault(const TaskConfig&);
+std::unique_ptr<TaskJudge> detachJudge(const TaskConfig&, const Session&);
+TaskShapes detachShapes(const TaskConfig&);
+
+std::string operationFault(const TaskConfig&);
+std::unique_ptr<TaskJudge> operationJudge(const TaskConfig&, const Session&);
+TaskShapes operationShapes(const TaskConfig&);
+/// Returns a stage of a task as a task of its own, with the task's name.
+TaskConfig stageOf(const TaskConfig& task, const TaskStage& stage);
+
 /// Returns the judge for kinds that include cutting along a line.
 std::unique_ptr<TaskJudge> judgeOfLine(const LineGoal& line, double spacing_m);
 /// Returns the fault of a line, or empty. @param group  of its keys
@@ -57,6 +67,8 @@ inline constexpr TaskKind kTaskKinds[] = {
     {TaskGoal::kLift, "lift", liftFault, liftJudge, liftShapes},
     {TaskGoal::kCloseWound, "close_wound", closeFault, closeJudge, closeShapes},
     {TaskGoal::kClipDivide, "clip_and_divide", clipFault, clipJudge, clipShapes},
+    {TaskGoal::kDetach, "detach", detachFault, detachJudge, detachShapes},
+    {TaskGoal::kOperation, "operation", operationFault, operationJudge, operationShapes},
 };
 constexpr const TaskKind& kindOf(TaskGoal goal) {
   return kTaskKinds[static_cast<size_t>(goal)];

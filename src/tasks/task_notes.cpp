@@ -25,9 +25,8 @@ constexpr MeasureOfKind kOfKinds[] = {
     {"clip_off_mm", TaskGoal::kClipDivide},     {"bad_clips", TaskGoal::kClipDivide},
 };
 
-}  // namespace
-
-bool isCounted(std::string_view measure, TaskGoal goal) {
+/// Returns whether tasks of a kind count a measure (task_measures.h).
+bool isOfKind(std::string_view measure, TaskGoal goal) {
   bool of_kinds = false;
   for (const MeasureOfKind& row : kOfKinds) {
     if (row.measure != measure) continue;
@@ -37,13 +36,23 @@ bool isCounted(std::string_view measure, TaskGoal goal) {
   return !of_kinds;
 }
 
+}  // namespace
+
+bool isCounted(std::string_view measure, const TaskConfig& task) {
+  if (measure == "spared_cuts") return !task.spared_parts.empty();
+  if (task.kind != TaskGoal::kOperation) return isOfKind(measure, task.kind);
+  const std::vector<TaskStage>& stages = task.operation.stages;
+  return std::any_of(stages.begin(), stages.end(),
+                     [&](const TaskStage& stage) { return isOfKind(measure, stage.kind); });
+}
+
 std::vector<std::string> taskNotes(const TaskConfig& task) {
   std::vector<std::string> notes;
   for (const TaskRule& rule : task.measures) {
-    if (isCounted(rule.measure, task.kind)) continue;
+    if (isCounted(rule.measure, task)) continue;
     std::string counted;
     for (const TaskMeasure& measure : kTaskMeasures)
-      if (isCounted(measure.name, task.kind)) counted += (counted.empty() ? "" : ", ") + std::string(measure.name);
+      if (isCounted(measure.name, task)) counted += (counted.empty() ? "" : ", ") + std::string(measure.name);
     notes.push_back("measure " + rule.measure + " is always 0 in a task of kind " + kindOf(task.kind).name +
                     ", which measures " + counted);
   }

@@ -10,8 +10,8 @@
 
 namespace viscera {
 
-/// Returns whether tasks of a kind count a measure (task_measures.h).
-bool isCounted(std::string_view measure, TaskGoal goal);
+/// Returns whether a task counts a measure (task_measures.h).
+bool isCounted(std::string_view measure, const TaskConfig& task);
 
 /// Returns keys of a task that have no effect, one line each for a person: rules of measures that its kind does not
 /// count.

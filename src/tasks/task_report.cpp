@@ -67,7 +67,7 @@ nlohmann::ordered_json toJson(const TaskResult& result, const Attempt& attempt) 
   out["progress"] = status.progress;
   out["penalties_s"] = status.penalties_s;
   for (const TaskMeasure& measure : kTaskMeasures) {
-    if (!isCounted(measure.name, task.kind)) continue;
+    if (!isCounted(measure.name, task)) continue;
     ReportJson& row = out["measures"][measure.name];
     row = {{"value", status.tally.*measure.value},
            {"unit", measure.unit},

@@ -47,7 +47,7 @@ void TaskWatch::begin(std::unique_ptr<TaskJudge> judge) {
   status_.step = "starts with the first tracked stylus";
   judge_ = std::move(judge);
   cut_watch_.emplace(session_.model());
-  if (judge_->usesCuts()) {
+  if (needsCuts()) {
     session_.solver().readCuts(cuts_);
     cut_watch_->fresh(cuts_);  // earlier cuts do not belong to this task
   }
@@ -64,10 +64,19 @@ void TaskWatch::begin(std::unique_ptr<TaskJudge> judge) {
 void TaskWatch::taskRecorded(Session&, const std::string& name, const std::string& yaml) {
   if (yaml.empty()) return giveUp("the task was given up");
   TaskConfig task = parseTask(yaml, name);
-  std::unique_ptr<TaskJudge> judge =
-      kindOf(task.kind).judge(task, session_);  // if it throws, the present task continues
+  // If these throw, the present task continues.
+  std::unique_ptr<TaskJudge> judge = kindOf(task.kind).judge(task, session_);
+  spared_.emplace(sparedParts(task));
   task_ = std::move(task);
   begin(std::move(judge));
+}
+
+SparedParts TaskWatch::sparedParts(const TaskConfig& task) const {
+  try {
+    return {session_.model(), task.spared_parts};
+  } catch (const TaskError& error) {
+    throw TaskError(task.name + ": " + error.what());
+  }
 }
 
 void TaskWatch::wasReset() {
@@ -84,9 +93,11 @@ void TaskWatch::stepped(Session& session, const StylusSamples& samples) {
   TaskTick tick;
   tick.motions = session.motions();
   tick.tick_s = session.tick_s();
-  if (judge_->usesCuts() && session.solver().readCuts(cuts_)) {  // any cause: blades, heat, sutures, tears
-    tick.cuts_m = cut_watch_->fresh(cuts_);
-    tick.apart = judge_->isApart(cuts_);
+  if (needsCuts() && session.solver().readCuts(cuts_)) {  // any cause: blades, heat, sutures, tears
+    const std::vector<FreshCut> cuts = cut_watch_->fresh(cuts_);
+    for (const FreshCut& cut : cuts) tick.cuts_m.push_back(cut.at_m);
+    tick.spared_cuts = spared_->count(cuts);
+    tick.apart = judge_->piecesApart(cuts_);
   }
   if (judge_->usesSutures()) {
     tick.sutures = sutureStates(session);
@@ -143,6 +154,7 @@ void TaskWatch::judge(const TaskTick& tick) {
 void TaskWatch::count(const TaskTick& tick) {
   TaskTally& tally = status_.tally;
   tally.blood_ml = tick.blood_ml - base_blood_ml_;
+  tally.spared_cuts += static_cast<double>(tick.spared_cuts);
   double largest_n = 0;
   for (size_t s = 0; s < tick.motions.size(); ++s) {
     const StylusMotion& motion = tick.motions[s];

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "tasks/cut_watch.h"
+#include "tasks/spared_parts.h"
 #include "tasks/task.h"
 #include "tasks/task_judge.h"
 #include "tasks/tool_log.h"
@@ -70,6 +71,9 @@ class TaskWatch : public SessionLog {
   void taskRecorded(Session& session, const std::string& name, const std::string& yaml) override;
 
  private:
+  /// Returns whether cut springs are needed. Then ticks that may have cut are waited for.
+  bool needsCuts() const { return judge_->usesCuts() || !spared_->isEmpty(); }
+  SparedParts sparedParts(const TaskConfig& task) const;
   bool isOpen() const { return task_ && status_.state <= TaskPhase::kRunning; }
   void begin(std::unique_ptr<TaskJudge> judge);
   void showMarks();
@@ -84,6 +88,7 @@ class TaskWatch : public SessionLog {
   std::optional<TaskConfig> task_;
   std::unique_ptr<TaskJudge> judge_;
   std::optional<CutWatch> cut_watch_;
+  std::optional<SparedParts> spared_;
   std::vector<MarkState> mark_states_;  ///< of the marks that are shown
   CutState cuts_;
   TaskStatus status_;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "math/number_text.h"
+#include "tasks/task_kinds.h"
 
 namespace viscera {
 
@@ -90,6 +91,14 @@ std::string goalText(const TaskConfig& task) {
              counted(static_cast<size_t>(task.close.knots), "knot");
     case TaskGoal::kClipDivide:
       return "set " + counted(task.clip.clips.size(), "clip") + " and divide the tissue between them";
+    case TaskGoal::kDetach:
+      return "cut the marked tissue free";
+    case TaskGoal::kOperation: {
+      std::string out;
+      for (const TaskStage& stage : task.operation.stages)
+        out += (out.empty() ? "" : "; then ") + goalText(stageOf(task, stage));
+      return out;
+    }
   }
   return "";
 }

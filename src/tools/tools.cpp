@@ -7,6 +7,7 @@
 #include "math/archive.h"
 #include "model/scene/tool_kinds.h"
 #include "tools/restored_tools.h"
+#include "viscera/tools/trocar.h"
 
 namespace viscera {
 
@@ -39,11 +40,13 @@ ToolMotions Tools::advance(const StylusSamples& samples, const FeelTissue& betwe
     StylusMotion& motion = motions[i];
     motion.mode = modeOf(configs_[i], now);
     motion.present = now.valid;
-    motion.to = now.valid ? now.pose : last_[i].pose;
+    const Trocar trocar(configs_[i]);
+    motion.to = now.valid ? trocar.toolPose(now.pose) : last_[i].pose;
     motion.from = last_[i].valid ? last_[i].pose : motion.to;
     if (!last_[i].valid) inside_[i] = limits_.feel_radius_m > 0;
     changeMode(i, motion);
     holdBack(motion);
+    if (motion.speed_limited) motion.to = trocar.throughPoint(motion.to);
     close(i, now.jaw_rad, between, motion);
     feel(i, motion);
     last_[i] = now;

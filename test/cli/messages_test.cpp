@@ -80,6 +80,8 @@ TEST_F(Messages, CallTabsAndWrongIndentsSo) {
 TEST_F(Messages, NameWhatIsNearestFirst) {
   expectSays(lineOf({"rnu", "heart"}), "nearest to 'rnu' are run, ");
   expectSays(lineOf({"run", "heart", "--sceonds", "1"}), "nearest to '--sceonds' are --seconds, ");
+  expectSays(lineOf({"run", "heart", "--out", "out", "--export", "surface"}),
+             "--export: surface not in {lattice,network,skin,sutures}");
   expectSays(lineOf({"run", "heard"}), "shipped: heart, ");
   expectSays(lineOf({"task", "cut_a_disk"}), "is neither a file nor the name of a shipped task; shipped: ");
   const std::string key = lineOf({"run", scene_, "--set", "solver.max_substep=3"});

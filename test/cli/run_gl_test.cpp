@@ -302,7 +302,7 @@ TEST_F(Run, OverrideChangesTheScene) {
   EXPECT_EQ(metricsOf(run({"--seconds", "0.02", "--set", "bodies[0].spacing_m=0.02"}))["nodes"], 27);
 }
 
-TEST_F(Run, SpacingThatTheMachineChoosesIsToldWithItsReason) {
+TEST_F(Run, SpacingThatTheMachineChoosesIsPrintedWithItsReason) {
   const auto nodesAt = [&](const std::string& factor) {
     const Ending ending =
         run({"--seconds", "0.02", "--set", "bodies[0].spacing_m=auto", "--set", "solver.real_time_factor=" + factor});

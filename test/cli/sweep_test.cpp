@@ -146,7 +146,7 @@ TEST_F(Sweep, LeavesDraftsOfOthersAlone) {
 }
 
 /// The pad's force grows with stiffness and with incompressibility.
-TEST_F(Sweep, ShippedCalibrationTellsMaterialsApart) {
+TEST_F(Sweep, ShippedCalibrationDistinguishesMaterials) {
   const Ending ending = viscera({"sweep", sourceFolder() + "/config/sweeps/calibration.yaml", "--out", out_});
   EXPECT_EQ(ending.status, 0) << ending.err;
   std::vector<double> forces;

@@ -136,6 +136,72 @@ TEST(TaskCommand, NoticesWhatHeatAndTearsDivide) {
   EXPECT_EQ(torn["state"], "passed") << torn["why"];
 }
 
+/// Returns the result of an operation on a pad: its top is touched, then a long blade frees it from its bottom.
+/// @param keys  further keys of the task
+Ending operationOnPad(const std::string& keys) {
+  const TemporaryFolder folder;
+  folder.write("pad.yaml",
+               "bodies: [{name: pad, source: box, box_size_m: [0.024, 0.024, 0.012], spacing_m: 0.003, fixed: "
+               "[{shape: plane, point_m: [0, 0, -0.006], normal: [0, 0, 1]}]}]\n"
+               "styluses: [{name: right, idle: probe, button1: cut, button2: none, cut: {blade_length_m: 0.08, "
+               "blade_side: both}}]\nsolver: {backend: cpu}\n");
+  const std::string task =
+      folder.write("free.yaml",
+                   "scene: pad.yaml\nkind: operation\noperation:\n  stages:\n"
+                   "    - {title: Find, kind: touch_targets, touch_targets: {targets: [{position_m: [0, 0, 0.006]}]}}\n"
+                   "    - {title: Free, kind: detach, detach: {position_m: [0, 0, 0.006]}}\n" +
+                       keys);
+  const std::string strokes = folder.write(
+      "strokes.yaml",
+      "strokes: [{stylus: right, keys: [{t_s: 0.1, position_m: [0, 0, 0.03]}, {t_s: 0.5, position_m: [0, 0, 0.009]}, "
+      "{t_s: 0.9, position_m: [0, 0, 0.03]}, {t_s: 1.2, position_m: [0.04, 0, 0.001], rotation_deg: [-90, 0, 0]}, "
+      "{t_s: 1.3, position_m: [0.03, 0, 0.001], rotation_deg: [-90, 0, 0], button1: true}, "
+      "{t_s: 2.3, position_m: [-0.03, 0, 0.001], rotation_deg: [-90, 0, 0], button1: true}]}]\n");
+  return viscera({"task", task, "--strokes", strokes, "--no-view", "--set", "solver.threads=1"});
+}
+
+TEST(TaskCommand, OperationEndsWithItsLastStage) {
+  const Ending ending = operationOnPad("");
+  ASSERT_EQ(ending.status, 0) << ending.err;
+  const nlohmann::json result = lastLine(ending)["tasks"][0];
+  EXPECT_EQ(result["state"], "passed") << result["why"];
+  EXPECT_EQ(result["kind"], "operation");
+  EXPECT_GT(result["time_s"], 1.2);  // not with the touch alone
+  EXPECT_FALSE(result["measures"].contains("spared_cuts"));
+}
+
+TEST(TaskCommand, CutsInSparedPartsFailATask) {
+  const Ending ending = operationOnPad("spared_parts: [pad]\nmeasures: [{measure: spared_cuts, most: 0}]\n");
+  ASSERT_EQ(ending.status, 0) << ending.err;
+  const nlohmann::json result = lastLine(ending)["tasks"][0];
+  EXPECT_EQ(result["state"], "failed");
+  EXPECT_EQ(result["failed_limit"], "spared_cuts");
+  EXPECT_GT(result["measures"]["spared_cuts"]["value"], 50);  // the pad is 9 x 9 nodes
+  const Ending unknown = operationOnPad("spared_parts: [liver]\n");
+  EXPECT_EQ(unknown.status, 1);
+  EXPECT_NE(unknown.err.find("'spared_parts' must name bodies or parts, of pad; found 'liver'"), std::string::npos)
+      << unknown.err;
+}
+
+/// Each stage has two of the four clips. The other two are not bad clips of it.
+TEST(TaskCommand, ClipsOfOneStageAreNotBadClipsOfAnother) {
+  const TemporaryFolder folder;
+  const std::string task =
+      folder.write("two.yaml",
+                   "scene: practice_vessel\nkind: operation\noperation:\n  stages:\n"
+                   "    - {kind: clip_and_divide, clip_and_divide: {clips: [{position_m: [-0.014, 0, 0]}, "
+                   "{position_m: [0.014, 0, 0]}]}}\n"
+                   "    - {kind: clip_and_divide, clip_and_divide: {clips: [{position_m: [-0.008, 0, 0]}, "
+                   "{position_m: [0.008, 0, 0]}]}}\n"
+                   "measures: [{measure: bad_clips, most: 0}]\n");
+  const Ending ending = viscera(
+      {"task", task, "--strokes", strokesOf("clip_and_divide", "good"), "--no-view", "--set", "solver.threads=1"});
+  ASSERT_EQ(ending.status, 0) << ending.err;
+  const nlohmann::json result = lastLine(ending)["tasks"][0];
+  EXPECT_EQ(result["state"], "passed") << result["why"];
+  EXPECT_EQ(result["measures"]["bad_clips"]["value"], 0);
+}
+
 TEST(TaskCommand, KinematicsHaveTheColumnsOfJigsaws) {
   constexpr double kRowDigits = 1e-6;  // as printed
   const TemporaryFolder folder;

@@ -28,7 +28,7 @@ std::array<Vector3d, 8> stretchedAndTurned() {
 }  // namespace
 
 /// Computed by hand: mu = 20e3 / 2.6, K = 20e3 / 1.2 at nu 0.3; J = l, B = (l^2, 1, 1).
-TEST(CellStress, OfTheNeoHookeanLawIsCauchysWhicheverWayTheCellIsTurned) {
+TEST(CellStress, OfTheNeoHookeanLawIsCauchysForAnyOrientation) {
   Body body = boxBody({2, 2, 2}, kEdge_m);
   body.material.young_modulus_pa = 20e3;
   body.material.poisson_ratio = 0.3;

@@ -211,7 +211,7 @@ TickContact onThread(double at_m, double tension_n) {
   return out;
 }
 
-TEST(ContactModel, ASutureIsAsStiffAsTicksTell) {
+TEST(ContactModel, ASutureIsAsStiffAsTicksMeasure) {
   ContactModel model{TissueConstants{}};
   double now_s = 0;
   for (int i = 0; i < 8; ++i) model.put(onThread(5e-4 * i, 0.15 * i), kTick_s, now_s += kTick_s);

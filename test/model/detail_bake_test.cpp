@@ -217,7 +217,7 @@ TEST_F(DetailBake, ColorsOfTheDetailedMeshComeAlong) {
   }
 }
 
-TEST(TriangleTree, FindsWhatLookingAtEachTriangleFinds) {
+TEST(TriangleTree, FindsTheSameAsASearchOfEveryTriangle) {
   constexpr float kSame_m = 1e-6F;  // rounding in float32 at 0.05 m
   const TriangleMesh mesh = bumpyBall(8e-3);
   const TriangleTree tree(mesh);

@@ -116,7 +116,7 @@ TEST(MeshAppearance, ColorsOfMaterialsWithoutPictures) {
   EXPECT_FALSE(import(folder, report, false).detail);
 }
 
-TEST(MeshAppearance, FileWithoutMaterialsHasNoLook) {
+TEST(MeshAppearance, FileWithoutMaterialsHasNoAppearance) {
   const TemporaryFolder folder;
   folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
   ImportReport report;

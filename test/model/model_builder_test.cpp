@@ -88,7 +88,7 @@ TEST(BuildModel, AMeshIsPlacedByItsPose) {
   EXPECT_LT((bounds.max() - Vector3d(1, 1.03, 1.01)).norm(), 1e-6) << bounds.max().transpose();
 }
 
-TEST(BuildModel, MeshFilesAreLookedUpBesideTheScene) {
+TEST(BuildModel, MeshFilesAreRelativeToTheScene) {
   BodyConfig config = meshConfig(boxMesh({0, 0, 0}, {0.03f, 0.02f, 0.01f}), 0.005);
   EXPECT_EQ(build(config).lattice.active_slots.size(), 7u * 5u * 3u) << "absolute";
   Scene scene = sceneOf(config);
@@ -161,7 +161,7 @@ TEST(BuildModel, AMeshWithoutVolumeIsRefusedByItsFile) {
   EXPECT_TRUE(contains(message, "organ.obj") && contains(message, "encloses no volume")) << message;
 }
 
-TEST(BuildModel, NotesTellWhatWasDecided) {
+TEST(BuildModel, NotesStateTheDecisions) {
   TriangleMesh apart = joined(sphereMesh({0, 0, 0}, 0.02f, 16, 2), sphereMesh({0.1f, 0, 0}, 0.01f, 16), false);
   apart.part_names = {"large", "small"};
   const Body body = build(meshConfig(apart, 0.004));

@@ -55,7 +55,7 @@ double wallThickness(const Phantom& phantom, Chamber chamber, const Vector3d& di
   return tissue;
 }
 
-TEST(HeartPhantom, TellsItsWallsTheThinnestFirst) {
+TEST(HeartPhantom, ListsItsWallsTheThinnestFirst) {
   const std::vector<Wall> walls = heartPhantom(kLength, 0.5).walls;
   ASSERT_EQ(walls.size(), 7u);  // all parts except the septum
   EXPECT_NEAR(walls.front().thickness_m, 0.5 * 0.042 * kLength, 1e-12);

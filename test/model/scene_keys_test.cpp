@@ -74,6 +74,7 @@ styluses:
     button1: cut
     button2: cut_particles
     shaft_length_m: 0.0611
+    trocar: {follows: handle, position_m: [0.0112, 0.0113, 0.0114]}
     probe: {radius_m: 0.0061}
     grab: {radius_m: 0.0062, release_speed_m_per_s: 0.65}
     cut: {blade_length_m: 0.063, blade_side: both, friction_n_per_m: 6.31, point_width_m: 0.0631}
@@ -294,6 +295,8 @@ TEST(SceneKeys, EveryOtherKeyReachesItsField) {
   EXPECT_EQ(stylus.cut.friction_n_per_m, 6.31);
   EXPECT_EQ(stylus.cut.point_width_m, 0.0631);
   EXPECT_EQ(stylus.shaft_length_m, 0.0611);
+  EXPECT_EQ(stylus.trocar.follows, TrocarMotion::kHandle);
+  EXPECT_EQ(stylus.trocar.position_m, Vector3d(0.0112, 0.0113, 0.0114));
   EXPECT_EQ(stylus.cut_particles.eraser_radius_m, 0.0064);
   EXPECT_EQ(stylus.grab.release_speed_m_per_s, 0.65);
   EXPECT_EQ(stylus.suction.radius_m, 0.0066);
@@ -446,7 +449,7 @@ TEST(SceneKeys, TableHoldsEveryKeyOnceAndNoOther) {
   for (const std::string& key : listed) EXPECT_EQ(accepted.count(key), 1u) << key << " is missing in this test's scene";
 }
 
-TEST(SceneKeys, EveryRowTellsAllAboutItsKey) {
+TEST(SceneKeys, EveryRowIsComplete) {
   for (const auto& row : tableRows(sceneKeysTable())) {
     ASSERT_EQ(row.size(), 6u) << row.at(1);  // nothing precedes the first bar
     EXPECT_GT(row[2].size(), 2u) << row[1] << " has no type";

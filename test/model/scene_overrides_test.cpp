@@ -84,7 +84,7 @@ TEST(SceneOverride, TextThatIsNoOverrideIsRefusedAndShown) {
   }
 }
 
-TEST(SceneOverride, FaultInTheFileIsStillToldByItsLine) {
+TEST(SceneOverride, ErrorInTheFileStillNamesItsLine) {
   const std::string message = test::messageOf<SceneError>(
       [] { parseScene("bodies:\n  - {name: a, spacing: 1}\n", "s.yaml", {"bodies[0].spacing_m=0.01"}); });
   EXPECT_TRUE(says(message, {"s.yaml:2: ", "unknown key 'bodies[0].spacing'"}));

@@ -119,7 +119,7 @@ TEST(SkinBinding, EdgesAreLiveSpringsWithTheRightAngleAtNodeZero) {
   }
 }
 
-TEST(SkinBinding, TrianglesLookOutOfTheBody) {
+TEST(SkinBinding, TrianglesFaceOutwards) {
   constexpr double kEdge_m = 0.001;  // vertices on an edge of the box may be bound to either face
   const Vector3d size(0.04, 0.03, 0.05);
   const BoundSkin bound = bindTo(blockSolid({4, 3, 5}, kSkinSpacing_m), boxMesh(Vector3d::Zero(), size, 9));
@@ -159,7 +159,7 @@ TEST(SkinBinding, AnchorIsTheNearestPositionInAnySolidFromAnywhere) {
   }
 }
 
-TEST(SkinBinding, ThinWallIsBoundToTheSideThatItLooksTo) {
+TEST(SkinBinding, ThinWallIsBoundToTheSideThatItFaces) {
   // 6 mm above the lower side of a wall of one 10 mm cell, looking down: the upper side is nearer.
   const TriangleMesh lower = sheetMesh({0.015, 0.015, 0.006}, {0, 0.03, 0}, {0.03, 0, 0}, 4);
   const BoundSkin bound = bindTo(blockSolid({6, 6, 1}, kSkinSpacing_m), lower);

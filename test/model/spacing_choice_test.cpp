@@ -111,7 +111,7 @@ TEST(SpacingChoice, StaysClearOfLatticesThatDoNotFitInMemory) {
   EXPECT_LT(choice.spacing_m, 0.8 * kStart_m);
 }
 
-TEST(SpacingChoice, MachineThatIsTooSlowGetsACoarseLatticeAndIsToldSo) {
+TEST(SpacingChoice, SlowMachineGetsACoarseLatticeAndANote) {
   const SpacingChoice choice = chosen(limitsOf(1e4));
   EXPECT_EQ(choice.bound, SpacingBound::kTooSlow);
   EXPECT_GT(choice.load, 1);

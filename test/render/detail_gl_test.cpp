@@ -136,7 +136,7 @@ TEST_F(DetailGl, TexturesThatTheDriverRefusesNameTheirSize) {
   EXPECT_NO_THROW(gpu::checkErrors("what came after"));
 }
 
-TEST_F(DetailGl, PicturesLieTheRightWayUp) {
+TEST_F(DetailGl, PicturesAreUpright) {
   const Image image = drawn(Detailed(square(colored(), {picture(64, quarters)})));
   EXPECT_EQ(hueAt(image, middle_x() - 20, middle_y() + 20), 'r');
   EXPECT_EQ(hueAt(image, middle_x() + 20, middle_y() + 20), 'g');
@@ -181,7 +181,7 @@ TEST_F(DetailGl, FinePicturesSeenSmallAreTheirMean) {
 }
 
 /// A flat map looks like the bare square; one that tilts by 20 degrees looks like a square with such normals.
-TEST_F(DetailGl, NormalMapLooksAsSuchNormalsDo) {
+TEST_F(DetailGl, NormalMapIsShadedLikeItsNormals) {
   SurfaceMaterial material;
   material.normal_texture.image = 0;
   const double lean = 20 * M_PI / 180;
@@ -215,7 +215,7 @@ TEST_F(DetailGl, NormalMapLooksAsSuchNormalsDo) {
 }
 
 /// A coarse ball with the normals of a bumpy one looks like the bumpy one, also when turned.
-TEST_F(DetailGl, BakedBallLooksLikeTheDetailedOne) {
+TEST_F(DetailGl, BakedBallMatchesTheDetailedOne) {
   const auto bumpy = [](double edge_m) {
     TriangleMesh mesh = ballMesh(0.05, edge_m);
     for (Vector3f& p : mesh.positions_m) {

@@ -60,7 +60,7 @@ TEST_F(ToolsGl, PresentStylusWithoutAModeIsAShaft) {
   EXPECT_EQ(drawnRows(image).first, 0) << "12 cm of shaft leave the image at its top";
 }
 
-TEST_F(ToolsGl, EveryModeLooksDifferent) {
+TEST_F(ToolsGl, EveryModeIsDrawnDifferently) {
   std::vector<Image> images;
   for (ToolMode mode : kToolsModes) images.push_back(draw(nothing_, tool(mode)));
   for (size_t a = 0; a < images.size(); ++a) {

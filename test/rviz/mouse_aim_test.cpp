@@ -54,7 +54,7 @@ TEST(MouseAim, BesideTheSkinItStaysAsFarAsItWas) {
   EXPECT_NEAR(aim.at(down(3), surface, -0.01, 0, false)->position_m.z(), 0.51, kEps_m);
 }
 
-TEST(MouseAim, SkinThatGivesWayIsNotFollowed) {
+TEST(MouseAim, YieldingSkinIsNotFollowed) {
   SentSurface surface;
   MouseAim aim;
   send(surface, 1, 0.25F);

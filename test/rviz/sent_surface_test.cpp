@@ -98,7 +98,7 @@ TEST(SentSurface, MessagesMayComeInAnyOrder) {
   EXPECT_EQ(surface.topology()->version, 3U);
 }
 
-TEST(SentSurface, ASimulatorThatIsStartedAgainCountsAnew) {
+TEST(SentSurface, RestartedSimulatorCountsFromZero) {
   SentSurface surface;
   surface.take(whole(8));
   surface.take(vertices(8));

@@ -36,6 +36,11 @@ TEST(TaskWords, WhatCostsIsShownOfEveryKind) {
   EXPECT_EQ(measuresText("lift", {{"peak_force_n", 1.728, 0}}), "Largest force: 1.73 N");
 }
 
+TEST(TaskWords, OperationsShowWhatTheyHaveCounted) {
+  EXPECT_FALSE(measuresText("operation", all()).contains("Drops"));
+  EXPECT_EQ(measuresText("operation", {{"drops", 1, 0}, {"gap_mm", 0, 0}}), "Drops: 1");
+}
+
 TEST(TaskWords, MeasureOfANewerSimulatorKeepsItsName) {
   EXPECT_EQ(measuresText("lift", {{"new_one", 1.5, 0}}), "new_one: 1.5");
 }

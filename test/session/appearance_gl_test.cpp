@@ -75,7 +75,7 @@ double sumOf(const ImageFrame& image, size_t pixel) {
 
 /// Next to a body and a camera that request all of them. If nothing requests them, they are compiled out of the
 /// shaders.
-TEST_P(Appearance, WhatDoesNotAskForThemLooksAsBefore) {
+TEST_P(Appearance, ScenesWithoutThemAreDrawnAsBefore) {
   constexpr int kRounded = 1;  // of 255: other shaders round differently
   for (const int supersampling : {0, 2}) {
     const Scene plain = scene(supersampling);

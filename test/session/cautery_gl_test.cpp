@@ -120,7 +120,7 @@ TEST_P(Cautery, CoagulatedTissueIsStifferToAProbeAndDrawnIn) {
   EXPECT_GT(burnt_n, kStiffening * fresh_n);
 }
 
-TEST_P(Cautery, WhatBoilsDryPartsAndLooksBurnt) {
+TEST_P(Cautery, DriedTissuePartsAndIsDrawnBurnt) {
   Session session(burning(240), context_);
   const ImageFrame before = picture(session);
   burn(session, 8);

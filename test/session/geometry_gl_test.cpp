@@ -94,7 +94,7 @@ TEST_P(Geometry, ThroughALensPixelsLieOnTheSurfaceToo) {
   EXPECT_GT(within, 500U);
 }
 
-TEST_P(Geometry, LabelsTellBodiesWallsToolsAndObstaclesApart) {
+TEST_P(Geometry, LabelsDistinguishBodiesWallsToolsAndObstacles) {
   Scene with_ball = scene();
   with_ball.cameras[0].position_m = Vector3d(0, -0.12, 0.15);
   ObstacleConfig ball;

@@ -94,7 +94,7 @@ TEST_F(Observation, FramesComeInOrderAndNoneIsLost) {
   EXPECT_EQ(std::set<uint64_t>(image_ticks.begin(), image_ticks.end()).size(), image_ticks.size());
 }
 
-TEST_F(Observation, ForcesSurfacesAndImagesTellWhenThePoseBehindThemCame) {
+TEST_F(Observation, ForcesSurfacesAndImagesCarryTheTimeOfTheirPose) {
   Session session(blockScene(), context_);
   const SteadyTime begin{std::chrono::hours(1)};
   const auto received = [&](int tick) { return begin + std::chrono::milliseconds(tick); };
@@ -123,7 +123,7 @@ TEST_F(Observation, ForcesSurfacesAndImagesTellWhenThePoseBehindThemCame) {
   EXPECT_EQ(session.drain().poses_received[0], SteadyTime{});
 }
 
-TEST_F(Observation, ForceThatComesLateTellsWhichPoseItAnswers) {
+TEST_F(Observation, LateForceNamesItsPose) {
   Scene scene = blockScene();
   scene.solver.stability_monitor = false;  // no waiting for the measurements of a tick
   Session session(scene, context_);

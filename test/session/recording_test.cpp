@@ -114,7 +114,7 @@ TEST_F(RecordingTest, EndsAsTheLiveSessionThreeTimes) {
   }
 }
 
-TEST_F(RecordingTest, BeginsAtTheLastStateBeforeAndEndsWhereItIsTold) {
+TEST_F(RecordingTest, BeginsAtTheLastStateBeforeAndEndsWhereRequested) {
   live(file_, folder_.file("state"));
   const double tick_s = 1 / recordedScene().solver.tick_hz;
   const Replayed whole = again(file_, 0, 50 * tick_s), late = again(file_, 45 * tick_s, 50 * tick_s);

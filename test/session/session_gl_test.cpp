@@ -180,7 +180,7 @@ TEST_F(GpuTest, AutoTakesTheGpuWhereThereIsOneAndElseTheCpu) {
   EXPECT_EQ(session.solver().onHost(), context_.isSoftware()) << context_.renderer();
 }
 
-TEST_F(GpuTest, SceneThatNeedsMoreSubstepsThanAllowedIsRefusedWithTheWayOut) {
+TEST_F(GpuTest, SceneThatNeedsMoreSubstepsThanAllowedIsRefusedWithARemedy) {
   Scene scene = blockScene();
   scene.solver.max_substeps = 3;
   const std::string message = messageOf<SceneError>([&] { Session(scene, context_); });

@@ -319,7 +319,7 @@ std::map<std::string, int> niceOfThreads() {
   return out;
 }
 
-TEST_F(ThreadedViewTest, DrawingGivesWayToStepping) {
+TEST_F(ThreadedViewTest, DrawingYieldsToStepping) {
   const int own = getpriority(PRIO_PROCESS, 0);
   ThreadedView view(model_, scene_, context_);
   show(view, requestAfterStep(threadedViewEverything()));

@@ -220,7 +220,7 @@ TEST_P(Pd, SpectralRadiusIsThatOfTheLatticesStiffestNode) {
               1e-6);  // float32 rates
 }
 
-TEST_P(Pd, AccelerationThatGoesWrongIsGivenUpAndStartsAnew) {
+TEST_P(Pd, DivergingAccelerationIsAbandonedAndRestarts) {
   const Model model = modelOf({boxBody({4, 4, 4}, 0.01)});
   const HostState start = randomState(model, 5e-4, 0.1, 7);
   const auto alone = pdAlone(GetParam(), model, 3);
@@ -234,7 +234,7 @@ TEST_P(Pd, AccelerationThatGoesWrongIsGivenUpAndStartsAnew) {
 }
 
 /// The recorded change of the abandoned iteration must not be zero.
-TEST_P(Pd, StartsAnewAlsoWhereTheFirstNodeIsFixed) {
+TEST_P(Pd, RestartsWhereTheFirstNodeIsFixed) {
   constexpr size_t kWatched = 20;  // iterations; an early one is abandoned
   Body body = boxBody({4, 4, 4}, 0.01);
   body.lattice.nodes[body.lattice.active_slots[0]].lo |= layout::kFixedBit;

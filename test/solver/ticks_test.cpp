@@ -99,7 +99,7 @@ std::string textOf(const layout::TickStats& stats) {
 
 }  // namespace
 
-TEST_F(LaggingBackend, NoTickIsWaitedForBeforeTheNextOneIsUnderWay) {
+TEST_F(LaggingBackend, NoTickIsWaitedForBeforeTheNextOneHasStarted) {
   LateSolver solver = make(0.5, kNever);
   solver.writeState(randomState(model_, 0.05 * kTicksSpacing_m, 0.1, 6));
   const int before = solver.waits();  // writing a state measures it

@@ -46,6 +46,10 @@ TEST(TaskFile, ErrorsNameFileLineKeyAndWhatIsAccepted) {
   EXPECT_TRUE(names(errorOf("scene: a\nkind: clip_and_divide\n"), {"'clip_and_divide' is missing"}));
   EXPECT_TRUE(names(errorOf("scene: a\nkind: clip_and_divide\nclip_and_divide: {clips: [{}]}\n"),
                     {"'clip_and_divide.clips'", "even number"}));
+  EXPECT_EQ(errorOf("scene: a\nkind: clip_and_divide\nclip_and_divide: {clips: [{}, {}, {}], divide_after: 2}\n"), "");
+  EXPECT_TRUE(
+      names(errorOf("scene: a\nkind: clip_and_divide\nclip_and_divide: {clips: [{}, {}, {}], divide_after: 3}\n"),
+            {"'clip_and_divide.divide_after'", "0 .. 2"}));
   EXPECT_TRUE(names(errorOf("scene: a\nkind: close_wound\nclose_wound: {path: [{}]}\n"), {"'close_wound.path'"}));
   EXPECT_TRUE(names(errorOf("scene: a\nkind: close_wound\nclose_wound: {knots: 0}\n"), {"task.yaml:3", "1 .. 64"}));
   EXPECT_TRUE(names(errorOf("kind: lift\nlift: {}\n"), {"task.yaml: ", "'scene' must name"}));
@@ -54,6 +58,13 @@ TEST(TaskFile, ErrorsNameFileLineKeyAndWhatIsAccepted) {
   EXPECT_TRUE(names(errorOf(task + "pass_score: 301\n"), {"'pass_score' must be 0 .. 300"}));
   EXPECT_TRUE(names(errorOf("a: [\n"), {"task.yaml:2"}));
   EXPECT_TRUE(names(errorOf("7\n"), {"task.yaml: a task must be a map"}));
+  EXPECT_TRUE(names(errorOf("scene: a\nkind: detach\n"), {"'detach' is missing"}));
+  EXPECT_TRUE(names(errorOf("scene: a\nkind: operation\n"), {"'operation' is missing"}));
+  EXPECT_TRUE(names(errorOf("scene: a\nkind: operation\noperation: {stages: []}\n"), {"'operation.stages' must be"}));
+  EXPECT_TRUE(names(errorOf("scene: a\nkind: operation\noperation: {stages: [{kind: lift}]}\n"),
+                    {"'operation.stages[0]': 'lift' is missing"}));
+  EXPECT_TRUE(names(errorOf("scene: a\nkind: operation\noperation: {stages: [{kind: operation}]}\n"),
+                    {"'operation.stages[0].kind'", "detach"}));
 }
 
 TEST(TaskFile, KindsStandInTheOrderOfTheirGoals) {

@@ -22,20 +22,33 @@ struct HapticsTrialKey {
 /// Beginning and end of an event, and the time at which the user has returned from it [s].
 constexpr double kEvent_s = 1.4, kOver_s = kEvent_s + 0.15, kReturns_s = kOver_s + 0.2, kBack_s = kReturns_s + 1.5;
 constexpr double kAway_m = 0.03, kBaseLeap_m = 0.015;
+constexpr double kTouches_s = 0.6;  ///< time before which the tip is free
 
+constexpr int kPokes = 8;
+constexpr double kPokeSpeed_m_per_s = 0.12, kPokeDepth_m = 0.009, kPokeTop_m = 0.003;
+constexpr double kPoke_s = kPokeDepth_m / kPokeSpeed_m_per_s;  ///< duration of one stroke, down or up
+
+bool happensInAHold(HapticEvent event) {
+  return event != HapticEvent::kNone && event != HapticEvent::kPokes;
+}
 bool goesAway(HapticEvent event) {
-  return event != HapticEvent::kNone && event != HapticEvent::kLeap;
+  return happensInAHold(event) && event != HapticEvent::kLeap;
 }
 
 /// Returns the user's stroke. @param settle_s  duration of a hold
 std::vector<HapticsTrialKey> pathOf(double settle_s, HapticEvent event) {
-  std::vector<HapticsTrialKey> path = {{0, 0.012}, {0.2, 0.004}, {0.4, 0.012}, {0.6, 0.003}, {1.1, -0.004}};
-  if (event != HapticEvent::kNone) path.push_back({kEvent_s, -0.004});
+  std::vector<HapticsTrialKey> path = {{0, 0.012}, {0.2, 0.004}, {0.4, 0.012}, {kTouches_s, kPokeTop_m}};
+  for (int i = 0; event == HapticEvent::kPokes && i < kPokes; ++i) {
+    path.push_back({path.back().time_s + kPoke_s, kPokeTop_m - kPokeDepth_m});
+    path.push_back({path.back().time_s + kPoke_s, kPokeTop_m});
+  }
+  path.push_back({path.back().time_s + 0.5, -0.004});
+  if (happensInAHold(event)) path.push_back({kEvent_s, -0.004});
   if (goesAway(event)) {
     path.push_back({kOver_s, -0.004 + kAway_m});
     path.push_back({kReturns_s, -0.004 + kAway_m});
   }
-  if (event != HapticEvent::kNone) path.push_back({kBack_s, -0.004});
+  if (happensInAHold(event)) path.push_back({kBack_s, -0.004});
   const double first = path.back().time_s + settle_s, second = first + 0.2 + settle_s;
   for (const HapticsTrialKey& key : {HapticsTrialKey{first, -0.004},
                                      {first + 0.2, -0.006},
@@ -48,7 +61,6 @@ std::vector<HapticsTrialKey> pathOf(double settle_s, HapticEvent event) {
 /// Indices into pathOf(), from its end: the ends of the holds, and the end of the retraction.
 constexpr size_t kHoldEnds[2] = {5, 3}, kOut = 2;
 constexpr double kLeaves_m_per_s = 0.018 / 0.2;  ///< speed while retracting
-constexpr double kTouches_s = 0.6;               ///< time before which the tip is free
 constexpr double kHapticsTrialLeft_s = 0.05;     ///< time after the retraction at which the tip is free again
 constexpr double kHapticsTrialSample_s = 0.4;    ///< time at the end of a hold that is evaluated
 constexpr double kHapticsTrialSettle_s = 1.5;    ///< duration of a hold, in addition to the ringing of the device
@@ -130,6 +142,8 @@ class HapticsTrialRun : public HeldTrial {
     const double size_n = sent_force_n_.norm();
     if (now_s_ < kTouches_s || now_s_ > keyTime(kOut) + kHapticsTrialLeft_s)
       out_.free_n = std::max(out_.free_n, size_n);
+    if (trial_.event == HapticEvent::kPokes && within(kTouches_s, kTouches_s + 2 * kPokes * kPoke_s))
+      poked_n_ = std::max(poked_n_, size_n);
     for (int h = 0; h < 2; ++h) {
       const double end_s = keyTime(kHoldEnds[h]);
       if (!within(end_s - kHapticsTrialSample_s, end_s)) continue;
@@ -152,8 +166,8 @@ class HapticsTrialRun : public HeldTrial {
     }
     const double late_s = trial_.delay_s + 0.5 * kPeriod_s + 1 / trial_.poses_hz;
     const double leaves =
-        std::max(holds_[1].force.mean() * kLeaves_m_per_s,
-                 goesAway(trial_.event) ? holds_[0].force.mean() * kAway_m / (kOver_s - kEvent_s) : 0);
+        std::max({holds_[1].force.mean() * kLeaves_m_per_s, poked_n_ * kPokeSpeed_m_per_s,
+                  goesAway(trial_.event) ? holds_[0].force.mean() * kAway_m / (kOver_s - kEvent_s) : 0});
     out_.unheard_mj = 1e3 * late_s * leaves;
     const ForceLoop::HapticStats stats = loop_.stats(0);
     out_.observed_mj = 1e3 * stats.least_j;
@@ -165,6 +179,7 @@ class HapticsTrialRun : public HeldTrial {
   const std::vector<HapticsTrialKey> path_;
   HapticOutcome out_;
   ProbedHold holds_[2];
+  double poked_n_ = 0;  ///< largest force of the pokes [N]
 };
 
 }  // namespace
@@ -179,6 +194,8 @@ const char* nameOf(HapticEvent event) {
       return "leap";
     case HapticEvent::kClutch:
       return "clutch";
+    case HapticEvent::kPokes:
+      return "pokes";
     case HapticEvent::kUnheard:
       return "unheard";
   }

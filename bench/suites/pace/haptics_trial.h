@@ -9,12 +9,13 @@
 
 namespace viscera::bench {
 
-/// An event during contact with a held device. None lasts longer than 0.4 s.
+/// An event during contact with a held device. None but the pokes lasts longer than 0.4 s.
 enum class HapticEvent {
   kNone,
   kStall,   ///< no ticks for 150 ms, in which the user moves 3 cm away
   kLeap,    ///< the device's base is moved up by 15 mm, and back
   kClutch,  ///< the clutch is pressed while the user moves 3 cm away and back
+  kPokes,   ///< eight pokes of 9 mm at 0.12 m/s before the holds
   kUnheard  ///< no subscriber to forces for 150 ms: the driver was restarted
 };
 const char* nameOf(HapticEvent event);
@@ -46,9 +47,9 @@ struct HapticOutcome {
   double swing_n = 0, swing_mm = 0;  ///< half of peak to peak in the last part of the hold
   double least_energy_mj = 0;        ///< least energy absorbed by the motors so far [mJ]; < 0: delivered
   double observed_mj = 0;            ///< same by the observer [mJ]
-  /// Energy that the force of a hold gives to a user who retracts before the loop receives it: force times speed times
-  /// delay, from a pose to the force that answers it [mJ]. No loop that renders the simulator's force to a user at rest
-  /// can avoid it.
+  /// Energy that the force of a hold, or of one poke, gives to a user who retracts before the loop receives it: force
+  /// times speed times delay, from a pose to the force that answers it [mJ]. No loop that renders the simulator's force
+  /// to a user at rest can avoid it.
   double unheard_mj = 0;
   double free_n = 0;           ///< largest force before the first contact and after the last, with the user moving [N]
   double stiffness_scale = 1;  ///< share of the stiffness that acts on fast motion, at the end

@@ -106,7 +106,7 @@ struct Frame : Pictures {
   /// [obstacles] force and torque of the tissue on each in the tick of `stats`, without limits; torque about its
   /// position at the end of the tick.
   std::vector<Reaction> obstacle_forces;
-  std::shared_ptr<const ShownMarks> marks;  ///< marks on the tissue; null: none
+  std::shared_ptr<const VisibleMarks> marks;  ///< marks on the tissue; null: none
 };
 
 /// Tick that is to be shown.
@@ -117,9 +117,9 @@ struct RenderRequest {
   std::vector<Pose> cameras;    ///< [cameras] poses of the optical frames, tissue frame
   ProcessVisuals processes;     ///< processes in the tissue at the end of the tick
   FrameRequest outputs;
-  std::vector<Overlays> overlays;           ///< [cameras]
-  std::vector<Arrow> arrows;                ///< arrows of forces and wind, where some camera shows them
-  std::shared_ptr<const ShownMarks> marks;  ///< marks on the tissue; null: none
+  std::vector<Overlays> overlays;             ///< [cameras]
+  std::vector<Arrow> arrows;                  ///< arrows of forces and wind, where some camera shows them
+  std::shared_ptr<const VisibleMarks> marks;  ///< marks on the tissue; null: none
 };
 
 /// Work for display since the start: all stay zero without a subscriber.

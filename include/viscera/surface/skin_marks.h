@@ -40,7 +40,7 @@ struct MarkStyle {
 };
 
 /// Marks as they are shown. It never changes, so users share it.
-struct ShownMarks {
+struct VisibleMarks {
   std::shared_ptr<const std::vector<MarkStroke>> strokes;
   std::vector<MarkStyle> styles;  ///< [marks]
 };
@@ -55,6 +55,6 @@ struct MarkPiece {
 /// Returns the lines of marks on deformed tissue, with their patterns, half of their width above the surface; a dot is
 /// a short piece as wide as it is long. Where a cut has split a triangle, a point stays with the nearest corner, and
 /// pieces across the gap are left out. @param mesh  with a topology
-std::vector<MarkPiece> markPieces(const ShownMarks& marks, const VisibleMesh& mesh);
+std::vector<MarkPiece> markPieces(const VisibleMarks& marks, const VisibleMesh& mesh);
 
 }  // namespace viscera

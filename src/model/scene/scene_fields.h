@@ -108,6 +108,17 @@ void visitFields(V& v, ClipConfig& c) {
 }
 
 template <class V>
+void visitFields(V& v, TrocarConfig& c) {
+  v.choice("follows", c.follows,
+           {{"none", TrocarMotion::kNone}, {"handle", TrocarMotion::kHandle}, {"tip", TrocarMotion::kTip}},
+           "end of the shaft that follows the pose while the axis of the shaft passes `position_m`: handle, the end of "
+           "`shaft_length_m`, so that sideways motion is reversed at the tip and its force has the lever "
+           "(docs/lessons/instruments.md#trocars); tip; none: no trocar");
+  v.vector("position_m", c.position_m, kCoordinate, "m",
+           "point that the axis of the shaft passes, in the tissue frame");
+}
+
+template <class V>
 void visitFields(V& v, StylusConfig& c) {
   const std::vector<Choice<ToolMode>> modes = toolChoices();
   v.text("name", c.name, "name of the stylus; its topics are `<name>/measured_cp` and so on");
@@ -128,6 +139,7 @@ void visitFields(V& v, StylusConfig& c) {
   v.number("shaft_length_m", c.shaft_length_m, {0.001, 1}, "m",
            "length of the drawn shaft, from the tip back; its thickness is a twentieth of that, and tissue does not "
            "touch it");
+  v.group("trocar", c.trocar, "trocar: point of the body wall that the shaft passes");
   v.number("jaw_closing_s", c.jaw_closing_s, {0.02, 10}, "s",
            "time from open to closed for jaws that a button closes, except scissors");
   v.number("max_force_n", c.max_force_n, {0, 1e3}, "N", "limit of the reaction force, which saturates there");

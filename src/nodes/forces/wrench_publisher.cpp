@@ -12,6 +12,7 @@
 #include "nodes/ros/thread_name.h"
 #include "nodes/ros/thread_schedule.h"
 #include "viscera/model/scene/scene.h"
+#include "viscera/tools/trocar.h"
 
 namespace viscera::nodes {
 namespace {
@@ -22,6 +23,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kReleaseLimit{40};
 /// roscpp writes to sockets on its own thread and does not report when; it has done so after this time.
 constexpr std::chrono::milliseconds kFlush{10};
+constexpr double kNoForce_n = 1e-9;
 
 }  // namespace
 
@@ -132,7 +134,8 @@ ForceLoop::Inputs WrenchPublisher::stylusesNow(SteadyTime now) const {
   ForceLoop::Inputs out;
   for (size_t s = 0; s < mailboxes_.size(); ++s) {
     const StylusSample sample = mailboxes_[s]->peek(now);
-    out[s] = {sample.valid && !mailboxes_[s]->clutched(), listening_[s], sample.pose.position_m, sample.received};
+    const Vector3d tip_m = Trocar(mailboxes_[s]->config()).toolPose(sample.pose).position_m;
+    out[s] = {sample.valid && !mailboxes_[s]->clutched(), listening_[s], tip_m, sample.received};
   }
   return out;
 }
@@ -152,7 +155,7 @@ void WrenchPublisher::main() {
     stalls_ = loop_.schedule().stalls();
     stalled_ = loop_.schedule().stalled();
     lock.unlock();
-    const auto sent_force_n = send(wrenches);
+    const auto sent_force_n = send(wrenches, now);
     if (ticked) sendEnergies();
     if (ticked || !live) sendImpedances(live);
     const ListeningStyluses listening = this->listening();
@@ -169,14 +172,19 @@ void WrenchPublisher::main() {
   }
 }
 
-std::array<Vector3d, layout::kMaxStyluses> WrenchPublisher::send(const Wrenches& wrenches) {
+std::array<Vector3d, layout::kMaxStyluses> WrenchPublisher::send(const Wrenches& wrenches, SteadyTime now) {
   std::array<Vector3d, layout::kMaxStyluses> sent_force_n;
   sent_force_n.fill(Vector3d::Zero());
   const ros::Time stamp = ros::Time::now();
   for (size_t s = 0; s < sinks_.size(); ++s) {
     if (!sinks_[s].hasSubscribers()) continue;
     const DeviceFrame frame = mailboxes_[s]->deviceFrame();
-    sent_force_n[s] = frame.from_tissue.conjugate() * sinks_[s].send(wrenches[s], frame, stamp).force_n;
+    const Trocar trocar(mailboxes_[s]->config());
+    const Reaction wanted = trocar.deviceReaction(wrenches[s], mailboxes_[s]->peek(now).pose);
+    sent_force_n[s] = frame.from_tissue.conjugate() * sinks_[s].send(wanted, frame, stamp).force_n;
+    // The loop's energies are of the tip's motion, for which the force does the work of that at the device.
+    if (trocar.isPresent())
+      sent_force_n[s] = wrenches[s].force_n * (sent_force_n[s].norm() / std::max(wanted.force_n.norm(), kNoForce_n));
   }
   return sent_force_n;
 }
@@ -197,7 +205,7 @@ void WrenchPublisher::sendImpedances(bool live) {
   for (size_t s = 0; s < impedances_.size(); ++s) {
     if (impedances_[s].getNumSubscribers() == 0) continue;
     crtk_msgs::CartesianImpedance message = noImpedance(mailboxes_[s]->deviceFrame().name, stamp);
-    if (live) {
+    if (live && !Trocar(mailboxes_[s]->config()).isPresent()) {  // an impedance at the tip is none at the handle
       const std::lock_guard<PriorityMutex> lock(mutex_);
       message = toImpedance(loop_.servo(s), *mailboxes_[s], loop_.schedule().limits(s).force_n, Clock::now(), stamp);
     }

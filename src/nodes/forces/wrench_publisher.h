@@ -71,7 +71,7 @@ class WrenchPublisher {
   ListeningStyluses listening() const;
   ForceLoop::Inputs stylusesNow(SteadyTime now) const;
   /// Sends wrenches to the devices. @returns the forces of the devices' motors, in the axes of the tissue frame
-  std::array<Vector3d, layout::kMaxStyluses> send(const Wrenches& wrenches);
+  std::array<Vector3d, layout::kMaxStyluses> send(const Wrenches& wrenches, SteadyTime now);
   void sendEnergies();
   void sendImpedances(bool live);
 

@@ -15,7 +15,7 @@ namespace viscera::nodes {
 namespace {
 
 /// Returns whether the marks of all pieces exist.
-bool isOf(const std::vector<MarkPiece>& pieces, const ShownMarks& marks) {
+bool isOf(const std::vector<MarkPiece>& pieces, const VisibleMarks& marks) {
   return std::all_of(pieces.begin(), pieces.end(),
                      [&](const MarkPiece& piece) { return piece.mark < marks.styles.size(); });
 }

@@ -89,7 +89,7 @@ class FramePublisher {
     std::optional<Stamped<SceneStyle>> scene;
     std::optional<Sutures> sutures;
     std::optional<Needles> needles;
-    std::shared_ptr<const ShownMarks> marks;  ///< marks on `surface`
+    std::shared_ptr<const VisibleMarks> marks;  ///< marks on `surface`
   };
 
   void putCameraFrames(const Frame& frame);

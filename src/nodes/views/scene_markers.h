@@ -34,7 +34,7 @@ struct SceneStyle {
   std::array<std::vector<Vector3d>, layout::kMaxStyluses> held_m = {};  ///< see Frame
   std::vector<NeedleState> needles = {};
   std::array<bool, layout::kMaxStyluses> in_tf = {};  ///< whether the tool's pose is that of its frame in tf
-  std::shared_ptr<const ShownMarks> marks = {};       ///< marks on the tissue; null: none
+  std::shared_ptr<const VisibleMarks> marks = {};     ///< marks on the tissue; null: none
   std::vector<MarkPiece> mark_pieces = {};            ///< their lines on a recent surface
 };
 /// Returns the contents of a frame. @param samples  samples that determine the tool frames in tf

@@ -162,7 +162,7 @@ void addStrokes(const RestSkins& skins, const MarkConfig& mark, uint32_t number,
 
 MarkBoard::MarkBoard(const Model& model) : model_(model) {}
 
-std::shared_ptr<const ShownMarks> MarkBoard::show(const std::vector<MarkConfig>& marks) {
+std::shared_ptr<const VisibleMarks> MarkBoard::show(const std::vector<MarkConfig>& marks) {
   if (marks.empty() || model_.bodies.empty()) return nullptr;
   if (!strokes_ || !std::equal(marks.begin(), marks.end(), marks_.begin(), marks_.end(), isAtTheSamePositions)) {
     if (!skins_) skins_ = std::make_unique<RestSkins>(model_);
@@ -171,10 +171,10 @@ std::shared_ptr<const ShownMarks> MarkBoard::show(const std::vector<MarkConfig>&
     strokes_ = std::make_shared<const std::vector<MarkStroke>>(std::move(strokes));
   }
   marks_ = marks;
-  ShownMarks out;
+  VisibleMarks out;
   out.strokes = strokes_;
   for (const MarkConfig& mark : marks) out.styles.push_back({mark.color.cast<float>(), mark.pattern});
-  return std::make_shared<const ShownMarks>(std::move(out));
+  return std::make_shared<const VisibleMarks>(std::move(out));
 }
 
 std::string MarkBoard::faultOf(size_t number) const {

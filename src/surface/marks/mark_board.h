@@ -20,7 +20,7 @@ class MarkBoard {
 
   /// Returns marks on the surface; null where there are none. Marks that differ from the last ones only in colours and
   /// patterns keep their strokes. A mark that meets no surface has no strokes.
-  std::shared_ptr<const ShownMarks> show(const std::vector<MarkConfig>& marks);
+  std::shared_ptr<const VisibleMarks> show(const std::vector<MarkConfig>& marks);
   /// Returns why a mark of the last call is not shown where it is meant to be, or empty.
   std::string faultOf(size_t mark) const;
 

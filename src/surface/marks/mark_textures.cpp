@@ -10,7 +10,7 @@
 
 namespace viscera {
 
-void MarkTextures::show(const std::shared_ptr<const ShownMarks>& marks) {
+void MarkTextures::show(const std::shared_ptr<const VisibleMarks>& marks) {
   if (marks == marks_) return;
   marks_ = marks;
   any_ = marks != nullptr && !marks->strokes->empty();

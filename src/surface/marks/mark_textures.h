@@ -18,7 +18,7 @@ class MarkTextures {
  public:
   /// Sets the marks; null: none. Strokes are written only where they are others than the last ones. Needs a current
   /// context.
-  void show(const std::shared_ptr<const ShownMarks>& marks);
+  void show(const std::shared_ptr<const VisibleMarks>& marks);
   bool any() const { return any_; }
   /// Binds the textures, and sets the uniforms of programs with feature MARKS.
   void bind() const;
@@ -26,7 +26,7 @@ class MarkTextures {
 
  private:
   std::shared_ptr<const std::vector<MarkStroke>> strokes_;
-  std::shared_ptr<const ShownMarks> marks_;
+  std::shared_ptr<const VisibleMarks> marks_;
   gpu::Buffer<layout::vec4> segments_, styles_;
   gpu::Buffer<uint32_t> cells_;
   gpu::TexelView segments_view_, styles_view_, cells_view_;

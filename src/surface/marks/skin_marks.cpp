@@ -138,7 +138,7 @@ class Pen {
 
 }  // namespace
 
-std::vector<MarkPiece> markPieces(const ShownMarks& marks, const VisibleMesh& mesh) {
+std::vector<MarkPiece> markPieces(const VisibleMarks& marks, const VisibleMesh& mesh) {
   std::vector<MarkPiece> out;
   const WholeTriangles whole(*marks.strokes, *mesh.topology);
   for (const MarkStroke& stroke : *marks.strokes) {

@@ -208,7 +208,7 @@ TEST(ScanFrame, AVolumeOfSeveralKeepsItsDirections) {
   EXPECT_NE(test::errorOf(path, second).find("accepted: volume 0 .. 2"), std::string::npos);
 }
 
-TEST(ScanFrame, AFileThatDoesNotSayIsToldOrRefused) {
+TEST(ScanFrame, FileWithoutAxesNeedsThemOrIsRefused) {
   const TestVolume v;
   test::NiftiHeader header(v);
   header.put<int16_t>(254, 0, 0);

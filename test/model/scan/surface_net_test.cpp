@@ -343,7 +343,7 @@ TEST(SurfaceNet, ValuesPlaceBothSidesOfAWindow) {
   }
 }
 
-TEST(SurfaceNet, UnknownValuesLieHalfWay) {
+TEST(SurfaceNet, UnknownValuesAreHalfway) {
   const LabelVolume volume = sampled(ballPhantom(), frameAround(ballPhantom(), {2, 2, 2}, turned()));
   const ValueWindow window{0, 1, [](size_t) { return std::numeric_limits<float>::quiet_NaN(); }};
   const SurfaceNet net = surfaceNet(volume, &window);

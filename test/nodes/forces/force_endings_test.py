@@ -2,7 +2,7 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
 """However a session ends or hangs, the last force sent to a device is zero, and it is sent soon. Each ending is caused
-from outside. A simulated stylus (hand.py) is pressed into the tissue and records the forces that it receives."""
+from outside. A simulated stylus (stylus_device.py) is pressed into the tissue and records the forces that it receives."""
 import os
 import resource
 import signal

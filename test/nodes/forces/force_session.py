@@ -22,7 +22,7 @@ FORCED_END_S = 1.2      # a second, and the time for this process to notice
 TIMEOUT = "_timeout_s:=0.03"  # option of watchdogs
 SUPPORT = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "support")
 SCENE = "_scene:=" + os.path.join(SUPPORT, "front_wall.yaml")
-TISSUE = "_overrides:=bodies[0].position_m=[0,-0.018,-0.02]"  # where the hand feels 0.3 N
+TISSUE = "_overrides:=bodies[0].position_m=[0,-0.018,-0.02]"  # where the stylus receives 0.3 N
 # The heart, for a test of its pictures.
 HEART = ("_scene:=heart", "_overrides:=bodies[0].spacing_m=0.008;bodies[0].material.young_modulus_pa=20000;"
          "environment.gravity_m_per_s2=[0,0,0];styluses[0].probe.radius_m=0.012")
@@ -53,7 +53,7 @@ class Session:
         self.environment["ROS_NAMESPACE"] = self.space
         self.simulator = self.node("simulator", *scene, *options)
         # its interpreter starts while the tissue is created; it waits outside until then
-        self.hand = self.start([sys.executable, os.path.join(SUPPORT, "hand.py"), wrenches] + ([kind] if kind else []),
+        self.hand = self.start([sys.executable, os.path.join(SUPPORT, "stylus_device.py"), wrenches] + ([kind] if kind else []),
                                stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         wait_ready(self.simulator)
         self.hand.stdin.write("press\n")

@@ -109,7 +109,7 @@ class HapticsTest(unittest.TestCase):
 
         impedance = [message for t, message in self.impedances if begun <= t < ended][-1]
         self.assert_same_as_impedance(impedance, force_n, height_m)
-        wait_until(lambda: self.heights[-1][1] > TOP_M + 2 * RADIUS_M, LIMIT_S, "a hand that goes away")
+        wait_until(lambda: self.heights[-1][1] > TOP_M + 2 * RADIUS_M, LIMIT_S, "a stylus that goes away")
         self.watch.wait_news()
         self.assertEqual(self.wrenches[-1][1], 0)
         print("energy %.3f mJ, least %.3f mJ, p99 of pose to force %s ms, %s" % (

@@ -67,39 +67,39 @@ class DevicesTest(unittest.TestCase):
     def drive(self, name, kinds):
         self.tools.clear()
         hands = [kind(stylus) for kind, stylus in zip(kinds, ("left", "right"))]
-        options = ["%s.%s" % (hand.stylus, option) for hand in hands for option in hand.options]
-        program = simulator(name, [hand.device() for hand in hands], options)
+        options = ["%s.%s" % (device.stylus, option) for device in hands for option in device.options]
+        program = simulator(name, [device.device() for device in hands], options)
         try:
             program.said("ready:")
             watch = SimulatorWatch(name)
-            for hand in hands:
-                self.check(hand, watch, program)
+            for device in hands:
+                self.check(device, watch, program)
         finally:
-            for hand in hands:
-                hand.end()
+            for device in hands:
+                device.end()
             program.end()
 
-    def check(self, hand, watch, program):
-        what = type(hand).__name__
-        hand.turned = TURNED
-        hand.at = SIDE[hand.stylus] + (ABOVE,)
-        wait_until(lambda: self.tool_is(hand.stylus, hand.at, hand.turned), LIMIT_S,
-                   "tool of %s at %s: %s; %s" % (what, hand.at, self.tools.get(hand.stylus), program.output))
+    def check(self, device, watch, program):
+        what = type(device).__name__
+        device.turned = TURNED
+        device.at = SIDE[device.stylus] + (ABOVE,)
+        wait_until(lambda: self.tool_is(device.stylus, device.at, device.turned), LIMIT_S,
+                   "tool of %s at %s: %s; %s" % (what, device.at, self.tools.get(device.stylus), program.output))
         time.sleep(0.3)  # initially outside of tissue, and its buttons are received as released
-        hand.press(1, False)
-        self.go(hand, DEEP)
-        if hand.feels:
+        device.press(1, False)
+        self.go(device, DEEP)
+        if device.feels:
             def felt():
-                force = hand.force_n
+                force = device.force_n
                 return force and force[2] > FELT_N and math.hypot(force[0], force[1]) < ASIDE * force[2]
-            wait_until(felt, LIMIT_S, "force of %s upwards: %s" % (what, hand.force_n))
-        wait_until(lambda: (watch.value(hand.stylus, "nodes_touched") or 0) > 0, LIMIT_S, what + " touching")
-        hand.press(1, True)
-        wait_until(lambda: (watch.value(hand.stylus, "nodes_held") or 0) > 0, LIMIT_S, what + " holding")
-        hand.press(1, False)
-        wait_until(lambda: watch.value(hand.stylus, "nodes_held") == 0, LIMIT_S, what + " letting go")
+            wait_until(felt, LIMIT_S, "force of %s upwards: %s" % (what, device.force_n))
+        wait_until(lambda: (watch.value(device.stylus, "nodes_touched") or 0) > 0, LIMIT_S, what + " touching")
+        device.press(1, True)
+        wait_until(lambda: (watch.value(device.stylus, "nodes_held") or 0) > 0, LIMIT_S, what + " holding")
+        device.press(1, False)
+        wait_until(lambda: watch.value(device.stylus, "nodes_held") == 0, LIMIT_S, what + " letting go")
         self.assertNotIn("dropped", program.output, what)
-        self.go(hand, ABOVE)
+        self.go(device, ABOVE)
 
     def test_crtk_and_crtk_before_2022(self):
         self.drive("now_and_then", [drivers.Crtk, drivers.Crtk2021])
@@ -118,23 +118,23 @@ class DevicesTest(unittest.TestCase):
 
     def test_what_a_clutch_a_moved_base_and_millimetres_do(self):
         self.tools.clear()
-        hand = drivers.DvrkMaster("left")
+        device = drivers.DvrkMaster("left")
         other = drivers.TfTracker("right")
-        program = simulator("odd", [hand.device(), other.device()], ["right." + o for o in other.options])
+        program = simulator("odd", [device.device(), other.device()], ["right." + o for o in other.options])
         try:
             program.said("ready:")
-            hand.at, other.at = (0, 0, 0.1), (0.05, 0, 0.1)
-            wait_until(lambda: self.tool_is("left", hand.at, hand.turned), LIMIT_S, "tool")
-            hand.clutch.publish(drivers.Joy(buttons=[1]))
+            device.at, other.at = (0, 0, 0.1), (0.05, 0, 0.1)
+            wait_until(lambda: self.tool_is("left", device.at, device.turned), LIMIT_S, "tool")
+            device.clutch.publish(drivers.Joy(buttons=[1]))
             watch = SimulatorWatch("odd")
             wait_until(lambda: watch.value("left", "clutched") == "True", LIMIT_S, "clutch")
-            hand.at = (0.08, 0, 0.1)
+            device.at = (0.08, 0, 0.1)
             time.sleep(0.5)
-            self.assertTrue(self.tool_is("left", (0, 0, 0.1), hand.turned))
-            hand.clutch.publish(drivers.Joy(buttons=[0]))
+            self.assertTrue(self.tool_is("left", (0, 0, 0.1), device.turned))
+            device.clutch.publish(drivers.Joy(buttons=[0]))
             wait_until(lambda: watch.value("left", "clutched") == "False", LIMIT_S, "clutch let go")
-            hand.at = (0.08, 0.02, 0.1)
-            wait_until(lambda: self.tool_is("left", (0, 0.02, 0.1), hand.turned), LIMIT_S, "tool that goes on")
+            device.at = (0.08, 0.02, 0.1)
+            wait_until(lambda: self.tool_is("left", (0, 0.02, 0.1), device.turned), LIMIT_S, "tool that goes on")
             wait_until(lambda: self.tool_is("right", other.at, other.turned), LIMIT_S, "tracked tool")
             other.camera = (0.2, 0.15, 0.4)  # the camera is moved aside; the stylus has not moved
             program.said("the frame 'camera' was moved")
@@ -144,17 +144,17 @@ class DevicesTest(unittest.TestCase):
             wait_until(lambda: self.tool_is("right", other.at, other.turned), LIMIT_S, "tool that was not moved")
             self.assertEqual(watch.value("left", "base_moves"), 0)
         finally:
-            hand.end(), other.end()
+            device.end(), other.end()
             program.end()
 
     def test_millimetres_taken_for_metres_are_told(self):
-        hand = drivers.Geomagic("left")
-        program = simulator("units", [hand.device()], ["left.pose.unit_m=1"])
+        device = drivers.Geomagic("left")
+        program = simulator("units", [device.device()], ["left.pose.unit_m=1"])
         try:
-            hand.at = (0, 0, 0.1)
+            device.at = (0, 0, 0.1)
             program.said("set pose.unit_m: 0.001 in its profile")
         finally:
-            hand.end()
+            device.end()
             program.end()
 
     def test_wrong_choices_end_the_node_with_a_line(self):

@@ -31,7 +31,7 @@ REST_S = 1.0                      # time in which the soft tissue comes to rest
 PRESS_S, SWEEP_S = 0.5, 0.8       # durations of the motions in and across
 
 
-class Hand:
+class StylusDevice:
     """Publishes its pose repeatedly, until it vanishes."""
 
     def __init__(self, name, frame="tissue"):
@@ -83,7 +83,7 @@ class InputTest(unittest.TestCase):
         rospy.init_node("input_test")
         cls.watch = SimulatorWatch()
         cls.watch.wait_ready()
-        cls.left, cls.right = Hand("left"), Hand("right")
+        cls.left, cls.right = StylusDevice("left"), StylusDevice("right")
         cls.force = Latest("left/body/servo_cf", WrenchStamped)
         cls.call = {name: rospy.ServiceProxy(name, Trigger) for name in ("reset", "pause", "resume")}
         cls.step = rospy.ServiceProxy("step", Step)
@@ -139,7 +139,7 @@ class InputTest(unittest.TestCase):
         self.assertGreater(self.force_n(), FELT_N)
         self.assertLess(self.force.message.wrench.force.y, 0)  # out of the tissue
 
-    def test_button_ends_with_its_hand(self):
+    def test_button_ends_with_its_stylus(self):
         self.right.appear(LEFT)
         self.right.press(2, True)
         self.right.vanish()
@@ -188,7 +188,7 @@ class InputTest(unittest.TestCase):
         time.sleep(0.5)
         self.assertEqual(self.force_n(), 0)
 
-    def test_steps_of_a_paused_session_push_no_hand(self):
+    def test_steps_of_a_paused_session_send_no_force(self):
         self.press_probe_in()
         self.assertTrue(self.call["pause"]().success)
         time.sleep(0.2)

@@ -37,17 +37,17 @@ class SlowReplayTest(unittest.TestCase):
         watch = SimulatorWatch()
         tick = Latest("tick", Tick)
         poses = []
-        hand = Latest("left/measured_cp", PoseStamped,
+        device = Latest("left/measured_cp", PoseStamped,
                       lambda m: poses.append((m.pose.position.z, tick.message.time_s, time.monotonic())))
         watch.wait_ready()
 
         wait_until(lambda: tick.count, LIMIT_S, "tick")
         self.assertFalse(tick.message.viewed)
         time.sleep(UNWATCHED_S)
-        self.assertEqual(hand.count, 0)
+        self.assertEqual(device.count, 0)
 
         marker = Latest("surface_marker", Marker)
-        wait_until(lambda: hand.count, LIMIT_S, "pose once someone looks")
+        wait_until(lambda: device.count, LIMIT_S, "pose once someone looks")
         wait_until(lambda: tick.message.viewed, LIMIT_S, "tick that says so")  # the pose may overtake it
 
         # The stylus moves down once, the simulation is reset, and the stylus moves down again.

@@ -270,7 +270,7 @@ class SteeringTest(unittest.TestCase):
         pad.message = None                         # unplugged
         wait_until(lambda: not self.down("right/button2"), LIMIT_S, "button let go")
         stands, count = self.right.topic.message.pose.orientation.x, len(self.right.places)
-        wait_until(lambda: len(self.right.places) > count + 20, LIMIT_S, "poses of a hand that stands still")
+        wait_until(lambda: len(self.right.places) > count + 20, LIMIT_S, "poses of a stylus at rest")
         self.assertEqual(self.right.topic.message.pose.orientation.x, stands)
 
     def test_5_bad_parameters_are_refused(self):

@@ -96,7 +96,7 @@ TEST_F(StylusBaseTest, ThatIsCarriedAndTurnedSlowlyIsFollowed) {
 }
 
 /// After a jump, forces between ticks would use the tissue model of the previous position.
-TEST_F(StylusBaseTest, ThatLeapsIsSeenByALookAlone) {
+TEST_F(StylusBaseTest, ThatLeapsIsSeenWithoutANewPose) {
   say(tip_m_);
   EXPECT_TRUE(taken());
   EXPECT_TRUE(peeked());

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kHour_s = 3600;
 
-TEST(StylusClock, PoseThatWasLongOnItsWayIsDroppedWhateverTheClockOfTheDevice) {
+TEST(StylusClock, LatePoseIsDroppedForAnyClockOfTheDevice) {
   StylusMailbox mailbox(config(), "tissue");
   constexpr double kAhead_s = 1e6;  // offset of the device's clock
   const auto sent = [](double t) { return poseNow(kAhead_s + t); };

@@ -214,7 +214,7 @@ TEST_F(StylusButtonTest, ThatIsDownWhenTheStylusComesMustBeReleased) {
   EXPECT_FALSE(take(4).button1);
 }
 
-TEST_F(StylusButtonTest, FirstPressOfADriverThatTellsChangesActs) {
+TEST_F(StylusButtonTest, FirstPressOfADriverThatSendsChangesActs) {
   press(0, 1);  // the first message of this button
   EXPECT_TRUE(take().button1);
 }

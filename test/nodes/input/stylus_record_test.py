@@ -13,7 +13,7 @@ import unittest
 
 import rospy
 import rostest
-from irregular_hand import Hand
+from irregular_stylus import StylusDevice
 from program import Program, node
 from simulator_watch import Latest, SimulatorWatch, wait_until
 from std_srvs.srv import Trigger
@@ -32,7 +32,7 @@ class StylusRecordTest(unittest.TestCase):
         cls.file = os.path.join(cls.folder.name, "recorded.yaml")
         cls.watch = SimulatorWatch()
         cls.watch.wait_ready()
-        cls.left, cls.right = Hand("left"), Hand("right")
+        cls.left, cls.right = StylusDevice("left"), StylusDevice("right")
         wait_until(lambda: cls.left.heard() and cls.right.heard(), LIMIT_S, "subscribers")
         cls.call = {name: rospy.ServiceProxy(name, Trigger) for name in ("reset", "pause", "resume")}
         cls.step = rospy.ServiceProxy("step", Step)
@@ -74,7 +74,7 @@ class StylusRecordTest(unittest.TestCase):
         self.addCleanup(program.end)
         return program
 
-    def test_1_live_hands_are_replayed_to_the_bit(self):
+    def test_1_live_poses_are_replayed_to_the_bit(self):
         recorder = self.record()
         recorder.said("recording since tick 1")
         self.act()

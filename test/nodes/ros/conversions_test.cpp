@@ -49,7 +49,7 @@ SurfaceFrame frameOf(const VisibleTopology& skin) {
   return frame;
 }
 
-TEST(Conversions, PoseSurvivesTheWayThereAndBack) {
+TEST(Conversions, PoseSurvivesARoundTrip) {
   const Pose pose{{0.1, -0.2, 0.3}, Quaterniond(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()))};
   const Pose back = fromMessage(toMessage(pose));
   EXPECT_EQ(back.position_m, pose.position_m);
@@ -103,7 +103,7 @@ TEST(Conversions, WrenchThatIsNotFiniteBecomesZero) {
   EXPECT_EQ(message.wrench.torque.z, 0);
 }
 
-TEST(Conversions, TopologyTellsWhatIsShownAndCountsPerBody) {
+TEST(Conversions, TopologyListsVisibleTrianglesAndCountsPerBody) {
   const VisibleTopology skin = twoBodies();
   const auto whole = toTopology(skin, followed(skin), 1, "tissue", ros::Time(1));
   EXPECT_EQ(whole.triangles, skin.triangles);
@@ -115,7 +115,7 @@ TEST(Conversions, TopologyTellsWhatIsShownAndCountsPerBody) {
   EXPECT_EQ(torn.body_triangles, (std::vector<uint32_t>{1, 1}));
 }
 
-TEST(Conversions, TopologyTellsTheColorsOfTheScene) {
+TEST(Conversions, TopologyHasTheColorsOfTheScene) {
   VisibleTopology skin = twoBodies();
   skin.bodies[0].color = {1, 0.5, 0};
   skin.bodies[1].color = {0, 0, 2};
@@ -125,7 +125,7 @@ TEST(Conversions, TopologyTellsTheColorsOfTheScene) {
   EXPECT_EQ(topology.wound_colors[0], 0xff0040ccU);
 }
 
-TEST(Conversions, PatchesOfABodyAreToldTogether) {
+TEST(Conversions, PatchesOfABodyAreSentTogether) {
   VisibleTopology skin = twoBodies();
   skin.triangles.insert(skin.triangles.end(), {7, 8, 9});
   skin.patches.push_back({1, SurfaceKind::kWound, 3, 1});
@@ -142,7 +142,7 @@ TEST(Conversions, PatchesOfABodyAreToldTogether) {
   EXPECT_LT(markers[3].color.g, markers[1].color.g);
 }
 
-TEST(Conversions, SplitTrianglesAreToldInPieces) {
+TEST(Conversions, SplitTrianglesAreSentInPieces) {
   const std::vector<uint32_t> pieces = {5, 9, 8, 10, 6, 4, 10, 4, 7};
   const SurfaceFrame frame = frameOf(twoBodies({2, 1, 3}, pieces));
   const auto topology = toTopology(*frame.topology, followed(*frame.topology), 2, "tissue", ros::Time(1));

@@ -57,7 +57,7 @@ TEST(PaceMeter, ReadingIsOfTheTicksSinceTheLastOne) {
   EXPECT_EQ(meter.take().real_time_factor, 0);
 }
 
-TEST(PictureWatch, TellsOnceWhichCameraIsBehindWithItsNumbers) {
+TEST(PictureWatch, NamesTheSlowCameraOnceWithItsNumbers) {
   std::vector<CameraConfig> cameras(2);
   cameras[0].name = "near";
   cameras[1].name = "far";

@@ -21,7 +21,7 @@ SimulatedTime::SteadyTime at(double time_s) {
   return kStart + std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(time_s));
 }
 
-TEST(SimulatedTime, IsZeroUntilItIsTold) {
+TEST(SimulatedTime, IsZeroUntilItIsSet) {
   SimulatedTime time;
   EXPECT_EQ(time.at(at(5)), 0);
   time.tell(3, kTick_s, at(5));
@@ -58,7 +58,7 @@ TEST(SimulatedTime, NeverGoesBackNorJumpsAtAReset) {
   EXPECT_NEAR(time.at(at(1 + 2 * kTick_s)), before_s + 2 * kTick_s, kSimulatedTimeRounding_s);
 }
 
-TEST(Slowness, IsToldAfterTwoReadingsAndAgainOnlyAfterItHasKeptUp) {
+TEST(Slowness, IsReportedAfterTwoReadingsAndAgainOnlyAfterItHasKeptUp) {
   Slowness slowness;
   std::string reports;
   for (const char reading : std::string("ssssfsssfffssfss")) reports += slowness.record(reading == 's') ? '!' : '.';

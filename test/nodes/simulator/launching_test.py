@@ -167,7 +167,7 @@ class LaunchingTest(unittest.TestCase):
     def publishers(self, topic):
         return dict(self.master.getSystemState()[0]).get(topic, [])
 
-    def test_hands_without_a_device_start_by_their_names(self):
+    def test_styluses_without_a_device_start_by_their_names(self):
         launched = self.start("roslaunch", "viscera", "training.launch", "scene:=" + TWO_HANDS, "device_left:=marker",
                               "device_right:=joy")
         launched.said("ready: ")

@@ -80,7 +80,7 @@ class LoadSceneTest(unittest.TestCase):
                     self.assertNotIn(word, answer.message)
 
     def test_1_another_scene_takes_its_place_with_zero_as_the_last_force(self):
-        hand = subprocess.Popen([sys.executable, os.path.join(os.path.dirname(HERE), "support", "hand.py")], stdin=subprocess.PIPE,
+        hand = subprocess.Popen([sys.executable, os.path.join(os.path.dirname(HERE), "support", "stylus_device.py")], stdin=subprocess.PIPE,
                                 stdout=subprocess.PIPE, text=True)
         hand.stdin.write("press\n")
         hand.stdin.flush()

@@ -23,7 +23,7 @@ SLACK_N = 1e-6
 SLOW_HZ, SHARE = 1.0, 0.8  # reduced rate of images, a fifteenth; share of their period that always passes between two
 
 
-class Hand:
+class StylusDevice:
     def __init__(self):
         self.y_m = self.at_m = OUTSIDE_Y_M  # goal, and where it is
         self.poses = rospy.Publisher("left/measured_cp", PoseStamped, queue_size=1, tcp_nodelay=True)
@@ -50,7 +50,7 @@ class ReconfigureTest(unittest.TestCase):
         cls.watch.wait_ready()
         cls.left = Client("simulator/left", timeout=START_LIMIT_S)
         cls.force = Latest("left/body/servo_cf", WrenchStamped)
-        cls.hand = Hand()
+        cls.hand = StylusDevice()
 
     def newtons(self):
         f = self.force.message.wrench.force if self.force.message else None
@@ -96,7 +96,7 @@ class ReconfigureTest(unittest.TestCase):
         self.left.update_configuration({"idle": "probe", "max_force_n": 0.1})
         wait_until(lambda: self.left.get_configuration(timeout=1)["button2"] == "cut", 10, "news of the mode")
         self.hand.y_m = OUTSIDE_Y_M
-        wait_until(lambda: self.newtons() == 0, 10, "hand that has left the tissue")
+        wait_until(lambda: self.newtons() == 0, 10, "stylus outside the tissue")
         loaded = rospy.ServiceProxy("load_state", FileCommand)("reconfigure")
         self.assertTrue(loaded.success, loaded.message)
         wait_until(lambda: self.left.get_configuration(timeout=1)["button2"] == "suction", 10, "news of the mode")
@@ -105,7 +105,7 @@ class ReconfigureTest(unittest.TestCase):
         self.left.update_configuration({"idle": "probe"})
         wait_until(lambda: self.left.get_configuration(timeout=1)["idle"] == "probe", 10, "news of the mode")
         # A tip that becomes a probe within tissue does not push.
-        wait_until(lambda: self.hand.at_m == OUTSIDE_Y_M, 10, "hand outside")
+        wait_until(lambda: self.hand.at_m == OUTSIDE_Y_M, 10, "stylus outside")
         self.watch.wait_news()
         self.hand.y_m = DEEP_Y_M
         wait_until(lambda: self.newtons() > 0.09, 20, "force")

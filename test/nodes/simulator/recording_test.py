@@ -21,7 +21,7 @@ import rosgraph
 import rosnode
 import rospy
 import rostest
-from irregular_hand import Hand
+from irregular_stylus import StylusDevice
 from simulator_watch import Latest, SimulatorWatch, wait_until
 from std_srvs.srv import Trigger
 from viscera.msg import Tick
@@ -45,7 +45,7 @@ class RecordingTest(unittest.TestCase):
         rospy.init_node("recording_test")
         cls.watch = SimulatorWatch()
         cls.watch.wait_ready()
-        cls.left, cls.right = Hand("left"), Hand("right")
+        cls.left, cls.right = StylusDevice("left"), StylusDevice("right")
         wait_until(lambda: cls.left.heard() and cls.right.heard(), LIMIT_S, "subscribers")
         cls.call = {name: rospy.ServiceProxy(name, Trigger) for name in ("reset", "pause", "resume", "stop_recording")}
         cls.file = {name: rospy.ServiceProxy(name, FileCommand) for name in ("save_state", "load_state", "start_recording")}

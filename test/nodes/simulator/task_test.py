@@ -36,7 +36,7 @@ class TaskTest(unittest.TestCase):
     def state(self):
         return self.states[-1].state if self.states else TaskState.NONE
 
-    def test_1_a_good_hand_passes_and_is_told_so(self):
+    def test_1_a_good_session_passes_and_is_reported(self):
         wait_until(lambda: self.state() in (TaskState.PASSED, TaskState.FAILED), LIMIT_S, "the end of the task")
         wait_until(lambda: self.states[-1].report, LIMIT_S, "the report")
         last = self.states[-1]

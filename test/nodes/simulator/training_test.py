@@ -170,7 +170,7 @@ class TrainingTest(unittest.TestCase):
     def test_held_tissue_stays(self):
         self.assertLess(self.seen.farthest_m()[2], STILL_M)
 
-    def test_hand_feels_the_tissue_push_back(self):
+    def test_stylus_receives_the_force_of_the_tissue(self):
         self.assertLess(self.seen.force_in_dent()[1], -FORCE_N)
         self.assertLess(max(math.hypot(*force) for _, force in self.seen.forces), MAX_FORCE_N)
         self.assertEqual(self.seen.force.message.header.frame_id, "tissue")

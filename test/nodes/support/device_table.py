@@ -37,17 +37,17 @@ class Arm(drivers.Crtk):
         super().tell(position, drivers.times(rotation, drivers.JAWS))
 
 
-def circle(hand, begun):
+def circle(device, begun):
     angle = 2 * math.pi * TURNS_HZ * (time.monotonic() - begun)
-    x, y, z = CENTRE[hand.stylus]
+    x, y, z = CENTRE[device.stylus]
     return x + RADIUS_M * math.cos(angle), y, z + RADIUS_M * math.sin(angle)
 
 
 def rows(kinds):
     hands = [kind(stylus) for kind, stylus in zip(kinds, ("left", "right"))]
-    arguments = ["device_%s:=%s" % tuple(hand.device().split("=")) for hand in hands]
-    options = ";".join("%s.%s" % (hand.stylus, option) for hand in hands for option in hand.options)
-    name = "table_" + "_".join(type(hand).__name__ for hand in hands).lower()
+    arguments = ["device_%s:=%s" % tuple(device.device().split("=")) for device in hands]
+    options = ";".join("%s.%s" % (device.stylus, option) for device in hands for option in device.options)
+    name = "table_" + "_".join(type(device).__name__ for device in hands).lower()
     program = Program(["roslaunch", "viscera", "training.launch", "name:=" + name, "spacing:=0.006"] + arguments +
                       (["device_options:=" + options] if options else []))
     try:
@@ -55,24 +55,24 @@ def rows(kinds):
         watch = SimulatorWatch(name)
         begun, worst = time.monotonic(), {}
         while time.monotonic() - begun < SECONDS + 2:
-            for hand in hands:
-                hand.at = circle(hand, begun)
+            for device in hands:
+                device.at = circle(device, begun)
                 for part in LATENCIES:
-                    value = watch.value("latency", "pose_to_force_%s_%s_ms" % (hand.stylus, part)) or 0
-                    worst.setdefault((hand, part), []).append(value)
+                    value = watch.value("latency", "pose_to_force_%s_%s_ms" % (device.stylus, part)) or 0
+                    worst.setdefault((device, part), []).append(value)
             time.sleep(0.005)
         watch.wait_news()
-        for hand in hands:
-            accepted = watch.value(hand.stylus, "poses_accepted")
-            dropped = sum(watch.value(hand.stylus, "dropped_" + reason) or 0 for reason in REASONS)
-            told = sorted(set(round(v, 2) for v in worst[(hand, "p50")] if v > 0))
+        for device in hands:
+            accepted = watch.value(device.stylus, "poses_accepted")
+            dropped = sum(watch.value(device.stylus, "dropped_" + reason) or 0 for reason in REASONS)
+            told = sorted(set(round(v, 2) for v in worst[(device, "p50")] if v > 0))
             ms = ["%.2f" % sorted(v)[len(v) // 2] if told else "no forces" for v in
-                  ([x for x in worst[(hand, part)] if x > 0] for part in LATENCIES)]
-            print("| `%s` | %d | %d | %d | %s |" % (hand.profile if not isinstance(hand, Arm) else "crtk_arm", hand.rate_hz,
+                  ([x for x in worst[(device, part)] if x > 0] for part in LATENCIES)]
+            print("| `%s` | %d | %d | %d | %s |" % (device.profile if not isinstance(device, Arm) else "crtk_arm", device.rate_hz,
                                                     accepted, dropped, " | ".join(ms)), flush=True)
     finally:
-        for hand in hands:
-            hand.end()
+        for device in hands:
+            device.end()
         program.end()
 
 

@@ -100,7 +100,7 @@ TEST(SceneMarkers, FingersStandAsFarOpenAsTheirTool) {
 }
 
 TEST(SceneMarkers, MarksOnTissueAreLinesInTheirColoursOneMarkerPerWidth) {
-  auto marks = std::make_shared<ShownMarks>();
+  auto marks = std::make_shared<VisibleMarks>();
   marks->styles = {{Vector3f(1, 0, 0), MarkPattern::kSolid}, {Vector3f(0, 0.5F, 1), MarkPattern::kDouble}};
   SceneStyle marked = style();
   marked.marks = marks;

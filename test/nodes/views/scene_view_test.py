@@ -32,7 +32,7 @@ AGAIN_S = 5        # between two equal whole topologies
 GRAB_M = 0.02      # more than the reach of a tool that grabs, and the motion between two messages
 
 
-class Hand:
+class StylusDevice:
     """Sends poses at 50 Hz until it gets another one, or is stopped."""
 
     def __init__(self, stylus):
@@ -87,7 +87,7 @@ class SceneViewTest(unittest.TestCase):
     def setUpClass(cls):
         rospy.init_node("scene_view_test")
         cls.watch = SimulatorWatch()
-        cls.left, cls.right = Hand("left"), Hand("right")
+        cls.left, cls.right = StylusDevice("left"), StylusDevice("right")
         cls.frames = {}
         cls.static = Latest("/tf_static", TFMessage, cls.on_tf)
         cls.moving = Latest("/tf", TFMessage, cls.on_tf)
@@ -193,7 +193,7 @@ class SceneViewTest(unittest.TestCase):
                          "new topology after a cut")
         self.right.position = None
         self.assertNotEqual(cut.triangles, whole.triangles)
-        wait_until(lambda: self.watch.value("right", "input_age_s") > 0.5, LIMIT_S, "hand that is gone")
+        wait_until(lambda: self.watch.value("right", "input_age_s") > 0.5, LIMIT_S, "stylus without poses")
         rospy.ServiceProxy("reset", Trigger)()
         wait_until(lambda: topology.message.triangles == whole.triangles, LIMIT_S, "whole topology after a reset")
         self.watch.wait_news()
@@ -207,7 +207,7 @@ class SceneViewTest(unittest.TestCase):
         start = topology.message
         self.right.move((0.03, -0.15, CLOTH_M - 0.05), (0.03, 0, CLOTH_M - 0.05), 1.5)
         self.right.position = None
-        wait_until(lambda: self.watch.value("right", "input_age_s") > 0.5, LIMIT_S, "hand that is gone")
+        wait_until(lambda: self.watch.value("right", "input_age_s") > 0.5, LIMIT_S, "stylus without poses")
         wait_until(lambda: changes and topology.message.version == changes[-1].version, LIMIT_S, "whole topology")
         triangles = list(start.triangles)
         for message in [c for c in changes if c.version > start.version]:

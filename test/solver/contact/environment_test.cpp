@@ -41,7 +41,7 @@ class TickByTick : public ::testing::Test {
   }
 };
 
-TEST_F(TickByTick, SubstepsAreToldAgainOnlyOfObstaclesThatMove) {
+TEST_F(TickByTick, SubstepsUpdateOnlyObstaclesThatMove) {
   EXPECT_TRUE(moves());
   EXPECT_FALSE(moves());
   EXPECT_TRUE(moves(kSubsteps + 1));
@@ -53,7 +53,7 @@ TEST_F(TickByTick, SubstepsAreToldAgainOnlyOfObstaclesThatMove) {
   EXPECT_TRUE(moves());
 }
 
-TEST_F(TickByTick, ObstaclesThatAreNotToldOfStandWhereTheyWere) {
+TEST_F(TickByTick, ObstaclesWithoutUpdatesStandStill) {
   EXPECT_FALSE(standsStill());  // the first tick
   EXPECT_TRUE(standsStill());
   moves();
@@ -74,7 +74,7 @@ struct MovingTickByTick : TickByTick {
   MovingTickByTick() : TickByTick(moving()) {}
 };
 
-TEST_F(MovingTickByTick, EveryTickOfAMovingObstacleIsTold) {
+TEST_F(MovingTickByTick, EveryTickUpdatesAMovingObstacle) {
   for (int t = 0; t < 3; ++t) EXPECT_TRUE(moves()) << t;
   EXPECT_NEAR(environment_.at(1).obstacles[1].to.x, 0.3, 1e-6);
   EXPECT_NEAR(environment_.at(1).obstacles[1].velocity.x, 1, 1e-6);

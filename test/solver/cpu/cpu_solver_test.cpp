@@ -262,7 +262,7 @@ TEST_P(Cpu, ForcesOfARandomStateSumToNothing) {
 
 /// A cube with edges of 14 nodes has bricks of whole springs inside. If one spring of a brick is missing, all of its
 /// stiffnesses are read from memory, with the same result for every node without that spring.
-TEST_P(Cpu, BricksOfWholeSpringsStepLikeThoseThatAreLookedUp) {
+TEST_P(Cpu, BricksOfWholeSpringsStepLikeListedSprings) {
   Body whole = boxBody({13, 13, 13}, 0.01), lacking = whole;
   const Lattice& lattice = whole.lattice;
   const uint32_t near = static_cast<uint32_t>(lattice.slotAt({5, 5, 5}));

@@ -44,7 +44,7 @@ TEST(Equilibrium, OfBodiesWithExplicitConnections) {
 }
 
 /// A force on the body acts as gravity does.
-TEST(Equilibrium, HeedsForcesOnBodies) {
+TEST(Equilibrium, IncludesForcesOnBodies) {
   Body body = block(4, 2e4, 0.3);
   const Model heavy = modelOf({body});
   body.force_n = massOf_kg(body) * kGravity;

@@ -240,7 +240,7 @@ TEST_F(CpuTools, CutTheSpringsAndCellsThatTheReferenceCuts) {
   EXPECT_EQ(cut, reference_.springs_cut);
 }
 
-TEST_F(CpuTools, LookOnlyAtBricksThatTheBladeMayReach) {
+TEST_F(CpuTools, VisitOnlyBricksThatTheBladeMayReach) {
   const Model model = modelOf({boxBody({63, 3, 3}, 0.001)});
   CpuLattice lattice(model, bodyParams(model, safeTimeStep(model)), featuresFor(model, true));
   const Serial serial;

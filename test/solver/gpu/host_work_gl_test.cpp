@@ -103,7 +103,7 @@ TEST_F(HostWork, PlainSubstepTakesFiveOpenGlCalls) {
   EXPECT_EQ(callsPerSubstep(sceneWith(Integrator::kLeapfrog, model_, 10, 0.5), model_), 5);
 }
 
-TEST_F(HostWork, SleepTakesOneMoreASubstepAndALookInEverySixth) {
+TEST_F(HostWork, SleepTakesOneMoreASubstepAndACheckInEverySixth) {
   // The list that is dispatched over. For a check: use, number, dispatch, barrier for the speeds and for the lists, and
   // the substep's own kernel again.
   Scene scene = sceneWith(Integrator::kLeapfrog, model_, 10, 0.5);
@@ -121,7 +121,7 @@ TEST_F(HostWork, CellsOfALawTakeThreeMoreAndAProbeFive) {
   EXPECT_EQ(callsPerSubstep(probed, model_, probeAt({0.02, 0.02, 0.038})), 10);
 }
 
-TEST_F(HostWork, GovernedTickIsNotWaitedForUntilTheNextOneIsUnderWay) {
+TEST_F(HostWork, GovernedTickIsNotWaitedForUntilTheNextOneHasStarted) {
   Scene scene = sceneWith(Integrator::kLeapfrog, model_, 10, 0.5);
   scene.solver.stability_monitor = true;
   const SlowGpu slow;

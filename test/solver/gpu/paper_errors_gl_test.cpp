@@ -39,7 +39,7 @@ StylusConfig thinProbe(double radius_m) {
 
 }  // namespace
 
-TEST_F(PaperErrors, ProbeThatPassesANodeWithinASubstepPutsItOutOfItsWay) {
+TEST_F(PaperErrors, ProbeThatPassesANodeWithinASubstepMovesItAside) {
   constexpr double kRadius_m = 0.1 * kSpacing_m;
   const Model model = block({4, 4, 4});
   GpuSolver solver(model, probeScene(model, kRadius_m));
@@ -64,7 +64,7 @@ TEST_F(PaperErrors, ProbeWithANodeExactlyAtItsCentrePushesItUpwards) {
 }
 
 /// A probe at rest that appears around a node moves it, but without velocity: the probe did not move towards it.
-TEST_F(PaperErrors, NodeThatAProbeMovesOutTakesTheSpeedOfTheToolAndNotOfItsWayOut) {
+TEST_F(PaperErrors, NodeThatAProbeMovesOutTakesTheSpeedOfTheToolAlone) {
   constexpr double kRadius_m = 0.1 * kSpacing_m;
   const Model model = block({4, 4, 4});
   GpuSolver solver(model, probeScene(model, kRadius_m));

@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, ToolsOnNetwork, ::testing::ValuesIn(backendNa
 
 }  // namespace
 
-TEST_P(ToolsOnNetwork, ProbeDentsAndIsToldTheMomentumLikeTheReference) {
+TEST_P(ToolsOnNetwork, ProbeDentsAndReceivesTheMomentumOfTheReference) {
   ToolMotions motions;
   Vector3d before = Vector3d::Zero();
   for (int t = 0; t < 8; ++t) {

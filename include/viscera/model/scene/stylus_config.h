@@ -75,6 +75,18 @@ struct CauteryConfig {
   double power_w = 30;      ///< power into the tissue that it touches [W]
 };
 
+/// Motion of an instrument with a shaft that passes a point of the body wall (docs/lessons/instruments.md#trocars).
+enum class TrocarMotion {
+  kNone,    ///< no trocar
+  kHandle,  ///< the handle follows the pose: sideways motion rotates the shaft about the point, reversed at the tip
+  kTip      ///< the tip follows the pose, and the shaft turns towards the point
+};
+
+struct TrocarConfig {
+  TrocarMotion follows = TrocarMotion::kNone;
+  Vector3d position_m = Vector3d::Zero();  ///< point that the axis of the shaft passes, tissue frame [m]
+};
+
 struct StylusConfig {
   std::string name = "stylus";
   ToolMode idle = ToolMode::kProbe;
@@ -92,7 +104,8 @@ struct StylusConfig {
   double shaft_length_m = 0.12;  ///< length of the shaft, from the tip back [m]
   double shaft_radius_m = 0;     ///< radius of the shaft [m]; 0: a fortieth of its length
   bool shaft_contact = false;    ///< tissue is pushed by the whole shaft, not by the tip alone
-  double jaw_closing_s = 0.2;    ///< time from open to closed, for jaws that a button closes [s]
+  TrocarConfig trocar;
+  double jaw_closing_s = 0.2;  ///< time from open to closed, for jaws that a button closes [s]
   double max_force_n = 5;
   double max_force_rate_n_per_s = 100;
   double max_torque_nm = 0.2;

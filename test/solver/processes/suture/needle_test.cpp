@@ -245,7 +245,7 @@ TEST(Needle, GivesATissueWhatItFeels) {
   EXPECT_GT(drive.needle().crossings(), 1u);
 }
 
-TEST(Needle, ComesOutTheWayItWentIn) {
+TEST(Needle, ComesOutByTheSamePath) {
   NeedleDrive drive(NeedleBlock{});
   drive.appear(NeedleDrive::at(kArcMiddle, kBiteStart));
   const auto nothing = [](double) {};

@@ -40,7 +40,7 @@ ToolMotions cutAt(double x_m, double z_m = -0.005) {
   return out;
 }
 
-TEST(EdgeMeets, WhatCrossesItOnItsWayAndNothingElse) {
+TEST(EdgeMeets, FindsOnlyWhatCrossesTheEdge) {
   const std::array<Vector3d, 2> edge = {Vector3d(0, 0, 0), Vector3d(0, 0, 1)};
   const auto link = [](double y, double x, double z) {
     return std::array<Vector3d, 2>{Vector3d(x - 1, y, z), Vector3d(x + 1, y, z)};
@@ -169,7 +169,7 @@ TEST(SutureKnots, ALoopIsDrawnTightAndTied) {
   EXPECT_LT(sutures.chain(0).worstLink(), 1e-3);
 }
 
-TEST(SutureKnots, AScenesTiesComeAtTheirTimesAndTellWhyTheyDoNot) {
+TEST(SutureKnots, TiesOfASceneHappenOnTimeOrStateTheirReason) {
   const Scene scene = looped(", ties: [{at_s: 0, knot: surgeons, tension_n: 0.2, holds_n: 3}, {at_s: 3, knot: half}]");
   const ObstacleMotions still(1);
   SutureBodies sutures(scene);
@@ -294,7 +294,7 @@ class TwoGrippers {
   bool holds_ = false;
 };
 
-TEST(SutureKnots, ThrowsOfTwoToolsAreCountedAndTellKnotsApart) {
+TEST(SutureKnots, ThrowsOfTwoToolsDistinguishKnots) {
   for (const int second : {-1, 1}) {
     const Scene scene = looped();
     SutureBodies sutures(scene);

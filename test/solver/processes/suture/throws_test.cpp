@@ -53,7 +53,7 @@ TEST(Throws, LinkedRingsTurnOnce) {
   EXPECT_NEAR(turnsOf(strandOf(one), strandOf(other)), 0, 1e-9);
 }
 
-TEST(Throws, WhatTheyMakeIsToldByTheirTurnsAndSigns) {
+TEST(Throws, KnotKindFollowsFromTurnsAndSigns) {
   EXPECT_EQ(throwOf(0.6), 0);
   EXPECT_EQ(throwOf(-0.9), -1);
   EXPECT_EQ(throwOf(1.8), 2);

@@ -125,7 +125,7 @@ class DiscJudge : public TaskJudge {
         covered_(kTurn * disc.radius_m, spacing_m, disc.corridor_m),
         piece_(model, disc.center_m, normal_, disc.radius_m, disc.radius_m + disc.corridor_m + spacing_m) {}
   bool usesCuts() const override { return true; }
-  bool isApart(const CutState& cuts) const override { return piece_.isApart(cuts); }
+  uint32_t piecesApart(const CutState& cuts) const override { return piece_.isApart(cuts) ? 1 : 0; }
   void judge(const TaskTick& tick, TaskTally& tally) override {
     std::vector<std::pair<double, double>> points;
     for (const Vector3d& cut : tick.cuts_m) {
@@ -135,7 +135,7 @@ class DiscJudge : public TaskJudge {
                           std::abs(direction.norm() - disc_.radius_m));
     }
     covered_.add(points, bladeTravel(tick, normal_), tally);
-    apart_ = apart_ || tick.apart;
+    apart_ = apart_ || tick.apart != 0;
   }
   double progress() const override { return apart_ ? 1 : kNearlyAll * covered_.share(); }
   bool reached() const override { return apart_; }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""hand.py [WRENCHES [KIND]]: a stylus with a device, as a separate process. After a line on its standard input it
+"""stylus_device.py [WRENCHES [KIND]]: a stylus with a device, as a separate process. After a line on its standard input it
 presses the probe of `left` into the tissue, tries again if there was no force, holds it there, and records every wrench
 that it receives.
 
@@ -27,7 +27,7 @@ FELT_N = 0.02
 AGAIN_S = 3         # without contact: poses paused while the probe went in, and one that appears inside pushes nothing
 
 
-class Hand:
+class StylusDevice:
     def begin(self):
         self.felt = []
         self.lock = threading.Lock()
@@ -83,7 +83,7 @@ class Hand:
             time.sleep(1 / RATE_HZ)
 
 
-class DriverHand(Hand):
+class DriverStylus(StylusDevice):
     """For a driver with messages that have a force only."""
 
     def __init__(self, kind):
@@ -102,19 +102,19 @@ class DriverHand(Hand):
 
 
 def main():
-    rospy.init_node("hand", anonymous=True, disable_signals=True)
+    rospy.init_node("stylus_device", anonymous=True, disable_signals=True)
     stop = threading.Event()
     arguments = [a for a in sys.argv[1:] if ":=" not in a]
-    hand = (DriverHand(getattr(drivers, arguments[1])) if len(arguments) > 1 else
-            Hand(arguments[0] if arguments else "left/body/servo_cf"))
-    player = threading.Thread(target=hand.play, args=(stop,), daemon=True)
+    device = (DriverStylus(getattr(drivers, arguments[1])) if len(arguments) > 1 else
+            StylusDevice(arguments[0] if arguments else "left/body/servo_cf"))
+    player = threading.Thread(target=device.play, args=(stop,), daemon=True)
     sys.stdin.readline()
     player.start()
     sys.stdin.read()
     stop.set()
     player.join()
-    with hand.lock:
-        print(json.dumps(hand.felt), flush=True)
+    with device.lock:
+        print(json.dumps(device.felt), flush=True)
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ LONGEST_GAP_S = 0.03               # shorter than stale_after_s
 TURN = (0.7071067811865476, 0, 0, 0.7071067811865476)   # the tip points along +y, into the tissue
 
 
-class Hand:
+class StylusDevice:
     """Sends poses at irregular times, and buttons between them."""
 
     def __init__(self, name):

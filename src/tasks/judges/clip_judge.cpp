@@ -22,7 +22,9 @@ class ClipJudge : public TaskJudge {
         joint_(model, goal.clips.front().position_m, goal.clips.back().position_m) {}
   bool usesCuts() const override { return true; }
   bool usesClips() const override { return true; }
-  bool isApart(const CutState& cuts) const override { return joint_.isApart(cuts); }
+  bool judgesAlways() const override { return true; }
+  bool claims(const Vector3d& clip_m) const override { return nearest(clip_m).second <= goal_.radius_m; }
+  uint32_t piecesApart(const CutState& cuts) const override { return joint_.isApart(cuts) ? 1 : 0; }
   void judge(const TaskTick& tick, TaskTally& tally) override {
     std::fill(at_.begin(), at_.end(), false);
     size_t bad = tick.clips.empty + tick.clips.taken_off;
@@ -37,8 +39,8 @@ class ClipJudge : public TaskJudge {
     }
     tally.bad_clips = static_cast<double>(bad);
     // Tissue divided without clips on both sides has bled; later clips do not make up for it.
-    if (tick.apart && !apart_) clipped_first_ = allClipped();
-    apart_ = apart_ || tick.apart;
+    if (tick.apart != 0 && !apart_) clipped_first_ = allClipped();
+    apart_ = apart_ || tick.apart != 0;
   }
   double progress() const override {
     const auto clipped = static_cast<double>(std::count(at_.begin(), at_.end(), true));
@@ -61,8 +63,8 @@ class ClipJudge : public TaskJudge {
     };
     std::vector<MarkConfig> out;
     for (const TaskPosition& clip : goal_.clips) out.push_back(ring(clip.position_m));
-    const size_t half = goal_.clips.size() / 2;
-    out.push_back(ring((goal_.clips[half - 1].position_m + goal_.clips[half].position_m) / 2));
+    const size_t before = goal_.before();
+    out.push_back(ring((goal_.clips[before - 1].position_m + goal_.clips[before].position_m) / 2));
     return out;
   }
   std::vector<MarkState> markStates() const override {
@@ -102,9 +104,17 @@ class ClipJudge : public TaskJudge {
 std::string clipFault(const TaskConfig& task) {
   if (!task.clip.given) return groupFault(false, "clip_and_divide");
   const size_t count = task.clip.clips.size();
-  return count >= 2 && count % 2 == 0
-             ? ""
-             : "'clip_and_divide.clips' must be a list of an even number of positions; found " + std::to_string(count);
+  const int after = task.clip.divide_after;
+  if (after > 0 && count < 2)
+    return "'clip_and_divide.clips' must be a list of two positions or more; found " + std::to_string(count);
+  if (after > 0)
+    return task.clip.before() < count ? ""
+                                      : "'clip_and_divide.divide_after' must be 0 .. " + std::to_string(count - 1) +
+                                            ", fewer than the clips; found " + std::to_string(after);
+  return count >= 2 && count % 2 == 0 ? ""
+                                      : "'clip_and_divide.clips' must be a list of an even number of positions, or "
+                                        "'divide_after' above 0; found " +
+                                            std::to_string(count);
 }
 
 std::unique_ptr<TaskJudge> clipJudge(const TaskConfig& task, const Session& session) {
