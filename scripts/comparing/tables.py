@@ -43,8 +43,9 @@ def listed(runs, k):
 
 def block(found):
     """Returns the clamped block's forces."""
-    out = ["A block of 24 x 24 x 36 mm, both ends clamped, one moved by a share of the height: error of the force in % at %s mm." %
-           " and ".join("%g" % (MM * h) for h in strains.BLOCK_SPACINGS_M), ""]
+    spacings = " and ".join("%g" % (MM * spacing_m) for spacing_m in strains.BLOCK_SPACINGS_M)
+    out = ["A block of 24 x 24 x 36 mm, both ends clamped, one moved by a share of the height: error of the force in %",
+           f"at {spacings} mm.", ""]
     out += heading("moved", "nu", *("%g %%" % (PERCENT * share) for share in strains.SHARES))
     for run in found["runs"]:
         if run["program"] == "CalculiX":
