@@ -153,7 +153,7 @@ viscera their surface, Bullet five tetrahedra a box. The clamp is the same plane
 
 * Errors are those of equilibria at vertices. Mean: least-squares ratio of displacements, less 1. Largest: of a vertex, over the largest
   displacement. That is 0.05 % of the body's size (Bullet: 1 %), of the cantilever a tenth.
-* Cost: processor seconds of stepping in a simulated second, one thread, no sleep; in turns, the least of two. Bullet: implicit, 1/60 s.
+* Cost: processor seconds of stepping in a simulated second, one thread, no sleep; in turns, the least of two (Bullet above 3: of one). Bullet is implicit, 1/60 s.
 * Large strain: neo-Hooke. CalculiX's volumetric energy is K/2 (J - 1)^2, viscera's as in [physics.md](physics.md) 1.
 """
 
