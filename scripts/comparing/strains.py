@@ -86,8 +86,8 @@ def block(place):
 PRESSED_M, BALL_M = np.array([0.06, 0.06, 0.03]), 0.015
 DEPTHS_M = (0.001, 0.002, 0.004, 0.006)
 PRESS_SPACINGS_M = (0.006, 0.005, 0.003)  # whole cells over 30 mm: the top is a plane of nodes
-FINE_M, CONTACT_M = 0.002, 0.008  # edges of elements below the ball, and how far they go
-CAP_STEPS, CAP_DEG, CAP_STIFF = 14, 62.0, 100  # steps of the ball's surface, its half angle, E over the block's
+FINE_M, CONTACT_M = 0.003, 0.009  # edges of elements below the ball, and how far they go
+CAP_STEPS, CAP_DEG, CAP_STIFF = 12, 62.0, 100  # steps of the ball's surface, its half angle, E over the block's
 PENALTY = 50  # stiffness of the contact: E over the edge, times this
 
 
