@@ -204,7 +204,6 @@ def body(place):
     apart, source = cKDTree(mesh["nodes"]).query(mesh["vertices"])
     skin = solids.Skin.of_vertices(mesh["vertices"], mesh["triangles"], source)
     held = solid.where(lambda x: x[:, 2] > HELD_Z_M - 1e-9)
-    out = statics.Body("heart, walls of 4 to 12 mm", solid, held, statics.plane_at(2, HELD_Z_M), (0, 0, -1), SIZE_M, skin=skin,
-                       walls="rows")
+    out = statics.Body(solid, held, statics.plane_at(2, HELD_Z_M), (0, 0, -1), SIZE_M, skin=skin, walls="rows")
     out.free &= apart < 1e-7
     return out

@@ -15,15 +15,13 @@ PULL_M = 0.0005  # by which free bodies are pulled before they are let go
 SEARCH = np.linspace(0.85, 1.18, 67)  # frequencies tried, over CalculiX's
 
 
-def fitted(signal, guesses, decay, drift=False):
-    """Returns (frequency [Hz], decay [1/s]) of damped cosines in a signal, the first guess first. @param drift: whether the
-    signal also contains motion at constant speed"""
+def fitted(signal, guesses, decay):
+    """Returns (frequency [Hz], decay [1/s]) of damped cosines in a signal, the first guess first."""
     from scipy.optimize import least_squares
     time = (np.arange(len(signal)) + 1) / TICK_HZ
-    slow = [np.ones_like(time), time] if drift else [np.ones_like(time)]
 
     def left(values):
-        columns = list(slow)
+        columns = [np.ones_like(time)]
         for frequency, rate in values.reshape(-1, 2):
             columns += [np.exp(-rate * time) * np.cos(2 * math.pi * frequency * time), np.exp(-rate * time) * np.sin(2 * math.pi * frequency * time)]
         matrix = np.stack(columns, 1)

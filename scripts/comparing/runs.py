@@ -24,12 +24,12 @@ class Place:
         self.build = pathlib.Path(build).resolve()
         self.folder = self.build / "compare"
         self.cache = self.folder / "calculix"
-        self.folder.mkdir(exist_ok=True)
-        self.kept_work = tempfile.TemporaryDirectory(dir=self.folder)
-        self.work = pathlib.Path(self.kept_work.name)
         self.package = self.build / "devel" / "lib" / "python3" / "dist-packages"
         if not (self.package / "viscera").is_dir():
             sys.exit("scripts/compare: %s has no Python package of viscera; run scripts/build, or name its folder by --build" % self.build)
+        self.folder.mkdir(exist_ok=True)
+        self.kept_work = tempfile.TemporaryDirectory(dir=self.folder)
+        self.work = pathlib.Path(self.kept_work.name)
 
     def bullet(self):
         """Returns the path of the program with Bullet's world, which it builds when it is first needed."""

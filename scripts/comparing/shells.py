@@ -1,6 +1,6 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Thin walls at large strain: a bowl that is pushed in until it snaps through, a tube that is squeezed, a balloon."""
+"""A bowl with a thin wall that is pushed in until it snaps through."""
 import math
 
 import numpy as np

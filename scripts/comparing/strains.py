@@ -36,7 +36,7 @@ def against(forces, truth):
 BLOCK_M = np.array([0.024, 0.024, 0.036])
 SHARES = (0.1, 0.2, 0.35, 0.5)  # of the height
 WAYS = {"pulled": (2, 1), "squeezed": (2, -1), "sheared": (0, 1)}  # axis, direction
-BLOCK_RATIOS = (0.3, 0.45)
+BLOCK_RATIOS = (0.3,)
 PRESS_RATIOS = (0.3,)
 BLOCK_ELEMENTS = (6, 6, 9)
 BLOCK_SPACINGS_M = (0.004, 0.003)
@@ -86,8 +86,8 @@ def block(place):
 PRESSED_M, BALL_M = np.array([0.06, 0.06, 0.03]), 0.015
 DEPTHS_M = (0.001, 0.002, 0.004, 0.006)
 PRESS_SPACINGS_M = (0.006, 0.005, 0.003)  # whole cells over 30 mm: the top is a plane of nodes
-FINE_M, CONTACT_M = 0.0015, 0.009  # edges of elements below the ball, and how far they go
-CAP_STEPS, CAP_DEG, CAP_STIFF = 14, 62.0, 100  # steps of the ball's surface, its half angle, E over the block's
+FINE_M, CONTACT_M = 0.003, 0.009  # edges of elements below the ball, and how far they go
+CAP_STEPS, CAP_DEG, CAP_STIFF = 12, 62.0, 100  # steps of the ball's surface, its half angle, E over the block's
 PENALTY = 50  # stiffness of the contact: E over the edge, times this
 
 
@@ -143,7 +143,7 @@ def press_deck(ratio):
     text += "*CONTACT PAIR, INTERACTION=CONTACT, TYPE=SURFACE TO SURFACE\nSLAVE, MASTER\n*BOUNDARY\nBALL, 1, 2\n"
     deck.raw(text)
     for depth_m in DEPTHS_M:
-        deck.static([("BALL", 3, -depth_m)], shown=None, forces=["HELD"])
+        deck.static([("BALL", 3, -depth_m)], shown=None, forces=["HELD"], first=0.5)
     return deck, len(solid.used)
 
 
