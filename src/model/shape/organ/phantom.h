@@ -51,9 +51,8 @@ constexpr int kMostPhantomSeed = 1000000;
 /// duct are hollow; strands thinner than a cell are solid. Parts: cystic_artery, hepatic_artery, cystic_duct,
 /// common_hepatic_duct, common_bile_duct, infundibulum, gallbladder, gallbladder_bed, peritoneum, fat, liver_capsule,
 /// liver.
-/// @param length_m    of the gallbladder from the top of its fundus to the lowest point of its infundibulum [m],
-/// 0.01..1;
-///                    all sizes follow it. docs/user_guide.md has those at 0.08
+/// @param length_m    from the top of the fundus to the lowest point of the infundibulum [m], 0.01..1; all sizes follow
+///                    it. docs/user_guide.md has those at 0.08
 /// @param wall_scale  multiplies the walls of the gallbladder and the common duct, 0.1..2
 /// @param seed        variant (gallbladder_variant.h), 0..kMostPhantomSeed
 /// @throws SceneError  a parameter out of its range

@@ -29,7 +29,6 @@ Strand::Strand(const std::vector<Knot>& knots, double far) : far_(far) {
       const double t = static_cast<double>(k) / kPiecesPerSpan;
       points_.push_back({curvePoint(before.at, from.at, to.at, after.at, t),
                          curvePoint(before.radius, from.radius, to.radius, after.radius, t)});
-      length_ += (points_.back().at - points_[points_.size() - 2].at).norm();
     }
   }
   for (const Knot& point : points_) {
@@ -39,17 +38,16 @@ Strand::Strand(const std::vector<Knot>& knots, double far) : far_(far) {
 }
 
 Strand::Nearest Strand::nearest(const Vector3d& p) const {
-  Nearest found{std::numeric_limits<double>::infinity(), 0, 0};
+  Nearest found{std::numeric_limits<double>::infinity(), 0};
   if (points_.empty()) return found;
   const double beyond = box_.exteriorDistance(p);
-  if (beyond > far_) return {beyond, points_.front().radius, 0};
+  if (beyond > far_) return {beyond, points_.front().radius};
   for (size_t i = 1; i < points_.size(); ++i) {
     const Knot &a = points_[i - 1], &b = points_[i];
     const Vector3d piece = b.at - a.at;
     const double t = std::clamp((p - a.at).dot(piece) / std::max(piece.squaredNorm(), 1e-12), 0.0, 1.0);
     const double radius = a.radius + t * (b.radius - a.radius), distance = (p - a.at - t * piece).norm() - radius;
-    if (distance < found.distance)
-      found = {distance, radius, (static_cast<double>(i - 1) + t) / static_cast<double>(points_.size() - 1)};
+    if (distance < found.distance) found = {distance, radius};
   }
   return found;
 }

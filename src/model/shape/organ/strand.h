@@ -18,7 +18,6 @@ class Strand {
   struct Nearest {
     double distance;  ///< to the surface, negative inside; of a strand far away only a lower bound
     double radius;    ///< of the strand there
-    double along;     ///< place along the strand, 0 at its start to 1 at its end
   };
 
   Strand() = default;
@@ -29,13 +28,11 @@ class Strand {
 
   Nearest nearest(const Vector3d& p) const;
   double distance(const Vector3d& p) const { return nearest(p).distance; }
-  double length() const { return length_; }
-  bool empty() const { return points_.empty(); }
 
  private:
   std::vector<Knot> points_;  ///< ends of straight pieces
   Eigen::AlignedBox3d box_;   ///< around the strand
-  double length_ = 0, far_ = 0;
+  double far_ = 0;
 };
 
 }  // namespace viscera
