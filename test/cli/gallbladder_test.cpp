@@ -49,7 +49,7 @@ TEST(Gallbladder, SeedOutOfRangeAndUnknownAnatomyAreErrors) {
     const Ending ending = refusal(std::string("bodies[0].phantom_seed=") + seed);
     EXPECT_EQ(ending.status, 1);
     ASSERT_EQ(complaints(ending).size(), 1U) << ending.err;
-    EXPECT_TRUE(says(complaints(ending)[0], {"bodies[0].phantom_seed", seed, "1000000"})) << ending.err;
+    EXPECT_TRUE(says(complaints(ending)[0], {"bodies[0].phantom_seed", seed, "1e+06"})) << ending.err;
   }
   const Ending ending = refusal("bodies[0].phantom=liver");
   EXPECT_EQ(ending.status, 1);
