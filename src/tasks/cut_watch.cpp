@@ -23,13 +23,15 @@ double shareAlong(float cut) {
 }
 
 /// Returns the node nearest to a position as [body, slot].
-std::pair<size_t, uint32_t> nearestNode(const Model& model, const Vector3d& to_m) {
+/// @param fits  called with a body and a slot; whether the node counts
+template <class Fits>
+std::pair<size_t, uint32_t> nearestNode(const Model& model, const Vector3d& to_m, const Fits& fits) {
   std::pair<size_t, uint32_t> out;
   double nearest_m = std::numeric_limits<double>::infinity();
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     forEachNode(model.bodies[b], [&](uint32_t slot) {
       const double distance_m = (restPosition(model.bodies[b], slot) - to_m).norm();
-      if (distance_m >= nearest_m) return;
+      if (distance_m >= nearest_m || !fits(b, slot)) return;
       nearest_m = distance_m;
       out = {b, slot};
     });
@@ -37,8 +39,12 @@ std::pair<size_t, uint32_t> nearestNode(const Model& model, const Vector3d& to_m
   return out;
 }
 
-/// Returns the sets of a body's slots that intact springs connect.
-UnionFind piecesOf(const Model& model, size_t body, const CutState& cuts) {
+std::pair<size_t, uint32_t> nearestNode(const Model& model, const Vector3d& to_m) {
+  return nearestNode(model, to_m, [](size_t, uint32_t) { return true; });
+}
+
+/// Returns the sets of a body's slots that intact springs connect. @param label  of nodes that count; 0: all
+UnionFind piecesOf(const Model& model, size_t body, const CutState& cuts, uint16_t label = 0) {
   const Body& it = model.bodies[body];
   UnionFind pieces(it.network ? it.network->masses_kg.size() : it.lattice.nodes.size());
   if (it.network) {
@@ -50,10 +56,13 @@ UnionFind piecesOf(const Model& model, size_t body, const CutState& cuts) {
     return pieces;
   }
   const uint32_t offset = model.slotOffset(body);
+  const auto counts = [&](size_t slot) { return label == 0 || it.lattice.labels[slot] == label; };
   for (const uint32_t slot : it.lattice.active_slots) {
+    if (!counts(slot)) continue;
     for (uint32_t s = 0; s < layout::kSpringsPerNode; s += 2) {
       const int64_t other = it.lattice.neighborSlot(slot, s);
-      if (other >= 0 && springCount(cuts.nodes[offset + slot], s) > 0) pieces.unite(slot, static_cast<uint32_t>(other));
+      if (other >= 0 && counts(static_cast<size_t>(other)) && springCount(cuts.nodes[offset + slot], s) > 0)
+        pieces.unite(slot, static_cast<uint32_t>(other));
     }
   }
   return pieces;
@@ -91,19 +100,31 @@ std::vector<FreshCut> CutWatch::fresh(const CutState& cuts) {
   return out;
 }
 
-Joint::Joint(const Model& model, const Vector3d& one_m, const Vector3d& other_m) : model_(model) {
-  const auto [body, one] = nearestNode(model, one_m);
-  const auto [other_body, other] = nearestNode(model, other_m);
+Joint::Joint(const Model& model, const Vector3d& one_m, const Vector3d& other_m, const std::string& part)
+    : model_(model) {
+  const auto label = [&](size_t body) {
+    const std::vector<std::string>& names = model.bodies[body].lattice.part_names;
+    const auto at = std::find(names.begin(), names.end(), part);
+    return at == names.end() ? uint16_t{0} : static_cast<uint16_t>(at - names.begin() + 1);
+  };
+  const auto fits = [&](size_t body, uint32_t slot) {
+    return part.empty() || (label(body) > 0 && model.bodies[body].lattice.labels[slot] == label(body));
+  };
+  const auto [body, one] = nearestNode(model, one_m, fits);
+  const auto [other_body, other] = nearestNode(model, other_m, fits);
+  if (!part.empty() && label(body) == 0)
+    throw TaskError("'clip_and_divide.part' must be a part of a body; found '" + part + "'");
   if (body != other_body)
     throw TaskError("positions of 'clip_and_divide.clips' are nearest to different bodies, " + model.bodies[body].name +
                     " and " + model.bodies[other_body].name + "; they must be on one body");
   body_ = body;
   one_ = one;
   other_ = other;
+  label_ = part.empty() ? uint16_t{0} : label(body);
 }
 
 bool Joint::isApart(const CutState& cuts) const {
-  UnionFind pieces = piecesOf(model_, body_, cuts);
+  UnionFind pieces = piecesOf(model_, body_, cuts, label_);
   return pieces.find(one_) != pieces.find(other_);
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "viscera/model/model.h"
@@ -32,14 +33,17 @@ class CutWatch {
 /// Connection of two positions of tissue by paths of intact springs.
 class Joint {
  public:
-  /// Uses the nodes nearest to both. @throws TaskError  they belong to different bodies
-  Joint(const Model& model, const Vector3d& one_m, const Vector3d& other_m);
+  /// Uses the nodes nearest to both.
+  /// @param part  name of the part that paths must not leave; empty: any path   @throws TaskError  the positions belong
+  /// to different bodies; no body has the part
+  Joint(const Model& model, const Vector3d& one_m, const Vector3d& other_m, const std::string& part = "");
   bool isApart(const CutState& cuts) const;
 
  private:
   const Model& model_;
   size_t body_ = 0;
   uint32_t one_ = 0, other_ = 0;
+  uint16_t label_ = 0;  ///< of the part in the lattice; 0: any
 };
 
 /// Tissue of a lattice that is to be cut free from what holds it in space.

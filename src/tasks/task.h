@@ -70,6 +70,7 @@ struct ClipGoal {
   bool given = false;
   std::vector<TaskPosition> clips;  ///< in their order along the tissue
   int divide_after = 0;             ///< number of clips before the division; 0: half of them
+  std::string part;                 ///< part that is clipped, for tissue that is joined elsewhere too; empty: all
   double radius_m = 0.003;
 
   size_t before() const { return divide_after > 0 ? static_cast<size_t>(divide_after) : clips.size() / 2; }

@@ -74,6 +74,10 @@ void visitFields(V& v, ClipGoal& c) {
   v.list("clips", c.clips, kMostTaskPositions, "positions of the clips, in their order along the tissue");
   v.integer("divide_after", c.divide_after, {0, kMostTaskPositions},
             "number of clips before the place where the tissue is to be divided; 0: half of them, of an even number");
+  v.text(
+      "part", c.part,
+      "name of the part to be divided, where other tissue joins its ends: paths within this part alone count; empty: "
+      "all paths");
   v.number("radius_m", c.radius_m, kTaskWidth, "m",
            "distance from a position within which a clip counts as placed there");
 }

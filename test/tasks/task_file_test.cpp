@@ -46,7 +46,9 @@ TEST(TaskFile, ErrorsNameFileLineKeyAndWhatIsAccepted) {
   EXPECT_TRUE(names(errorOf("scene: a\nkind: clip_and_divide\n"), {"'clip_and_divide' is missing"}));
   EXPECT_TRUE(names(errorOf("scene: a\nkind: clip_and_divide\nclip_and_divide: {clips: [{}]}\n"),
                     {"'clip_and_divide.clips'", "even number"}));
-  EXPECT_EQ(errorOf("scene: a\nkind: clip_and_divide\nclip_and_divide: {clips: [{}, {}, {}], divide_after: 2}\n"), "");
+  EXPECT_EQ(
+      errorOf("scene: a\nkind: clip_and_divide\nclip_and_divide: {clips: [{}, {}, {}], divide_after: 2, part: duct}\n"),
+      "");
   EXPECT_TRUE(
       names(errorOf("scene: a\nkind: clip_and_divide\nclip_and_divide: {clips: [{}, {}, {}], divide_after: 3}\n"),
             {"'clip_and_divide.divide_after'", "0 .. 2"}));

@@ -19,7 +19,7 @@ class ClipJudge : public TaskJudge {
   ClipJudge(const ClipGoal& goal, const Model& model)
       : goal_(goal),
         at_(goal.clips.size(), false),
-        joint_(model, goal.clips.front().position_m, goal.clips.back().position_m) {}
+        joint_(model, goal.clips.front().position_m, goal.clips.back().position_m, goal.part) {}
   bool usesCuts() const override { return true; }
   bool usesClips() const override { return true; }
   bool judgesAlways() const override { return true; }
