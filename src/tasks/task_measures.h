@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string_view>
+
 namespace viscera {
 
 /// Measures that are counted while a task runs.
@@ -25,6 +27,9 @@ struct TaskMeasure {
   const char* unit;    ///< empty: a number of events, or a ratio
   const char* phrase;  ///< noun for sentences; %N and %S are limits.force_n and limits.strain
 };
+
+/// Measure that ends a task as soon as it is exceeded.
+constexpr std::string_view kSparedCuts = "spared_cuts";
 
 inline constexpr TaskMeasure kTaskMeasures[] = {
     {"off_path_mm",

@@ -39,7 +39,7 @@ bool isOfKind(std::string_view measure, TaskGoal goal) {
 }  // namespace
 
 bool isCounted(std::string_view measure, const TaskConfig& task) {
-  if (measure == "spared_cuts") return !task.spared_parts.empty();
+  if (measure == kSparedCuts) return !task.spared_parts.empty();
   if (task.kind != TaskGoal::kOperation) return isOfKind(measure, task.kind);
   const std::vector<TaskStage>& stages = task.operation.stages;
   return std::any_of(stages.begin(), stages.end(),

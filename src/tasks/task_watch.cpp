@@ -171,18 +171,28 @@ void TaskWatch::count(const TaskTick& tick) {
   tally.strain_s += strain > task_->limits.strain ? tick.tick_s : 0;
 }
 
+/// Returns why a measure of a rule fails the task, or empty.
+std::string TaskWatch::exceeded(const TaskRule& rule) const {
+  for (const TaskMeasure& measure : kTaskMeasures) {
+    if (rule.measure != measure.name || status_.tally.*measure.value <= rule.most) continue;
+    TextOut why;
+    why << measure.name << " is " << status_.tally.*measure.value << "; to pass it must be at most " << rule.most;
+    return why.str();
+  }
+  return "";
+}
+
+/// Ends the task if it is decided. A cut in tissue to be spared cannot be made good, so it ends at once.
 void TaskWatch::decide() {
-  if (!judge_->reached()) {
+  const bool reached = judge_->reached();
+  for (const TaskRule& rule : task_->measures) {
+    if (!reached && rule.measure != kSparedCuts) continue;
+    const std::string why = exceeded(rule);
+    if (!why.empty()) return end(TaskPhase::kFailed, why);
+  }
+  if (!reached) {
     if (status_.time_s >= task_->time_limit_s) end(TaskPhase::kFailed, "the time limit was reached before the goal");
     return;
-  }
-  for (const TaskRule& rule : task_->measures) {
-    for (const TaskMeasure& measure : kTaskMeasures) {
-      if (rule.measure != measure.name || status_.tally.*measure.value <= rule.most) continue;
-      TextOut why;
-      why << measure.name << " is " << status_.tally.*measure.value << "; to pass it must be at most " << rule.most;
-      return end(TaskPhase::kFailed, why.str());
-    }
   }
   if (status_.score >= task_->pass_score) return end(TaskPhase::kPassed, "done");
   TextOut why;

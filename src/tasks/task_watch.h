@@ -80,6 +80,7 @@ class TaskWatch : public SessionLog {
   void judgeNoted();
   void judge(const TaskTick& tick);
   void count(const TaskTick& tick);
+  std::string exceeded(const TaskRule& rule) const;
   void decide();
   void end(TaskPhase state, const std::string& why);
 

@@ -117,11 +117,13 @@ bool isExceeded(const TaskConfig& task, const TaskTally& tally, const TaskMeasur
 
 std::string failedLimit(const TaskConfig& task, const TaskStatus& status) {
   if (status.state != TaskPhase::kFailed) return "";
-  if (!status.reached) return status.time_s >= task.time_limit_s ? "time_limit_s" : "";
+  if (!status.reached && status.time_s >= task.time_limit_s) return "time_limit_s";
   for (const TaskRule& rule : task.measures)  // in the order in which the judge reads them
     for (const TaskMeasure& measure : kTaskMeasures)
-      if (rule.measure == measure.name && isExceeded(task, status.tally, measure)) return measure.name;
-  return "pass_score";
+      if (rule.measure == measure.name && (status.reached || rule.measure == kSparedCuts) &&
+          isExceeded(task, status.tally, measure))
+        return measure.name;
+  return status.reached ? "pass_score" : "";
 }
 
 std::string verdictText(const TaskConfig& task, const TaskStatus& status) {

@@ -176,7 +176,8 @@ TEST(TaskCommand, CutsInSparedPartsFailATask) {
   const nlohmann::json result = lastLine(ending)["tasks"][0];
   EXPECT_EQ(result["state"], "failed");
   EXPECT_EQ(result["failed_limit"], "spared_cuts");
-  EXPECT_GT(result["measures"]["spared_cuts"]["value"], 50);  // the pad is 9 x 9 nodes
+  EXPECT_GT(result["measures"]["spared_cuts"]["value"], 0);
+  EXPECT_LT(result["time_s"], 2);  // it ends with the first of them
   const Ending unknown = operationOnPad("spared_parts: [liver]\n");
   EXPECT_EQ(unknown.status, 1);
   EXPECT_NE(unknown.err.find("'spared_parts' must name bodies or parts, of pad; found 'liver'"), std::string::npos)
