@@ -17,11 +17,12 @@ using namespace test;
 
 constexpr double kRadius_m = 0.006, kDepth_m = 0.003, kHalfPad_m = 0.032, kTop_m = 0.016;
 constexpr double kLever_m = 0.06;  ///< from the tip to the middle of the pad
-constexpr int kPressing = 15, kHeld = 45;
+constexpr int kPressing = 15, kHeld = 25;
 
 /// A pad on a rigid base, its middle at the origin, and a stylus without a tip.
 const std::string kPad = R"(
 environment: {gravity_m_per_s2: [0, 0, 0]}
+solver: {threads: 1}
 bodies:
   - source: box
     box_size_m: [0.064, 0.064, 0.016]
@@ -89,15 +90,15 @@ TEST_P(Shafts, LaidOnAPadAreFeltWithTheirLever) {
   }
 }
 
-/// Rows of nodes are 4 mm apart, and the shaft is 1 mm thick, between two rows.
+/// Rows of nodes are 4 mm apart, and the shaft is 2 mm thick, between two rows.
 TEST_P(Shafts, DoNotPassBetweenNodes) {
-  Scene scene = pad({"styluses[0].shaft_radius_m=0.0005"});
+  Scene scene = pad({"styluses[0].shaft_radius_m=0.001"});
   Session session(scene, context_);
   StylusSamples samples = over(0, 0);
   samples[0].pose.position_m.y() = 0.002;
   Frame frame;
   for (int tick = 0; tick < kPressing + kHeld; ++tick) {
-    samples[0].pose.position_m.z() = kTop_m + 0.0005 - depthAt(tick);
+    samples[0].pose.position_m.z() = kTop_m + 0.001 - depthAt(tick);
     frame = session.step(samples, {});
   }
   EXPECT_GT(frame.reactions[0].force_n.z(), 0.3);
@@ -112,13 +113,17 @@ TEST_P(Shafts, ArePassedByTissueWithoutTheKey) {
 
 /// A blade on the side of the shaft covers the pad; behind a shorter one the shaft does.
 TEST_P(Shafts, DoNotPushWithTheirBladeAndDoBehindIt) {
-  const auto cuts = [](StylusSample& sample) { sample.button2 = true; };
-  Session blade(pad({"styluses[0].cut.blade_length_m=0.1"}), context_);
-  const Frame bare = lay(blade, 0, 0.04, cuts);
-  EXPECT_EQ(bare.reactions[0].force_n.norm(), 0);
-  EXPECT_GT(bare.stats.springs_cut, 0u);
-  Session behind(pad({"styluses[0].cut.blade_length_m=0.01"}), context_);
-  const Frame pressed = lay(behind, 0, kLever_m, cuts);
+  {
+    Session session(pad({"styluses[0].cut.blade_length_m=0.1"}), context_);
+    const Frame bare = lay(session, 0, 0.04, [](StylusSample& sample) {
+      sample.button2 = true;
+      sample.pose.position_m.z() -= kRadius_m;  // the blade is on the axis
+    });
+    EXPECT_EQ(bare.reactions[0].force_n.norm(), 0);
+    EXPECT_GT(bare.stats.springs_cut, 0u);
+  }
+  Session session(pad({"styluses[0].cut.blade_length_m=0.01"}), context_);
+  const Frame pressed = lay(session, 0, kLever_m, [](StylusSample& sample) { sample.button2 = true; });
   EXPECT_GT(pressed.reactions[0].force_n.z(), 0.5);
   EXPECT_EQ(pressed.stats.springs_cut, 0u);
 }
@@ -149,7 +154,7 @@ TEST(ShaftContact, IsAsStiffAsACapsuleAndAlikeAtAllAngles) {
   constexpr double kForce = 0.1, kAngles = 0.05;  // relative
   const std::vector<std::string> fine = {"solver.backend=cpu", "bodies[0].spacing_m=0.002"};
   double straight_n_per_m = 0;
-  for (const double yaw_deg : {0.0, 30.0, 60.0}) {
+  for (const double yaw_deg : {0.0, 30.0}) {  // 60 is 30 for the lattice
     SCOPED_TRACE(yaw_deg);
     Session session(parseScene(kPad, "pad.yaml", fine));
     Scene scene = parseScene(kPad, "pad.yaml", fine);
