@@ -110,14 +110,14 @@ TEST_P(Cautery, HeatIsPowerTimesTimeInTouchAndAllOfItIsAccountedFor) {
 /// From above: the borders of the spot are as far away along the lattice as across it.
 TEST_P(Cautery, ABurnIsARoundSpotThatIsBrownWithin) {
   constexpr double kOutOfRound = 0.3;  // of the mean radius: irregular borders of 0.3 mm, and pixels
-  Scene seen = burning(6);
+  Scene seen = burning(15);
   CameraConfig& camera = seen.cameras[0];
   camera.position_m = Vector3d(0, -0.0005, 0.08);
   camera.width_px = camera.height_px = 160;
   camera.vertical_fov_deg = 17;
   Session session(seen, context_);
   const ImageFrame fresh = picture(session);
-  burn(session, 400);
+  burn(session, 120);
   for (int t = 0; t < 10; ++t) session.step({}, {});
   const ImageFrame burnt = picture(session);
   constexpr double kLeast = 40;  // of 3 * 255, summed over the colours

@@ -20,7 +20,7 @@ enum class CameraLight {
 /// Preset of a scene's appearance, for values that the scene does not give.
 enum class Look {
   kPlain,     ///< defaults of the keys
-  kEndoscope  ///< light at the lens, wet tissue, contact shadows, two samples along each axis of a pixel
+  kEndoscope  ///< light at the lens, wet tissue, contact shadows
 };
 
 struct CameraConfig {
