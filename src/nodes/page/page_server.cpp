@@ -156,6 +156,7 @@ void PageServer::follow(bool wanted) {
     queue_.clear();
     return;
   }
+  followed_ = Clock::now();
   topics_ = std::make_unique<Topics>();
   topics_->frames = std::make_unique<FrameListener>(frames_, false);
   topics_->diagnostics = node_.subscribe<diagnostic_msgs::DiagnosticArray>(
@@ -233,7 +234,8 @@ std::string PageServer::stateText() {
   received::DiscoveredSimulator now;
   for (const received::DiscoveredSimulator& one : simulators_.at(Clock::now()))
     if (one.space() == space_) now = one;
-  std::string text = "no simulator in " + space_ + " sends /diagnostics";
+  const bool is_early = Clock::now() - followed_ < received::DiscoveredSimulators::kSilence;
+  std::string text = (is_early ? "waiting for a simulator in " : "no simulator sends /diagnostics in ") + space_;
   if (!now.node.empty()) {
     text = now.paused ? "paused" : now.state;
     if (!now.paused && !now.real_time_factor.empty())

@@ -75,9 +75,9 @@ class PageServer {
   received::DiscoveredSimulators simulators_;
   TaskState task_;
   LiveScene scene_;
-  std::string state_;  ///< last text of the state
+  std::string state_;      ///< last text of the state
   uint64_t welcomed_ = 0;  ///< clients so far, when the last frame was made
-  Clock::time_point due_{}, state_due_{}, left_{};
+  Clock::time_point due_{}, state_due_{}, left_{}, followed_{};
   std::mutex refused_mutex_;
   std::string last_refused_;
   uint64_t refused_ = 0, warned_ = 0;

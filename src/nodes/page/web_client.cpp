@@ -95,7 +95,6 @@ void WebClient::refuse(const std::string& why) {
 }
 
 void WebClient::show(const std::shared_ptr<const LiveFrame>& frame) {
-  if (frame_ && frame) ++shared_.frames_dropped;
   frame_ = frame;
   write();
 }
@@ -126,7 +125,6 @@ void WebClient::collect() {
   out_.push_back({{frame_, &frame_->bytes}, false});
   ahead_.push_back(frame_->number);
   frame_.reset();
-  ++shared_.frames_sent;
 }
 
 void WebClient::write() {

@@ -27,7 +27,6 @@ struct WebShared {
   std::function<void()> changed;  ///< a client has come or gone
   std::shared_ptr<const LiveFrame> frame;
   std::shared_ptr<const std::string> state;
-  uint64_t frames_sent = 0, frames_dropped = 0;
 };
 
 /// A browser at a web socket. It gets the newest frame once it has drawn those before: at most kMostAhead are under

@@ -11,7 +11,7 @@
 namespace viscera::nodes {
 namespace {
 
-constexpr size_t kLongestTask = 1000;  // letters of the path of a task
+constexpr size_t kLongestTask = 100;  // letters of its name
 
 bool isAddress(int family, std::string_view text) {
   unsigned char bytes[sizeof(in6_addr)];
@@ -62,7 +62,7 @@ std::optional<ClientMessage> clientMessageOf(const std::string& text) {
   if (!starts) return out;
   if (task == json.end() || !task->is_string()) return std::nullopt;
   out.task = task->get<std::string>();
-  if (out.task.size() > kLongestTask) return std::nullopt;
+  if (out.task.size() > kLongestTask || out.task.find('/') != std::string::npos) return std::nullopt;  // no paths
   return out;
 }
 

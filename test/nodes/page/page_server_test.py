@@ -99,6 +99,13 @@ class PageServerTest(unittest.TestCase):
             return frame if condition(frame) else None
         return wait_until(check, 30, what)
 
+    def test_a_place_where_it_cannot_listen_ends_it(self):
+        for parameter, words in (("_port:=%d" % self.port["reader"], "choose ~address and ~port"), ("_port:=70000", "~port"), ("_address:=host.example", "no IP address")):
+            program = Program([node("page_server"), "__name:=misplaced", "_port:=0", parameter])
+            self.assertEqual(program.process.wait(30), 1, parameter)
+            program.said(words)
+            rospy.delete_param("/misplaced")
+
     def test_serves_one_page_that_loads_nothing_else(self):
         status, answer = self.get()
         head, text = answer.split("\r\n\r\n", 1)
@@ -142,6 +149,7 @@ class PageServerTest(unittest.TestCase):
         self.assertLess(numpy.abs(there - frame["positions"])[used].max(), frame["step"] / 2 + ROUNDING_M)
         triangles = numpy.array(topology.message.triangles).reshape(-1, 3)
         self.assertEqual(sorted(map(tuple, triangles.tolist())), sorted(t[:3] for t in frame["triangles"]))
+        page.until(lambda: page.state["bodies"] and page.state["styluses"])
         self.assertEqual([body["name"] for body in page.state["bodies"]], ["block"])
         self.assertIn("camera", [camera["name"] for camera in page.state["cameras"]])
         self.assertEqual(page.state["styluses"], ["left", "right"])
@@ -198,8 +206,7 @@ class PageServerTest(unittest.TestCase):
         page = self.page()
         page.call("reset")
         with self.assertRaisesRegex(Closed, "1008 .*read-only"):
-            while True:
-                page.frame()
+            page.until(lambda: False)
         self.watch.wait_news()
         self.assertGreater(self.watch.value("simulation", "tick"), tick)
 
@@ -209,12 +216,11 @@ class PageServerTest(unittest.TestCase):
         self.stylus.at = IN_FRONT
         for service, answer in (("pause", "/pause: "), ("resume", "/resume: "), ("reset", "/reset: "), ("start_task", "refused")):
             page.call(service, **({"task": "no_such_task"} if service == "start_task" else {}))
-            wait_until(lambda: page.frame() and any(answer in told and "..." not in told for told in page.answers), 30, service + " answered")
+            page.until(lambda: any(answer in told and "..." not in told for told in page.answers))
         self.assertIn("incision", page.state["tasks"])
         with self.assertRaisesRegex(Closed, "1008"):
             page.call("load_scene")
-            while True:
-                page.frame()
+            page.until(lambda: False)
 
     def test_the_layout_of_foxglove_names_topics_of_the_simulator(self):
         layout = (pathlib.Path(__file__).resolve().parents[3] / "config/foxglove_layout.json").read_text()

@@ -32,7 +32,7 @@ TEST(WebRules, MessagesAreTheViewersOrNone) {
        {"", "7", "[]", "{}", "{", R"({"shown": -1})", R"({"shown": 1.5})", R"({"shown": 4294967296})",
         R"({"shown": "1"})", R"({"shown": 1, "call": "reset"})", R"({"call": "load_scene"})",
         R"({"call": "reset", "task": "a"})", R"({"call": "start_task"})", R"({"call": "start_task", "task": 1})",
-        R"({"call": ["reset"]})"})
+        R"({"call": "start_task", "task": "/etc/passwd"})", R"({"call": ["reset"]})"})
     EXPECT_FALSE(clientMessageOf(text)) << text;
   EXPECT_FALSE(clientMessageOf(R"({"call": "start_task", "task": ")" + std::string(2000, 'x') + "\"}"));
   EXPECT_FALSE(clientMessageOf(std::string(4096, '[')));

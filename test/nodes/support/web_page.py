@@ -184,7 +184,6 @@ class Page:
     def __init__(self, port, **options):
         self.socket = WebSocket(port, **options)
         self.parts, self.state, self.answers = {}, None, []
-        self.bytes_received = 0
 
     def close(self):
         self.socket.close()
@@ -192,29 +191,43 @@ class Page:
     def call(self, service, **more):
         self.socket.send(json.dumps({"call": service, **more}))
 
+    def read(self, end, shown=True):
+        """Takes a message; returns (header, data) of a frame, None for others. Raises TimeoutError at the time `end`."""
+        left_s = end - time.monotonic()
+        if left_s <= 0:
+            raise TimeoutError("no message of that kind in time")
+        self.socket.socket.settimeout(left_s)
+        message = self.socket.receive()
+        if isinstance(message, str):
+            told = json.loads(message)
+            self.state = told.get("state", self.state)
+            self.answers += [told["answer"]] if "answer" in told else []
+            return None
+        size = struct.unpack("<I", message[:4])[0]
+        header, data = json.loads(message[4:4 + size]), message[4 + size:]
+        if "frame" not in header:
+            self.parts[header["part"]] = (header, data)
+            return None
+        self.parts = {number: self.parts[number] for number in header["needs"]}
+        if shown:
+            self.socket.send(json.dumps({"shown": header["frame"]}))
+        return header, data
+
     def frame(self, shown=True, limit_s=PATIENCE_S):
         """Waits for the next frame and returns (header, data). Raises TimeoutError without one.
 
         shown: whether to say that it was drawn."""
         end = time.monotonic() + limit_s
         while True:
-            self.socket.socket.settimeout(max(end - time.monotonic(), 1e-3))
-            message = self.socket.receive()
-            self.bytes_received += len(message)
-            if isinstance(message, str):
-                told = json.loads(message)
-                self.state = told.get("state", self.state)
-                self.answers += [told["answer"]] if "answer" in told else []
-                continue
-            size = struct.unpack("<I", message[:4])[0]
-            header, data = json.loads(message[4:4 + size]), message[4 + size:]
-            if "frame" not in header:
-                self.parts[header["part"]] = (header, data)
-                continue
-            self.parts = {number: self.parts[number] for number in header["needs"]}
-            if shown:
-                self.socket.send(json.dumps({"shown": header["frame"]}))
-            return header, data
+            frame = self.read(end, shown)
+            if frame:
+                return frame
+
+    def until(self, condition):
+        """Takes messages until condition() is true. Raises TimeoutError after PATIENCE_S."""
+        end = time.monotonic() + PATIENCE_S
+        while not condition():
+            self.read(end)
 
     def decode(self, header, data):
         """Returns a frame: {positions [v, 3], triangles, tools: [(part, position)], forces, tips}."""
