@@ -89,17 +89,6 @@ void visitFields(V& v, DetachGoal& c) {
            "position in the tissue to be cut free, at rest, in the tissue frame");
 }
 
-template <class V>
-void visitGoals(V& v, TaskGoals& c) {
-  v.group("follow_line", c.line, "goal: cut along a line, with the blade within a corridor");
-  v.group("cut_disc", c.disc, "goal: cut out a disc; reached when nothing connects it to the tissue around it");
-  v.group("touch_targets", c.touch, "goal: touch positions one after another, and nothing else");
-  v.group("lift", c.lift, "goal: grasp tissue, lift it and keep it there");
-  v.group("close_wound", c.close, "goal: open tissue along a line, tie the scene's sutures, and let go");
-  v.group("clip_and_divide", c.clip, "goal: set clips at positions of the tissue, and divide it between them");
-  v.group("detach", c.detach, "goal: cut until nothing connects the tissue at a position to tissue that is held");
-}
-
 /// Returns the choices of kinds. @param of_stages  without operation
 inline std::vector<Choice<TaskGoal>> kindChoices(bool of_stages) {
   std::vector<Choice<TaskGoal>> out;
@@ -112,7 +101,14 @@ template <class V>
 void visitFields(V& v, TaskStage& c) {
   v.text("title", c.title, "title of the stage, before what the trainee has to do");
   v.choice("kind", c.kind, kindChoices(true), "kind of the stage; the group of this name gives its goal");
-  visitGoals(v, c);
+  constexpr const char* kAsAbove = "goal, with the keys of this group of a task";
+  v.listedGroup("follow_line", c.line, kAsAbove);
+  v.listedGroup("cut_disc", c.disc, kAsAbove);
+  v.listedGroup("touch_targets", c.touch, kAsAbove);
+  v.listedGroup("lift", c.lift, kAsAbove);
+  v.listedGroup("close_wound", c.close, kAsAbove);
+  v.listedGroup("clip_and_divide", c.clip, kAsAbove);
+  v.listedGroup("detach", c.detach, kAsAbove);
 }
 
 template <class V>
@@ -149,7 +145,13 @@ void visitFields(V& v, TaskConfig& c) {
   v.number("proficiency_s", c.proficiency_s, kTaskSeconds, "s",
            "time of a proficient user, for the report; 0: not known");
   v.number("pass_score", c.pass_score, kTaskSeconds, "s", "lowest score that passes the task");
-  visitGoals(v, c);
+  v.group("follow_line", c.line, "goal: cut along a line, with the blade within a corridor");
+  v.group("cut_disc", c.disc, "goal: cut out a disc; reached when nothing connects it to the tissue around it");
+  v.group("touch_targets", c.touch, "goal: touch positions one after another, and nothing else");
+  v.group("lift", c.lift, "goal: grasp tissue, lift it and keep it there");
+  v.group("close_wound", c.close, "goal: open tissue along a line, tie the scene's sutures, and let go");
+  v.group("clip_and_divide", c.clip, "goal: set clips at positions of the tissue, and divide it between them");
+  v.group("detach", c.detach, "goal: cut until nothing connects the tissue at a position to tissue that is held");
   v.group("operation", c.operation, "goal: reach the goals of stages, one after another");
   v.texts("spared_parts", c.spared_parts, 64,
           "names of parts or bodies that must not be cut; the measure spared_cuts counts their cuts");

@@ -17,6 +17,7 @@ namespace viscera {
 // * choice(key, Enum&, {{name, value}...}, text)
 // * tissue(key, Struct&, text): sets young_modulus_pa, poisson_ratio and density_kg_per_m3, which come after it
 // * group(key, Struct&, text)
+// * listedGroup(key, Struct&, text): a group with keys that a table has elsewhere
 // * list(key, std::vector<Struct>&, max_count, text, defaults of an item = {})
 
 /// Accepted values, inclusive at both ends.

@@ -67,6 +67,10 @@ class KeyTable {
     row(key, "choice", "", "those of docs/tissues.md", text);
   }
   template <class Struct>
+  void listedGroup(const char* key, Struct&, const char* text) {
+    row(key, "map", "", "", text);
+  }
+  template <class Struct>
   void group(const char* key, Struct& value, const char* text) {
     row(key, "map", "", "", text);
     KeyTable inner(out_, path_ + key + ".");

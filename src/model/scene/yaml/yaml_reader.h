@@ -95,6 +95,10 @@ class YamlReader {
     if (node) readMap(node, child(key), source_, value);
   }
   template <class Struct>
+  void listedGroup(const char* key, Struct& value, const char* text) {
+    group(key, value, text);
+  }
+  template <class Struct>
   void list(const char* key, std::vector<Struct>& values, double max_count, const char*, const Struct& prototype = {}) {
     const YAML::Node node = take(key);
     if (!node) return;
