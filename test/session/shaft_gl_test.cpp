@@ -101,7 +101,7 @@ TEST_P(Shafts, DoNotPassBetweenNodes) {
     samples[0].pose.position_m.z() = kTop_m + 0.001 - depthAt(tick);
     frame = session.step(samples, {});
   }
-  EXPECT_GT(frame.reactions[0].force_n.z(), 0.3);
+  EXPECT_GT(frame.reactions[0].force_n.z(), 2) << "0.08 N once it has slipped through";
 }
 
 TEST_P(Shafts, ArePassedByTissueWithoutTheKey) {
