@@ -4,7 +4,8 @@
 
 namespace viscera {
 
-/// Shape of one gallbladder and of the tissue around it, in millimetres for a gallbladder of 80 mm (docs/user_guide.md).
+/// Shape of one gallbladder and of the tissue around it, in millimetres for a gallbladder of 80 mm
+/// (docs/user_guide.md).
 struct GallbladderVariant {
   bool short_duct = false;
   bool artery_in_front = false;  ///< the right hepatic artery passes in front of the common hepatic duct
