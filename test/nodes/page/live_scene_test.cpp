@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/make_shared.hpp>
 #include <limits>
 
 namespace viscera::nodes {
