@@ -77,7 +77,7 @@ TEST_P(ShippedTask, IsFailedByAClumsyOne) {
 
 INSTANTIATE_TEST_SUITE_P(Each, ShippedTask,
                          ::testing::Values("pattern_cut", "incision", "touch_targets", "gentle_lift", "close_wound",
-                                           "clip_and_divide"),
+                                           "clip_and_divide", "clip_duct"),
                          [](const auto& info) { return std::string(info.param); });
 
 TEST(TaskCommand, ReplaysToTheSameScoreAndWritesAReport) {
