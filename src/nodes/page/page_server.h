@@ -9,7 +9,6 @@
 #include <viscera/TaskState.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include <atomic>
 #include <chrono>
 #include <memory>
 #include <mutex>

@@ -10,7 +10,7 @@
 namespace viscera::received {
 
 /// Returns the full name of a simulator's namespace, with a slash at its end.
-/// @param space  as the user wrote it; empty: rviz's own   @throws ros::InvalidNameException
+/// @param space  as the user wrote it; empty: that of this node   @throws ros::InvalidNameException
 inline std::string simulatorSpace(const std::string& space) {
   const std::string name = ros::names::resolve(space.empty() ? ros::this_node::getNamespace() : space);
   return name.back() == '/' ? name : name + "/";
