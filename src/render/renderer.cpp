@@ -9,13 +9,11 @@
 #include "gpu/gl.h"
 #include "gpu/software.h"
 #include "gpu/stage_clock.h"
-#include "model/scene/tool_kinds.h"
 #include "render/obstacle_painter.h"
 #include "render/overlay_painter.h"
 #include "render/tissue_painter.h"
 #include "render/tool_painter.h"
 #include "render/tube_painter.h"
-#include "surface/wounds/wounds.h"
 
 namespace viscera {
 
@@ -66,7 +64,7 @@ Renderer::Renderer(const std::vector<CameraConfig>& cameras, const std::vector<S
   if (std::any_of(cameras_.begin(), cameras_.end(),
                   [](const CameraConfig& camera) { return camera.light == CameraLight::kLens; }))
     light_features_.emplace_back("LENS_LIGHT");
-  makeTissue(marks);
+  makeTissue(marks, false);
   tools_ = std::make_unique<ToolPainter>(styluses, light_features_);
   if (!obstacles.empty()) obstacles_ = std::make_unique<ObstaclePainter>(obstacles, light_features_);
   for (const CameraConfig& camera : cameras_) {
@@ -86,21 +84,25 @@ bool Renderer::lightsPixels(const CameraConfig& camera) const {
   return camera.supersampling == 0 && gpu::isSoftware() && camera.width_px * camera.height_px <= GBuffer::kMostPixels;
 }
 
-void Renderer::makeTissue(bool marks) {
+/// Makes the shaders of tissue. Those with marks or paint are made when there is something to draw with them.
+void Renderer::makeTissue(bool marks, bool paint) {
   has_marks_ = marks;
+  has_paint_ = paint;
   std::vector<std::string> features = light_features_;
   if (std::any_of(cameras_.begin(), cameras_.end(),
                   [](const CameraConfig& camera) { return camera.contact_shadows > 0; }))
     features.emplace_back("CONTACTS");
   if (marks) features.emplace_back("MARKS");
-  if (mayBurn(styluses_) || (model_ && Wounds::possible(*model_))) features.emplace_back("PAINT");
+  if (paint) features.emplace_back("PAINT");
   const auto by_pixels = [this](const CameraConfig& camera) { return lightsPixels(camera); };
   tissue_ = std::make_unique<TissuePainter>(model_, !std::all_of(cameras_.begin(), cameras_.end(), by_pixels),
                                             std::any_of(cameras_.begin(), cameras_.end(), by_pixels), features);
+  if (has_marks_) tissue_->showMarks(marks_);
 }
 
 void Renderer::showMarks(const std::shared_ptr<const VisibleMarks>& marks) {
-  if (marks && !has_marks_ && model_) makeTissue(true);
+  marks_ = marks;
+  if (marks && !has_marks_ && model_) return makeTissue(true, has_paint_);
   if (has_marks_) tissue_->showMarks(marks);
 }
 
@@ -145,7 +147,7 @@ void Renderer::draw(size_t camera, const Model& model, const OverlayStyle& style
 MeshView Renderer::meshOf(const Surface& surface, const IndexRuns* runs) const {
   const uint32_t colors = shown_colors_ ? shown_colors_ : surface.colors().id();
   return {surface.positions().id(), surface.normals().id(),   colors, surface.liveIndices().id(), surface.liveCount(),
-          surface.rests().id(),     surface.liveChartsView(), runs};
+          surface.rests().id(),     surface.liveChartsView(), runs,   surface.needsPaint()};
 }
 
 Renderer::View Renderer::viewOf(size_t camera) const {
@@ -160,6 +162,7 @@ void Renderer::drawImage(size_t camera, const MeshView& mesh, const ToolMotions&
   assert(camera < cameras_.size());
   const gpu::TimedStage timed(gpu::Stage::kRender);
   const View view = viewOf(camera);
+  if (tissue && mesh.painted && !has_paint_ && model_) makeTissue(has_marks_, true);
   lightFor(cameras_[camera]);
   prepareDrawing();
   if (lit_targets_[camera]) {

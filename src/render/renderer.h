@@ -42,6 +42,7 @@ struct MeshView {
   uint32_t rests = 0;   ///< vec4[vertices] see JoinedSkins::rests; 0: none, and no detail
   uint32_t charts = 0;  ///< texel view of uint[index_count / 3] texture charts (JoinedSkins::charts); 0: none
   const IndexRuns* runs = nullptr;  ///< those to draw; null: all
+  bool painted = false;             ///< Surface::needsPaint()
 };
 
 /// Draws off-screen colour images of the surface and the tools, with one framebuffer per camera. Draws only on request.
@@ -103,7 +104,7 @@ class Renderer {
   };
   MeshView meshOf(const Surface& surface, const IndexRuns* runs) const;
   View viewOf(size_t camera) const;
-  void makeTissue(bool marks);
+  void makeTissue(bool marks, bool paint);
   bool lightsPixels(const CameraConfig& camera) const;
   void lightFor(const CameraConfig& camera);
   double pixelOf(size_t camera) const;
@@ -117,9 +118,12 @@ class Renderer {
   template <class DrawOver>
   void drawPixels(const View& view, const MeshView& mesh, const ToolMotions& motions, bool tissue, DrawOver drawOver);
 
-  std::vector<CameraConfig> cameras_;          ///< pinholes
-  const Model* model_;                         ///< null: none
-  bool has_marks_ = false;                     ///< shaders of tissue_ draw marks
+  std::vector<CameraConfig> cameras_;  ///< pinholes
+  const Model* model_;                 ///< null: none
+  bool has_marks_ = false;             ///< shaders of tissue_ draw marks
+  bool has_paint_ =
+      false;  ///< they draw burns and lips of cuts, which costs a quarter of an image on a software renderer
+  std::shared_ptr<const VisibleMarks> marks_;
   std::vector<std::unique_ptr<Lens>> lenses_;  ///< [cameras] distortion of their images; null: none
   std::vector<StylusConfig> styluses_;
   std::vector<Pose> camera_poses_;                           ///< [cameras] of the optical frames, tissue frame

@@ -48,6 +48,8 @@ class Surface {
   bool isPainted() const { return !paints_.empty(); }  ///< colors() differ from those before the first tick
   /// Returns whether colors() are more than the colours of bodies: painted, or with colours of parts.
   bool hasColors() const { return has_part_colors_ || isPainted(); }
+  /// Returns whether a vertex may be burnt, or is on the lip of a cut (skins/skin_paint.h).
+  bool needsPaint() const { return isPainted() || (wounds_ && !wounds_->addedRests().empty()); }
   /// Makes every triangle whole again.
   void reset();
 
