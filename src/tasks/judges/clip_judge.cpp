@@ -57,9 +57,10 @@ class ClipJudge : public TaskJudge {
   std::vector<MarkConfig> marks() const override {
     const Vector3d offset_m = goal_.clips.back().position_m - goal_.clips.front().position_m;
     const double width_m = kRingWidth * goal_.radius_m;
+    const double reach_m = (goal_.part.empty() ? kRingReach : kPartReach) * goal_.radius_m;
     const auto ring = [&](const Vector3d& at_m) {
       return offset_m.isZero() ? targetMark(at_m, offset_m, goal_.radius_m)
-                               : ringMark(at_m, offset_m, kRingReach * goal_.radius_m, width_m);
+                               : ringMark(at_m, offset_m, reach_m, width_m);
     };
     std::vector<MarkConfig> out;
     for (const TaskPosition& clip : goal_.clips) out.push_back(ring(clip.position_m));
@@ -81,6 +82,7 @@ class ClipJudge : public TaskJudge {
  private:
   static constexpr double kRingWidth = 0.2;  ///< over the distance within which a clip counts
   static constexpr double kRingReach = 4;    ///< farthest surface of the tissue, over the same
+  static constexpr double kPartReach = 0.8;  ///< the same of a part that is next to others
   bool allClipped() const {
     return std::all_of(at_.begin(), at_.end(), [](bool at) { return at; });
   }
