@@ -154,9 +154,9 @@ Ending operationOnPad(const std::string& keys) {
   const std::string strokes = folder.write(
       "strokes.yaml",
       "strokes: [{stylus: right, keys: [{t_s: 0.1, position_m: [0, 0, 0.03]}, {t_s: 0.5, position_m: [0, 0, 0.009]}, "
-      "{t_s: 0.9, position_m: [0, 0, 0.03]}, {t_s: 1.2, position_m: [0.04, 0, 0.001], rotation_deg: [-90, 0, 0]}, "
-      "{t_s: 1.3, position_m: [0.03, 0, 0.001], rotation_deg: [-90, 0, 0], button1: true}, "
-      "{t_s: 2.3, position_m: [-0.03, 0, 0.001], rotation_deg: [-90, 0, 0], button1: true}]}]\n");
+      "{t_s: 0.9, position_m: [0, 0, 0.03]}, {t_s: 1.2, position_m: [0.04, 0, -0.002], rotation_deg: [-90, 0, 0]}, "
+      "{t_s: 1.3, position_m: [0.03, 0, -0.002], rotation_deg: [-90, 0, 0], button1: true}, "
+      "{t_s: 2.3, position_m: [-0.03, 0, -0.002], rotation_deg: [-90, 0, 0], button1: true}]}]\n");
   return viscera({"task", task, "--strokes", strokes, "--no-view", "--set", "solver.threads=1"});
 }
 
@@ -180,7 +180,7 @@ TEST(TaskCommand, CutsInSparedPartsFailATask) {
   EXPECT_LT(result["time_s"], 2);  // it ends with the first of them
   const Ending unknown = operationOnPad("spared_parts: [liver]\n");
   EXPECT_EQ(unknown.status, 1);
-  EXPECT_NE(unknown.err.find("'spared_parts' must name bodies or parts, of pad; found 'liver'"), std::string::npos)
+  EXPECT_NE(unknown.err.find("'spared_parts' must name bodies or parts, of pad, box; found 'liver'"), std::string::npos)
       << unknown.err;
 }
 

@@ -43,7 +43,7 @@ TEST(Scene, PartIsLikeTheMaterialOfItsBodyButForWhatItSays) {
 
 TEST(Scene, UnknownKeyIsRefusedWithFileLineKeyAndTheAcceptedKeys) {
   expectRefusals({
-      {"bodies: [{}]\nbodeis: 1\n", {"s.yaml:2: ", "unknown key 'bodeis'", "bodies, name, cameras, styluses"}},
+      {"bodies: [{}]\nbodeis: 1\n", {"s.yaml:2: ", "unknown key 'bodeis'", "bodies, name, look, styluses"}},
       {"bodies:\n  - name: a\n    material:\n      young: 3\n",
        {"s.yaml:4: ", "unknown key 'bodies[0].material.young'", "young_modulus_pa, poisson_ratio, density_kg_per_m3"}},
       {"bodies:\n  - name: a\n  - name: b\n    spacing: 1\n",

@@ -133,11 +133,13 @@ TEST(WoundInALattice, IsTheSameOnTheGpuTheCpuAndWithoutAContext) {
 TEST(WoundInALattice, MakesNoGpuObjectWhileThereIsRoom) {
   gpu::Context context;
   Session session(cutScene(Backend::kGpu, Structure::kLattice), context);
-  (void)surfaceAfter(session, {});
-  const uint64_t made = gpu::objectsCreated();
   FrameRequest outputs;
   outputs.surface = true;
   outputs.cameras = {true};
+  play(session, cut, kCutTicks, outputs);  // the first cut makes the shaders that draw lips
+  session.reset();
+  (void)surfaceAfter(session, {});
+  const uint64_t made = gpu::objectsCreated();
   play(session, cut, kCutTicks, outputs);
   EXPECT_EQ(gpu::objectsCreated(), made);
 }
