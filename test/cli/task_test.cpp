@@ -144,7 +144,7 @@ Ending operationOnPad(const std::string& keys) {
                "bodies: [{name: pad, source: box, box_size_m: [0.024, 0.024, 0.012], spacing_m: 0.003, fixed: "
                "[{shape: plane, point_m: [0, 0, -0.006], normal: [0, 0, 1]}]}]\n"
                "styluses: [{name: right, idle: probe, button1: cut, button2: none, cut: {blade_length_m: 0.08, "
-               "blade_side: both}}]\nsolver: {backend: cpu}\n");
+               "blade_side: both}}]\nsolver: {backend: cpu}\nenvironment: {gravity_m_per_s2: [0, 0, 0]}\n");
   const std::string task =
       folder.write("free.yaml",
                    "scene: pad.yaml\nkind: operation\noperation:\n  stages:\n"
@@ -154,9 +154,9 @@ Ending operationOnPad(const std::string& keys) {
   const std::string strokes = folder.write(
       "strokes.yaml",
       "strokes: [{stylus: right, keys: [{t_s: 0.1, position_m: [0, 0, 0.03]}, {t_s: 0.5, position_m: [0, 0, 0.009]}, "
-      "{t_s: 0.9, position_m: [0, 0, 0.03]}, {t_s: 1.2, position_m: [0.04, 0, -0.002], rotation_deg: [-90, 0, 0]}, "
-      "{t_s: 1.3, position_m: [0.03, 0, -0.002], rotation_deg: [-90, 0, 0], button1: true}, "
-      "{t_s: 2.3, position_m: [-0.03, 0, -0.002], rotation_deg: [-90, 0, 0], button1: true}]}]\n");
+      "{t_s: 0.9, position_m: [0, 0, 0.03]}, {t_s: 1.2, position_m: [0.04, 0, -0.0015], rotation_deg: [-90, 0, 0]}, "
+      "{t_s: 1.3, position_m: [0.03, 0, -0.0015], rotation_deg: [-90, 0, 0], button1: true}, "
+      "{t_s: 2.3, position_m: [-0.03, 0, -0.0015], rotation_deg: [-90, 0, 0], button1: true}]}]\n");
   return viscera({"task", task, "--strokes", strokes, "--no-view", "--set", "solver.threads=1"});
 }
 
