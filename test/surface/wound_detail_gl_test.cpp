@@ -66,9 +66,8 @@ TEST(WoundDetail, PiecesKeepTheChartsOfTheirTriangles) {
   const std::vector<uint32_t> live = surface.liveIndices().read();
   const std::vector<layout::vec4> rests = surface.rests().read();
   size_t skin = 0, walls = 0;
-  constexpr double kOff_m = 1e-5;  // crossings are found to a ten-thousandth of a cell
-  constexpr double kLip_m =
-      2.5e-4;  // cut shares are rounded to a 40th of a cell; whole vertices are farther from the plane
+  constexpr double kOff_m = 1e-5;    // crossings are found to a ten-thousandth of a cell
+  constexpr double kLip_m = 2.5e-4;  // a lip keeps a twentieth of an edge from its ends (wound_skin.cpp), off the plane
   for (size_t t = 0; 3 * t < surface.liveCount(); ++t) {
     const uint32_t* const v = &live[3 * t];
     if (v[0] == 0 && v[1] == 0 && v[2] == 0) continue;
