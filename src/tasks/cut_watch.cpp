@@ -112,8 +112,12 @@ Joint::Joint(const Model& model, const Vector3d& one_m, const Vector3d& other_m,
   };
   const auto [body, one] = nearestNode(model, one_m, fits);
   const auto [other_body, other] = nearestNode(model, other_m, fits);
-  if (!part.empty() && label(body) == 0)
-    throw TaskError("'clip_and_divide.part' must be a part of a body; found '" + part + "'");
+  if (!part.empty() && label(body) == 0) {
+    std::string known;
+    for (const Body& it : model.bodies)
+      for (const std::string& name : it.lattice.part_names) known += (known.empty() ? "" : ", ") + name;
+    throw TaskError("'clip_and_divide.part' must be a part of a body, of " + known + "; found '" + part + "'");
+  }
   if (body != other_body)
     throw TaskError("positions of 'clip_and_divide.clips' are nearest to different bodies, " + model.bodies[body].name +
                     " and " + model.bodies[other_body].name + "; they must be on one body");

@@ -180,7 +180,8 @@ std::array<Vector3d, layout::kMaxStyluses> WrenchPublisher::send(const Wrenches&
     if (!sinks_[s].hasSubscribers()) continue;
     const DeviceFrame frame = mailboxes_[s]->deviceFrame();
     const Trocar trocar(mailboxes_[s]->config());
-    const Reaction wanted = trocar.deviceReaction(wrenches[s], mailboxes_[s]->peek(now).pose);
+    const Reaction wanted =
+        trocar.isPresent() ? trocar.deviceReaction(wrenches[s], mailboxes_[s]->peek(now).pose) : wrenches[s];
     sent_force_n[s] = frame.from_tissue.conjugate() * sinks_[s].send(wanted, frame, stamp).force_n;
     // The loop's energies are of the tip's motion, for which the force does the work of that at the device.
     if (trocar.isPresent())
