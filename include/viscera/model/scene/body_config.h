@@ -8,6 +8,7 @@
 #include "viscera/api.h"
 #include "viscera/math/types.h"
 #include "viscera/model/scene/body_kinds.h"
+#include "viscera/model/scene/mark_config.h"
 #include "viscera/model/scene/material_config.h"
 
 namespace VISCERA_PUBLIC viscera {
@@ -45,6 +46,29 @@ struct ScanConfig {
   std::string series;
 };
 
+/// Hollow branch of a tube: its axis and its cross-section.
+struct TubeBranch {
+  std::string name;             ///< name of the branch, a part of the body
+  std::vector<MarkPoint> path;  ///< points of the axis, body frame, at least two
+  double radius_m = 0;          ///< outer radius [m]; 0: that of the tube
+  double wall_m = 0;            ///< thickness of the wall [m]; 0: that of the tube
+};
+
+/// Hollow tube, for source: tube.
+struct TubeConfig {
+  std::vector<MarkPoint> path;  ///< points of the axis, body frame, at least two
+  double radius_m = 0.003;      ///< outer radius [m]
+  double wall_m = 0.0008;       ///< thickness of the wall [m]
+  std::vector<TubeBranch> branches;
+};
+
+/// Pressure of the fluid in the cavities of a body, over that outside.
+struct PressureConfig {
+  double mean_pa = 0;   ///< mean pressure [Pa]
+  double pulse_pa = 0;  ///< amplitude of the pulse [Pa]
+  double pulse_hz = 1.2;
+};
+
 struct BodyConfig {
   std::string name = "tissue";
   TissueSource source = TissueSource::kPhantom;
@@ -68,6 +92,8 @@ struct BodyConfig {
   double phantom_wall_scale = 1;
   Vector3d box_size_m = Vector3d::Constant(0.05);
   double ball_radius_m = 0.02;
+  TubeConfig tube;
+  PressureConfig pressure;
   double thickness_m = 0.001;  ///< thickness [m], for structure surface
   double bending_ratio = 0;    ///< stiffness of springs that resist bending, over that of the springs around them
   Vector3d force_n = Vector3d::Zero();

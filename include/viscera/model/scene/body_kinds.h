@@ -8,13 +8,15 @@ namespace VISCERA_PUBLIC viscera {
 
 // Values of the keys of a body.
 
-enum class TissueSource { kPhantom, kMesh, kBox, kSheet, kBall, kLabels };
+enum class TissueSource { kPhantom, kMesh, kBox, kSheet, kBall, kTube, kLabels };
 enum class Anatomy { kHeart, kGallbladder };
 enum class Structure { kLattice, kExplicit, kSurface };
 enum class SkinSource { kAuto, kInput, kVolume };
 enum class Mapping { kAuto, kOneToOne, kConstant, kInterpolated, kAlongNormal };  ///< see docs/surface.md
 enum class UpAxis { kZ, kY };
 enum class FixedShape { kBox, kSphere, kPlane, kPart };
+/// Fluid that leaves tissue where it is cut.
+enum class Fluid { kBlood, kBile };
 /// Region of a mesh that is tissue.
 enum class Fill {
   kParts,    ///< inside of each of its parts

@@ -43,6 +43,8 @@ struct CameraConfig {
   CameraLight light = CameraLight::kLamp;
   double light_cone_deg = 90;
   double contact_shadows = 0;
+  std::string stylus;         ///< stylus whose pose the camera follows, as an endoscope; empty: none
+  double lens_angle_deg = 0;  ///< angle between the shaft of the endoscope and its line of sight [deg]
 };
 
 /// Largest distance of a line of sight from the middle of a distorted image, over its distance in a pinhole image.

@@ -34,6 +34,8 @@ struct TearConfig {
 struct BleedingConfig {
   double flow_ml_per_min = 0;  ///< flow out of a stump [ml/min]; 0: none
   double calibre_m = 0;        ///< calibre of the vessel that is cut through [m]; 0: from its volume over its length
+  Fluid fluid = Fluid::kBlood;
+  double volume_ml = 0;  ///< fluid that can leave until a reset [ml]; 0: any amount
 };
 
 struct MaterialConfig {

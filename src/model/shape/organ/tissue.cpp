@@ -195,6 +195,8 @@ std::unique_ptr<Tissue> tissueOf(const BodyConfig& config, const std::string& fo
       return sheetTissue(config);
     case TissueSource::kBall:
       return ballTissue(config);
+    case TissueSource::kTube:
+      break;
     case TissueSource::kBox:
       return boxTissue(config);
   }
