@@ -21,7 +21,7 @@ RUN_S = 1.5  # of the clock, of a measurement of VectorSession
 SWEEP_S = 0.4  # of the clock, of a run of `viscera sweep` by itself, in addition to its start
 SMALL_SESSIONS, SMALL_S = (1, 3), 0.1
 PEERS = [  # published rates: program, what is simulated, nodes, sessions, their steps a second, seconds of a step, machine, source
-    ("PhysX, in Isaac Lab", "beam of 300 x 40 x 40 mm, and an arm", 67, 1024, 18622, 1 / 30, "RTX 5090",
+    ("PhysX, in Isaac Lab", "beam of 300 x 40 x 40 mm", 67, 1024, 18622, 1 / 30, "RTX 5090",
      "[rate](https://github.com/newton-physics/newton/issues/4141), [nodes](https://github.com/isaac-sim/IsaacLab/pull/6674)"),
     ("Newton, vertex block descent", "the same", 67, 4096, 11808, 1 / 30, "RTX 5090",
      "[the same](https://github.com/newton-physics/newton/issues/4141)"),
@@ -126,8 +126,8 @@ def section(results):
     for run in results["runs"]:
         out.append("| %g mm | %d | %+.1f %% | %s | %s |" %
                    (1e3 * run["spacing_m"], run["nodes"], 100 * run["mean"], rates(run["vector"]), rates(run["sweep"])))
-    out += ["", "Others in the same unit: steps a second times their length times nodes. Those published give no error, and their step",
-            "includes a robot arm.", "", "| program | body | nodes | sessions | rate | error | machine | source |", "|---|---|---|---|---|---|---|---|",
+    out += ["", "Others in the same unit: steps a second times their length times nodes. The published rates are of steps of 1/30 s that",
+            "include a robot arm; the number of nodes is from another report, and no error is given.", "", "| program | body | nodes | sessions | rate | error | machine | source |", "|---|---|---|---|---|---|---|---|",
             "| Bullet, linear | the cantilever | %d | 1 | %.2g | %+.1f %% | one thread here | above |" %
             (bullet_nodes, bullet_nodes / bullet_cost / 1e3, 100 * bullet_mean)]
     for name, body, nodes, sessions, steps, step_s, machine, source in PEERS:
