@@ -5,7 +5,7 @@
 
 #include "model/scene/tool_kinds.h"
 #include "solver/processes/blade/blades.h"
-#include "solver/processes/stylus_impulse.h"
+#include "solver/processes/stylus_pull.h"
 #include "solver/processes/suture/suture_bodies.h"
 #include "tools/shaft_meeting.h"
 #include "viscera/session/session.h"
@@ -15,8 +15,8 @@ namespace viscera {
 namespace {
 
 /// Adds the force of a suture or a needle on its stylus.
-void addSuture(const StylusImpulse& impulse, TickContact& contact) {
-  const NeedleHold& needle = impulse.needle;
+void addSuture(const StylusPull& pull, TickContact& contact) {
+  const NeedleHold& needle = pull.needle;
   contact.kind = needle.stiffness_n_per_m > 0 ? TickContact::Kind::kPierces : TickContact::Kind::kPulls;
   if (contact.kind == TickContact::Kind::kPulls) return;
   const double along_n = contact.reaction.force_n.dot(needle.along);
@@ -39,9 +39,9 @@ TickContact Session::contactOf(size_t stylus, const Reaction& raw) const {
   const bool acts = motion.present && !feels && raw.force_n.allFinite() && raw.torque_nm.allFinite();
   if (!acts || (stats_.touched[stylus] + stats_.grabbed[stylus] == 0 && !shafts_->touch())) return out;
   out.reaction = raw;
-  const StylusImpulse& impulse = solver_->stylusImpulse(static_cast<uint32_t>(stylus));
-  if (impulse.nodes > 0 && impulse.nodes == stats_.grabbed[stylus]) {
-    addSuture(impulse, out);
+  const StylusPull& pull = solver_->pull(static_cast<uint32_t>(stylus));
+  if (pull.nodes > 0 && pull.nodes == stats_.grabbed[stylus]) {
+    addSuture(pull, out);
     return out;
   }
   out.kind = kindOf(motion.mode).does(kHolds) ? TickContact::Kind::kHolds : TickContact::Kind::kPushes;

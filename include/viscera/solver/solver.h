@@ -20,7 +20,7 @@
 namespace viscera {  // internal
 class Archive;
 class TissueProcess;
-struct StylusImpulse;
+struct StylusPull;
 }  // namespace viscera
 
 namespace VISCERA_PUBLIC viscera {
@@ -65,7 +65,7 @@ class VISCERA_PUBLIC Solver {
   /// Returns the impulse and moment of a stylus on processes such as sutures and needles, in the last tick that
   /// pollStats() returned.
   /// @param stylus  < kMaxStyluses
-  virtual const StylusImpulse& stylusImpulse(uint32_t stylus) const;
+  virtual const StylusPull& pull(uint32_t stylus) const;
   virtual std::string backend() const = 0;
   /// Writes to an archive, or reads from it, all that later ticks depend on, between two ticks. The solver that reads
   /// was made for the same model and scene and continues to the bit like the one that wrote. Waits for the last tick.

@@ -8,7 +8,7 @@
 
 #include "math/archive.h"
 #include "solver/processes/port.h"
-#include "solver/processes/stylus_impulse.h"
+#include "solver/processes/stylus_pull.h"
 #include "viscera/math/state_hash.h"
 #include "viscera/solver/facts.h"
 #include "viscera/solver/process_visuals.h"
@@ -72,7 +72,7 @@ class TissueProcess {
   /// Returns whether pushNodes() may have named a stylus in the tick: reactions are summed then.
   virtual bool pushesStyluses(const ProcessTick&) const { return false; }
   /// Adds the forces and moments of styluses on the process in the tick.
-  virtual void addStylusImpulses(StylusImpulses&) const {}
+  virtual void addPulls(StylusPulls&) const {}
   /// @}
 
   /// @name State

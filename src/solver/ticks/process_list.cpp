@@ -40,9 +40,9 @@ bool ProcessList::pushStyluses(const ProcessTick& tick) const {
                      [&](const auto& process) { return process->pushesStyluses(tick); });
 }
 
-StylusImpulses ProcessList::stylusImpulses() const {
-  StylusImpulses out;
-  for (const auto& process : processes_) process->addStylusImpulses(out);
+StylusPulls ProcessList::pulls() const {
+  StylusPulls out;
+  for (const auto& process : processes_) process->addPulls(out);
   return out;
 }
 

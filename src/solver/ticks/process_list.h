@@ -26,7 +26,7 @@ class ProcessList {
   uint64_t act(TissuePort& port, const ProcessTick& tick, const ProcessSubstep& substep);
   uint64_t endTick(TissuePort& port, const ProcessTick& tick);
   bool pushStyluses(const ProcessTick& tick) const;
-  StylusImpulses stylusImpulses() const;
+  StylusPulls pulls() const;
   /// Sums the work of the processes that did positive work, so that work taken away by one does not hide another's.
   double work_j() const;
   void reset();

@@ -54,7 +54,7 @@ RollbackGuard::Verdict RollbackGuard::endTick(const ToolMotions& motions, bool r
   tick.recovering = recovering;
   tick.undone = undone;
   tick.long_substeps = long_substeps;
-  tick.stylus_impulses = processes_.stylusImpulses();
+  tick.pulls = processes_.pulls();
   tick.processes_j = processes_.work_j();
   open_ = tick;
   Verdict verdict;
@@ -95,8 +95,8 @@ TickFindings RollbackGuard::published() const {
   stats = bad ? last_good_ : *open_->stats;
   stats.springs_cut = open_->stats->springs_cut;
   if (!bad && !open_->recovering) {
-    out.stylus_impulses = open_->stylus_impulses;
-    addTo(stats, out.stylus_impulses);
+    out.pulls = open_->pulls;
+    addTo(stats, out.pulls);
     return out;
   }
   for (uint32_t s = 0; s < layout::kMaxStyluses; ++s) stats.impulse[s] = stats.angular[s] = {};
@@ -169,7 +169,7 @@ void RollbackGuard::persist(Archive& archive) {
   archive.value(tick.recovering);
   archive.value(tick.undone);
   archive.value(tick.long_substeps);
-  archive.value(tick.stylus_impulses);
+  archive.value(tick.pulls);
   archive.value(tick.processes_j);
   archive.value(stats);
   tick.delivered = true;

@@ -15,7 +15,7 @@ class Archive;
 /// Published findings of a tick: its measurements, and in addition what styluses gave processes, such as needles.
 struct TickFindings {
   layout::TickStats stats{};
-  StylusImpulses stylus_impulses;
+  StylusPulls pulls;
 };
 
 /// Applies the verdicts of the stability monitor to a scene's ticks (physics.md 3). A tick is open from its end until
@@ -72,9 +72,9 @@ class RollbackGuard {
     bool recovering = false;
     bool undone = false;  ///< the previous tick was bad: this one does not count
     bool long_substeps = false;
-    bool delivered = false;          ///< whether its measurements were returned
-    StylusImpulses stylus_impulses;  ///< in addition to the measurements
-    double processes_j = 0;          ///< work of the processes on the tissue [J]
+    bool delivered = false;  ///< whether its measurements were returned
+    StylusPulls pulls;       ///< pulls, in addition to the measurements
+    double processes_j = 0;  ///< work of the processes on the tissue [J]
     std::optional<layout::TickStats> stats;
   };
   bool receive(bool wait);

@@ -58,8 +58,8 @@ const TissueProcesses& Solver::processes() const {
   return kNone;
 }
 
-const StylusImpulse& Solver::stylusImpulse(uint32_t /*stylus*/) const {
-  static const StylusImpulse kNothing;
+const StylusPull& Solver::pull(uint32_t /*stylus*/) const {
+  static const StylusPull kNothing;
   return kNothing;
 }
 

@@ -219,8 +219,8 @@ void TissueStepper::reset() {
   restarted_ = true;
   springs_cut_ = 0;
   processes_.reset();
-  stylus_impulses_.clear();
-  reported_impulses_ = {};
+  pulls_.clear();
+  reported_pulls_ = {};
   stretch_ = stiffening_ = 0;
   releasing_ = 0;
   last_stiffening_ = kAtRest;
@@ -309,16 +309,16 @@ void TissueStepper::finishStats() {
     keepStats(oldest);
     backend_->requestStats();
   }
-  if (!watch_ && !processes_.all().empty()) stylus_impulses_.push_back(processes_.stylusImpulses());
+  if (!watch_ && !processes_.all().empty()) pulls_.push_back(processes_.pulls());
 }
 
 bool TissueStepper::takeStats(TickFindings& findings, bool wait) {
   if (!backend_->takeStats(findings.stats, wait)) return false;
-  findings.stylus_impulses = {};
-  if (!stylus_impulses_.empty()) {
-    findings.stylus_impulses = stylus_impulses_.front();
-    addTo(findings.stats, findings.stylus_impulses);
-    stylus_impulses_.erase(stylus_impulses_.begin());
+  findings.pulls = {};
+  if (!pulls_.empty()) {
+    findings.pulls = pulls_.front();
+    addTo(findings.stats, findings.pulls);
+    pulls_.erase(pulls_.begin());
   }
   return true;
 }
@@ -391,7 +391,7 @@ bool TissueStepper::pollStats(layout::TickStats& stats, bool wait) {
     return false;
   }
   stats = findings.stats;
-  reported_impulses_ = findings.stylus_impulses;
+  reported_pulls_ = findings.pulls;
   return true;
 }
 

@@ -40,7 +40,7 @@ class TissueStepper : public Solver {
   int substeps() const final { return substeps_.calm; }
   uint64_t substepsDone() const final { return substeps_done_; }
   const TissueProcesses& processes() const final { return processes_.all(); }
-  const StylusImpulse& stylusImpulse(uint32_t stylus) const final { return reported_impulses_[stylus]; }
+  const StylusPull& pull(uint32_t stylus) const final { return reported_pulls_[stylus]; }
   void persist(Archive& archive) final;
   void goOnFrom(const HostState& state) final { writeState(state); }
   std::string backend() const final { return backend_->name(); }
@@ -99,13 +99,12 @@ class TissueStepper : public Solver {
   bool uses_stiffening_, recovers_by_pd_;
   std::optional<Environment> environment_;  ///< only where a scene has any
   ProcessList processes_;
-  CutState seen_cuts_;  ///< only where a process reads cuts
-  std::vector<StylusImpulses>
-      stylus_impulses_;                 ///< of ticks with measurements in transfer, without a stability monitor
+  CutState seen_cuts_;                  ///< only where a process reads cuts
+  std::vector<StylusPulls> pulls_;      ///< pulls of ticks with measurements in transfer, without a stability monitor
   std::optional<HostState> start_;      ///< start state; none: rest
   std::optional<RollbackGuard> watch_;  ///< only where a scene has a stability monitor
   std::vector<TickFindings> finished_;  ///< findings that arrived before they were requested, oldest first
-  StylusImpulses reported_impulses_;    ///< of the findings that were returned last
+  StylusPulls reported_pulls_;          ///< pulls of the findings that were returned last
   std::vector<layout::ToolMotion> motions_;
   uint64_t cut_revision_ = 0, substeps_done_ = 0;
   uint32_t springs_cut_ = 0;  ///< springs cut when dt_safe was last computed

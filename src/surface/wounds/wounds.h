@@ -14,7 +14,7 @@
 
 namespace viscera {
 
-/// Surface meshes of bodies on lattices after cuts. It never changes while it is shared.
+/// Surface meshes of bodies on lattices after cuts. It does not change while anyone uses it, so users share it.
 struct VisibleWounds {
   /// Triangles of one body, [3 * n] vertex indices as in JoinedSkins; vertices that cuts have added follow all others.
   struct OfBody {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "solver/processes/stylus_impulse.h"
+#include "solver/processes/stylus_pull.h"
 #include "solver/processes/suture/needle_shape.h"
 #include "solver/processes/tissue_points.h"
 #include "viscera/model/scene/suture_config.h"

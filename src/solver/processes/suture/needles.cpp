@@ -58,7 +58,7 @@ size_t Needles::holderOf(size_t suture) const {
 
 void Needles::beginTick(const ToolMotions& motions) {
   motions_ = motions;
-  stylus_impulses_ = {};
+  pulls_ = {};
   work_j_ = 0;
   for (uint32_t s = 0; s < styluses_.size(); ++s) {
     const bool takes = motions[s].present && motions[s].mode == ToolMode::kNeedle;
@@ -69,8 +69,7 @@ void Needles::beginTick(const ToolMotions& motions) {
     takes_[s] = takes;
   }
   for (const OnThread& one : needles_) {
-    if (one.held.stylus < stylus_impulses_.size() && one.needle.isInTissue())
-      stylus_impulses_[one.held.stylus].nodes = 1;
+    if (one.held.stylus < pulls_.size() && one.needle.isInTissue()) pulls_[one.held.stylus].nodes = 1;
   }
 }
 
@@ -103,9 +102,9 @@ void Needles::act(TissuePort& target, TissuePoints& tissue, double at, double dt
     work_j_ += one.needle.work_j();
     if (!led) continue;
     const Vector3d& tip = motions_[stylus].to.position_m;
-    add(one.needle.hold(), dt_s / tick_s_, stylus_impulses_[stylus].needle);
-    stylus_impulses_[stylus].impulse_ns += dt_s * one.needle.force_n();
-    stylus_impulses_[stylus].moment_nms += dt_s * (one.needle.torque_nm() - tip.cross(one.needle.force_n()));
+    add(one.needle.hold(), dt_s / tick_s_, pulls_[stylus].needle);
+    pulls_[stylus].impulse_ns += dt_s * one.needle.force_n();
+    pulls_[stylus].moment_nms += dt_s * (one.needle.torque_nm() - tip.cross(one.needle.force_n()));
   }
 }
 
@@ -120,9 +119,9 @@ void Needles::takeOver(uint32_t suture, const ChainHold& hold) {
     if (one.suture != suture) continue;
     one.needle.pull(hold.impulse_ns);
     if (one.held.stylus >= layout::kMaxStyluses) continue;
-    StylusImpulse& given = stylus_impulses_[one.held.stylus];
-    given.impulse_ns -= hold.impulse_ns;
-    given.moment_nms -= (hold.to_m - motions_[one.held.stylus].to.position_m).cross(hold.impulse_ns);
+    StylusPull& pull = pulls_[one.held.stylus];
+    pull.impulse_ns -= hold.impulse_ns;
+    pull.moment_nms -= (hold.to_m - motions_[one.held.stylus].to.position_m).cross(hold.impulse_ns);
   }
 }
 

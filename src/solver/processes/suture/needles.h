@@ -40,8 +40,8 @@ class Needles {
   void lay(uint32_t suture, double share, ChainHold& hold) const;
   /// Takes the impulse of the suture on the needle in a substep of the suture.
   void takeOver(uint32_t suture, const ChainHold& hold);
-  const StylusImpulses& stylusImpulses() const { return stylus_impulses_; }  ///< impulses in the tick so far
-  double work_j() const { return work_j_; }                                  ///< work on the tissue in it
+  const StylusPulls& pulls() const { return pulls_; }  ///< pulls in the tick so far
+  double work_j() const { return work_j_; }            ///< work on the tissue in it
 
   void reset();
   void persist(Archive& archive);       ///< state that roll-backs restore
@@ -68,7 +68,7 @@ class Needles {
   ToolMotions motions_;  ///< motions in the tick
   std::vector<OnThread> needles_;
   std::array<bool, layout::kMaxStyluses> takes_{};
-  StylusImpulses stylus_impulses_;
+  StylusPulls pulls_;
   double work_j_ = 0;
   std::vector<NeedlePassed> passed_;
 };

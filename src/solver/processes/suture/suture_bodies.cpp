@@ -208,15 +208,15 @@ bool SutureBodies::part(uint32_t at, size_t near) {
   return true;
 }
 
-void SutureBodies::addStylusImpulses(StylusImpulses& impulses) const {
-  for (size_t s = 0; s < impulses.size(); ++s) {
-    StylusImpulse& out = impulses[s];
-    const StylusImpulse& grip = grips_.stylusImpulses()[s];
-    out.impulse_ns += grip.impulse_ns;
-    out.moment_nms += grip.moment_nms;
-    out.nodes += grip.nodes;
+void SutureBodies::addPulls(StylusPulls& pulls) const {
+  for (size_t s = 0; s < pulls.size(); ++s) {
+    StylusPull& out = pulls[s];
+    const StylusPull& pull = grips_.pulls()[s];
+    out.impulse_ns += pull.impulse_ns;
+    out.moment_nms += pull.moment_nms;
+    out.nodes += pull.nodes;
     if (!needles_) continue;
-    const StylusImpulse& needle = needles_->stylusImpulses()[s];
+    const StylusPull& needle = needles_->pulls()[s];
     out.impulse_ns += needle.impulse_ns;
     out.moment_nms += needle.moment_nms;
     // Also before the tip is inside: haptics between ticks use only held needles.

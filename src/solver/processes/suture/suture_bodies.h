@@ -47,7 +47,7 @@ class SutureBodies : public TissueProcess {
   bool endTick(TissuePort& port, const ProcessTick& tick, const TissueProcesses& all) override;
   /// Advances by a tick without tissue.
   void step(const ToolMotions& motions, const ObstacleMotions& obstacles);
-  void addStylusImpulses(StylusImpulses& impulses) const override;
+  void addPulls(StylusPulls& pulls) const override;
   double work_j() const override { return work_j_; }
 
   void reset() override;

@@ -10,14 +10,14 @@ namespace viscera {
 
 void SutureGrips::beginTick(const ToolMotions& motions, const std::vector<const Chain*>& sutures) {
   motions_ = motions;
-  stylus_impulses_ = {};
+  pulls_ = {};
   for (size_t s = 0; s < styluses_.size(); ++s) {
     const StylusMotion& motion = motions[s];
     Grip& grip = grips_[s];
     const bool grabs = motion.present && motion.mode == ToolMode::kGrab;
     if (!grabs || motion.hold_begins) grip.holds = false;
     if (grabs && motion.hold_begins) takeHold(grip, motion.from, styluses_[s].grab.radius_m, sutures);
-    if (grip.holds) stylus_impulses_[s].nodes = 2;
+    if (grip.holds) pulls_[s].nodes = 2;
   }
 }
 
@@ -58,8 +58,8 @@ void SutureGrips::takeOver(uint32_t suture, const std::vector<ChainHold>& holds,
     for (double& stiffness_kg : grip.stiffness_kg) {
       const ChainHold& hold = holds[first++];
       stiffness_kg = hold.stiffness_kg;
-      stylus_impulses_[s].impulse_ns -= hold.impulse_ns;
-      stylus_impulses_[s].moment_nms -= (hold.to_m - motions_[s].to.position_m).cross(hold.impulse_ns);
+      pulls_[s].impulse_ns -= hold.impulse_ns;
+      pulls_[s].moment_nms -= (hold.to_m - motions_[s].to.position_m).cross(hold.impulse_ns);
     }
   }
 }

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "solver/processes/stylus_impulse.h"
+#include "solver/processes/stylus_pull.h"
 #include "solver/processes/suture/chain/chain.h"
 #include "viscera/model/scene/stylus_config.h"
 #include "viscera/tools/stylus.h"
@@ -25,8 +25,8 @@ class SutureGrips {
   void addHolds(uint32_t suture, double at, std::vector<ChainHold>& holds) const;
   /// Takes the result of a substep for these holds. @param first  index of the first one of addHolds()
   void takeOver(uint32_t suture, const std::vector<ChainHold>& holds, size_t first);
-  const StylusImpulses& stylusImpulses() const { return stylus_impulses_; }  ///< impulses in the tick so far
-  std::vector<uint32_t> nodesOf(uint32_t suture) const;                      ///< first node of each grip
+  const StylusPulls& pulls() const { return pulls_; }    ///< pulls in the tick so far
+  std::vector<uint32_t> nodesOf(uint32_t suture) const;  ///< first node of each grip
   /// Updates grips after a suture was cut at a node: what is behind is another suture.
   void parted(uint32_t suture, uint32_t node, uint32_t behind);
   /// Releases nodes that no longer exist. @param nodes  [sutures]
@@ -46,7 +46,7 @@ class SutureGrips {
   std::vector<StylusConfig> styluses_;
   ToolMotions motions_;  ///< motions in the tick
   std::array<Grip, layout::kMaxStyluses> grips_;
-  StylusImpulses stylus_impulses_;
+  StylusPulls pulls_;
 };
 
 }  // namespace viscera

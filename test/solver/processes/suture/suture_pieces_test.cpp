@@ -128,9 +128,9 @@ TEST(SutureBlades, AToolKeepsThePieceThatItHolds) {
   for (const Vector3d& position : sutures.chain(1).positions_m())
     nearest_m = std::min(nearest_m, (position - both[1].to.position_m).norm());
   EXPECT_LT(nearest_m, 2 * kSuturePiecesPosition_m + sutures.chain(1).link_m() / 2);
-  StylusImpulses stylus_impulses;
-  sutures.addStylusImpulses(stylus_impulses);
-  EXPECT_EQ(stylus_impulses[1].nodes, 2U);
+  StylusPulls pulls;
+  sutures.addPulls(pulls);
+  EXPECT_EQ(pulls[1].nodes, 2U);
 }
 
 /// Returns a loop about a post at the origin, its tails next to each other on the side of -y.

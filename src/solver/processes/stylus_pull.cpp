@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solver/processes/stylus_impulse.h"
+#include "solver/processes/stylus_pull.h"
 
 namespace viscera {
 
@@ -13,11 +13,11 @@ void addTo(layout::vec4& sum, const Vector3d& more) {
 
 }  // namespace
 
-void addTo(layout::TickStats& stats, const StylusImpulses& impulses) {
-  for (size_t s = 0; s < impulses.size(); ++s) {
-    addTo(stats.impulse[s], impulses[s].impulse_ns);
-    addTo(stats.angular[s], impulses[s].moment_nms);
-    stats.grabbed[s] += impulses[s].nodes;
+void addTo(layout::TickStats& stats, const StylusPulls& pulls) {
+  for (size_t s = 0; s < pulls.size(); ++s) {
+    addTo(stats.impulse[s], pulls[s].impulse_ns);
+    addTo(stats.angular[s], pulls[s].moment_nms);
+    stats.grabbed[s] += pulls[s].nodes;
   }
 }
 

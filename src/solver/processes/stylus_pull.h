@@ -19,14 +19,14 @@ struct NeedleHold {
 };
 
 /// Impulses that a stylus gave sutures and needles in a tick.
-struct StylusImpulse {
+struct StylusPull {
   Vector3d impulse_ns = Vector3d::Zero();
   Vector3d moment_nms = Vector3d::Zero();  ///< about its tip at the end of the tick
   uint32_t nodes = 0;                      ///< number of nodes that it holds
   NeedleHold needle;                       ///< state at its end; forces are means over the tick
 };
-using StylusImpulses = std::array<StylusImpulse, layout::kMaxStyluses>;
-/// Adds the impulses as if these nodes were nodes of the tissue.
-void addTo(layout::TickStats& stats, const StylusImpulses& impulses);
+using StylusPulls = std::array<StylusPull, layout::kMaxStyluses>;
+/// Adds the pulls as if these nodes were nodes of the tissue.
+void addTo(layout::TickStats& stats, const StylusPulls& pulls);
 
 }  // namespace viscera
