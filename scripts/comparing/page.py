@@ -144,6 +144,8 @@ def origins(results):
     """Returns which rows were measured where, as one paragraph."""
     groups = {}
     for name, found in results.items():
+        if name == "throughput":  # whose section says it
+            continue
         groups.setdefault("%(processor)s, %(threads)d threads, %(date)s, commit %(commit)s" % found["machine"], []).append(name)
     return ["; ".join("%s: %s" % (place, ", ".join(names)) for place, names in groups.items()) + "."]
 

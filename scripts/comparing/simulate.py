@@ -66,6 +66,21 @@ def cost(job):
                 "dt_s": session.diagnostics["dt_s"]}
 
 
+def vector(job):
+    """Steps sessions side by side, each from rest under its weight: their state hashes after job["ticks"], the length of a
+    tick, and how long a tick of all of them takes by the clock, over job["clock_s"] at least [s]."""
+    with viscera.VectorSession(viscera.Scene(job["scene"]), job["sessions"]) as sessions:
+        begun, ticks = time.monotonic(), job["ticks"]
+        sessions.step(n=ticks)
+        taken, hashes = time.monotonic() - begun, list(sessions.hashes)
+        while taken < job["clock_s"]:  # the pace is unknown at the start
+            ticks = max(ticks, int(ticks * job["clock_s"] / taken) + 1)
+            begun = time.monotonic()
+            sessions.step(n=ticks)
+            taken = time.monotonic() - begun
+        return {"hashes": hashes, "tick_s": sessions[0].tick_s, "clock_s": taken / ticks}
+
+
 def straight(begin, end, ticks):
     """Returns positions of styluses at each tick on the way to their end."""
     begin, end = np.array(begin, float), np.array(end, float)
@@ -132,7 +147,7 @@ def swing(job):
 def main():
     """Runs the job."""
     job = json.load(sys.stdin)
-    print(json.dumps({"skin": skin, "settle": settle, "cost": cost, "drive": drive, "swing": swing}[job["kind"]](job)))
+    print(json.dumps({"skin": skin, "settle": settle, "cost": cost, "drive": drive, "swing": swing, "vector": vector}[job["kind"]](job)))
 
 
 if __name__ == "__main__":

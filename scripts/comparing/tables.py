@@ -1,7 +1,7 @@
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Tables of the page about large strain and motion, each a function of a row's results that returns lines."""
-from comparing import bends, motions, shells, strains
+from comparing import bends, motions, shells, strains, throughput
 
 PERCENT, MM = 100, 1e3
 
@@ -107,4 +107,5 @@ def bend(found):
     return out
 
 
-TABLES = {"swings": ("Motion", swings), "block": ("Large strain", block), "press": (None, press), "snap": ("Thin walls at large strain", snap), "bend": (None, bend)}
+TABLES = {"swings": ("Motion", swings), "block": ("Large strain", block), "press": (None, press), "snap": ("Thin walls at large strain", snap), "bend": (None, bend),
+          "throughput": (throughput.TITLE, throughput.section)}

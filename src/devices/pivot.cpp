@@ -9,8 +9,8 @@ namespace viscera {
 
 Pivot solvePivot(const std::vector<Pose>& poses, const PivotLimits& limits) {
   if (poses.size() < kLeastPivotPoses)
-    throw RegistrationError("a pivot needs " + std::to_string(kLeastPivotPoses) + " poses at least, but has " +
-                            std::to_string(poses.size()));
+    throw RegistrationError("a pivot calibration needs " + std::to_string(kLeastPivotPoses) +
+                            " poses at least, and has " + std::to_string(poses.size()) + "; collect more");
   const auto count = static_cast<double>(poses.size());
   Eigen::Matrix3d mean_turn = Eigen::Matrix3d::Zero();
   Vector3d mean_m = Vector3d::Zero();

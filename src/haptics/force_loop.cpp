@@ -130,7 +130,7 @@ void ForceLoop::sent(const std::array<Vector3d, layout::kMaxStyluses>& device_fo
 ForceLoop::HapticStats ForceLoop::stats(size_t stylus) const {
   if (!between_ticks_) return {};
   const HapticServo& servo = servos_[stylus];
-  return {servo.passivity().energy_j(), servo.passivity().least_j(), servo.share(), updates_[stylus]};
+  return {servo.passivity().energy_j(), servo.passivity().least_j(), servo.stiffnessScale(), updates_[stylus]};
 }
 
 }  // namespace viscera

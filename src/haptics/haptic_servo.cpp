@@ -21,7 +21,7 @@ constexpr double kJudged_m_per_s = 0.005;
 /// Time constants for reducing stiffness while the loop feeds an oscillation, and for restoring it while the tip is
 /// free.
 constexpr double kSoftenTime_s = 0.02, kStiffenTime_s = 5;
-constexpr double kLeastShare = 0.1;
+constexpr double kLeastScale = 0.1;
 /// Energy owed to the user from which forces of fast motion are reduced, and at which they are by most [J].
 constexpr double kOwedFree_j = 5e-4, kOwedMost_j = 1e-3;
 /// Speed that pokes exceed. Slower motion keeps its forces, since a light device that is held oscillates otherwise
@@ -107,25 +107,26 @@ void HapticServo::judge() {
   approach(speed2_, velocity_.squaredNorm(), dt, kVelocityWindow_s);
   approach(acceleration2_, acceleration_.squaredNorm(), dt, kVelocityWindow_s);
   const bool free = !(last_.force_n.squaredNorm() > 0);
-  if (free) approach(share_, 1.0, dt, kStiffenTime_s);
-  const double most_share = 1 - (1 - kLeastShare) * owedShare();
-  if (share_ > most_share) approach(share_, most_share, dt, kSoftenTime_s);
+  if (free) approach(stiffness_scale_, 1.0, dt, kStiffenTime_s);
+  const double most = 1 - (1 - kLeastScale) * owedRatio();
+  if (stiffness_scale_ > most) approach(stiffness_scale_, most, dt, kSoftenTime_s);
   if (!(speed2_ > kJudged_m_per_s * kJudged_m_per_s)) return;
   const double omega2 = acceleration2_ / speed2_;
   const double k = device_stiffness_n_per_m();
   const double allowed = kAllowed_n_s_per_m + k / (omega2 * kVelocityWindow_s);
-  if (power_ < -allowed * speed2_) share_ = std::max(share_ - dt / kSoftenTime_s * share_, kLeastShare);
+  if (power_ < -allowed * speed2_)
+    stiffness_scale_ = std::max(stiffness_scale_ - dt / kSoftenTime_s * stiffness_scale_, kLeastScale);
 }
 
 /// Returns the model's force; only a share of it follows fast motion. When the force has changed direction, the
 /// component along its former direction is removed.
 Vector3d HapticServo::softened(const Vector3d& wanted_n) {
   const double k = device_stiffness_n_per_m();
-  if (share_ * k * late_s() > kBearable_n_s_per_m) share_ = kBearable_n_s_per_m / (k * late_s());
+  if (stiffness_scale_ * k * late_s() > kBearable_n_s_per_m) stiffness_scale_ = kBearable_n_s_per_m / (k * late_s());
   // A lagging force is negative damping: (1 - share) K / (omega^2 time) after one stage, and 16 / (omega time)^2 of
   // that after two stages of half the time each. Heavy devices oscillate slowly.
   const double omega2 = speed2_ > 0 ? acceleration2_ / speed2_ : 0;
-  const double bearable_s = omega2 > 0 ? (1 - share_) * k / (omega2 * kAllowed_n_s_per_m) : 0;
+  const double bearable_s = omega2 > 0 ? (1 - stiffness_scale_) * k / (omega2 * kAllowed_n_s_per_m) : 0;
   // A probe is pushed out by the lagging force, which is smaller with one stage.
   const bool leaves = model_.kind() == TickContact::Kind::kPushes || model_.kind() == TickContact::Kind::kFree;
   const double time_s = std::clamp(bearable_s, kCreepTime_s, leaves ? kLongestCreep_s : kLongestHeld_s);
@@ -142,7 +143,7 @@ Vector3d HapticServo::softened(const Vector3d& wanted_n) {
     const double along = each->dot(wanted_n) / (size * size);
     if (along < 0) *each -= along * wanted_n;
   }
-  const Vector3d out = slower_n_ + share_ * (wanted_n - slower_n_);
+  const Vector3d out = slower_n_ + stiffness_scale_ * (wanted_n - slower_n_);
   const double most = kMostOver * size, length = out.norm();
   return length > most ? Vector3d(most / length * out) : out;
 }
@@ -153,12 +154,12 @@ double HapticServo::device_stiffness_n_per_m() const {
 }
 
 /// Returns how far forces of fast motion are reduced until the user has given what is owed, 0..1.
-double HapticServo::owedShare() const {
+double HapticServo::owedRatio() const {
   return std::clamp((passivity_.owed_j() - kOwedFree_j) / (kOwedMost_j - kOwedFree_j), 0.0, 1.0);
 }
 
 /// Returns how far motion is that of a poke and not that of a hold, 0..1.
-double HapticServo::fastShare() const {
+double HapticServo::pokeRatio() const {
   const double v2 = velocity_.squaredNorm(), poke2 = kPoke_m_per_s * kPoke_m_per_s;
   return v2 * v2 / (v2 * v2 + poke2 * poke2);
 }
@@ -175,7 +176,7 @@ Reaction HapticServo::step(const Vector3d& tip_m, double pose_time_s, double now
   const double force2 = last_.force_n.squaredNorm();
   const double k = force2 > 0 ? last_.force_n.dot(last_.stiffness_n_per_m * last_.force_n) / force2 : 0;
   stored_j_ = k > 0 ? config_.force_scale / config_.motion_scale * 0.5 * force2 / k : 0;
-  const double owed = 1 - kOwedMost_j / std::max(passivity_.owed_j(), kOwedMost_j), gain = 1 - owed * fastShare();
+  const double owed = 1 - kOwedMost_j / std::max(passivity_.owed_j(), kOwedMost_j), gain = 1 - owed * pokeRatio();
   return {gain * softened(last_.force_n), last_.torque_nm, false};
 }
 
@@ -184,9 +185,9 @@ Vector3d HapticServo::damped(const Vector3d& limited_n, double now_s) {
   // A late damper excites a light mass: for mass m and delay t it may be m / 2t at most. The oscillation shows
   // m > K / omega^2.
   const double least_kg =
-      speed2_ > 0 && acceleration2_ > 0 ? share_ * device_stiffness_n_per_m() * speed2_ / acceleration2_ : 0;
+      speed2_ > 0 && acceleration2_ > 0 ? stiffness_scale_ * device_stiffness_n_per_m() * speed2_ / acceleration2_ : 0;
   const double sure = 0.5 * least_kg / late_s();
-  const double strength = std::max(share_, owedShare() * fastShare());
+  const double strength = std::max(stiffness_scale_, owedRatio() * pokeRatio());
   return passivity_.damped(velocity_, config_.force_scale * limited_n, stored_j_, pose_time_s_, now_s, strength, sure) /
          config_.force_scale;
 }

@@ -77,7 +77,7 @@ Pressed press(const Held& held) {
   }
   out.swing_m = 0.5 * (high - low);
   out.force_n = reported.z();
-  out.share = servo.share();
+  out.share = servo.stiffnessScale();
   out.energy_j = servo.passivity().energy_j();
   out.observed_j = servo.passivity().least_j();
   out.device_j = device.energy_j();
@@ -177,7 +177,7 @@ TEST(HapticServo, SoftenedForcesKeepTheirDirection) {
     servo.sent({0, 0, std::cos(6.283 * 10 * now_s)}, now_s);
     z_m = next_m;
   }
-  ASSERT_LT(servo.share(), 0.5);
+  ASSERT_LT(servo.stiffnessScale(), 0.5);
   contact.from_m = contact.to_m = {0, 0, z_m};
   contact.reaction.force_n = {0, 0, 1};
   for (int i = 0; i < 1000; ++i, now_s += 1e-3) servo.step({0, 0, z_m}, now_s, now_s);

@@ -46,7 +46,7 @@ class VISCERA_PUBLIC HapticServo {
 
   const ContactModel& model() const { return model_; }
   const PassivityControl& passivity() const { return passivity_; }
-  double share() const { return share_; }    ///< share of the model's stiffness that acts on fast motion, 0..1
+  double stiffnessScale() const { return stiffness_scale_; }  ///< of fast motion: stiffness felt over the model's, 0..1
   double lead_s() const { return lead_s_; }  ///< time from a pose to its force for which the model extrapolates [s]
 
  private:
@@ -54,8 +54,8 @@ class VISCERA_PUBLIC HapticServo {
   void judge();
   double device_stiffness_n_per_m() const;
   double late_s() const;
-  double owedShare() const;
-  double fastShare() const;
+  double owedRatio() const;
+  double pokeRatio() const;
   Vector3d softened(const Vector3d& wanted_n);
 
   HapticServoConfig config_;
@@ -67,7 +67,7 @@ class VISCERA_PUBLIC HapticServo {
   // In the coordinates of the device.
   Vector3d at_m_ = Vector3d::Zero(), moved_m_ = Vector3d::Zero(), acting_n_ = Vector3d::Zero();
   Vector3d velocity_ = Vector3d::Zero(), acceleration_ = Vector3d::Zero(), mean_n_ = Vector3d::Zero();
-  double share_ = 1, power_ = 0, speed2_ = 0, acceleration2_ = 0;
+  double stiffness_scale_ = 1, power_ = 0, speed2_ = 0, acceleration2_ = 0;
   // In the coordinates of the tip.
   Vector3d slow_n_ = Vector3d::Zero(), slower_n_ = Vector3d::Zero();
   ContactModel::Force last_;

@@ -28,7 +28,8 @@ class ByteStream {
   /// Reads bytes. @throws SceneError  the file ends early, or is corrupt
   void read(void* to, size_t bytes);
   void skip(uint64_t bytes);
-  /// Reads compressed bytes to their end, where their checksum is. @throws SceneError  the checksum does not match
+  /// Reads the compressed bytes to their end and verifies their checksum. @throws SceneError  the checksum does not
+  /// match
   void finish();
 
  private:

@@ -15,6 +15,7 @@ struct TissuePreset {
   /// E at small strain [Pa]; low to high is the range between tests and people.
   double young_modulus_pa, low_pa, high_pa;
   double poisson_ratio, density_kg_per_m3;
+  const char* strain;             ///< strain at which E was measured; empty: not known
   const char *test, *source;      ///< measurement of E
   const char* labels;             ///< other names in label maps, separated by commas
   double toughness_j_per_m2 = 0;  ///< work per area of cut [J/m2]; 0: unknown

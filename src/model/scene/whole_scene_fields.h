@@ -45,7 +45,7 @@ void visitFields(V& v, Scene& c) {
   v.group("environment", c.environment, "gravity, frames and wind");
   v.group("solver", c.solver, "time stepping");
   v.list("sutures", c.sutures, 8,
-         "sutures, which do not stretch: on obstacles, in the grip of styluses and through tissue");
+         "sutures, of constant length; they pass through tissue and touch obstacles, and styluses grip them");
   v.list("attachments", c.attachments, kMostAttachments,
          "attachments: connective tissue between two bodies, in fibres that tear and can be cut (docs/physics.md 17)");
   v.list("marks", c.marks, kMostMarks,

@@ -245,7 +245,7 @@ void SimulatorDiagnostics::stylus(size_t index, Status& status) {
     status.add("haptic_rate_hz", static_cast<double>(stats.updates - before) / kPeriod_s);
     status.add("energy_j", stats.energy_j);
     status.add("least_energy_j", stats.least_j);
-    status.add("stiffness_share", stats.stiffness_scale);
+    status.add("stiffness_scale", stats.stiffness_scale);
   }
   if (!now_) return;
   const char* const switches[] = {"idle", "button1", "button2"};
