@@ -173,8 +173,8 @@ class HiddenView : public GpuTest {
  protected:
   /// Returns the position of tissue that leaves every image and comes back on another path.
   static Vector3f positionAt(int tick) {
-    const float offset = 0.04F * static_cast<float>(tick % 20 < 10 ? tick % 20 : 20 - tick % 20);
-    return tick < 20 ? Vector3f(offset, 0, 0) : Vector3f(0, 0, -offset);
+    const float offset = 0.08F * static_cast<float>(tick % 10 < 5 ? tick % 10 : 10 - tick % 10);
+    return tick < 10 ? Vector3f(offset, 0, 0) : Vector3f(0, 0, -offset);
   }
   Shown shown(bool draw_hidden, Mapping mapping) {
     const Scene scene = hiddenScene(draw_hidden, mapping, false);
@@ -182,7 +182,7 @@ class HiddenView : public GpuTest {
     PlacedTissue tissue(model);
     Shown out;
     ThreadedView view(model, scene, context_);
-    for (int tick = 1; tick <= 40; ++tick) {
+    for (int tick = 1; tick <= 22; ++tick) {
       tissue.put(positionAt(tick), tick);
       RenderRequest request;
       request.tick = static_cast<uint64_t>(tick);
