@@ -101,7 +101,7 @@ StylusSamples drag(int tick) {
 }
 
 constexpr int kTouchTicks = 6;  ///< of press(): the probe is then 1 mm deep
-constexpr int kRestTicks = 3;   ///< after the other stroke: the tissue swings
+constexpr int kSwingTicks = 3;   ///< after the other stroke: the tissue swings
 
 using Setting = std::tuple<Backend, Mapping>;
 class Hidden : public GpuTest, public ::testing::WithParamInterface<Setting> {
@@ -112,7 +112,7 @@ class Hidden : public GpuTest, public ::testing::WithParamInterface<Setting> {
     scene.solver.backend = std::get<0>(GetParam());
     Session session(scene, context_);
     Shown out;
-    for (int tick = 1; tick <= kTouchTicks + kCutTicks + kRestTicks; ++tick) {
+    for (int tick = 1; tick <= kTouchTicks + kCutTicks + kSwingTicks; ++tick) {
       const int stroke = tick - kTouchTicks;
       const StylusSamples samples = stroke <= 0 ? press(tick) : can_cut ? cut(stroke) : drag(stroke);
       add(session.step(samples, outputsOf(tick)), out);
