@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gpu/reflection.h"
 
+#include <algorithm>
 #include <array>
+#include <string_view>
 #include <utility>
 
 #include "gpu/gl.h"
-#include "math/number_text.h"
+#include "gpu/source_lines.h"
 #include "viscera/math/error.h"
 
 namespace viscera::gpu {
@@ -91,17 +93,21 @@ std::vector<ActiveUniform> activeUniforms(uint32_t program) {
 
 std::vector<std::string> declaredUniforms(const std::string& source) {
   std::vector<std::string> out;
-  TextIn lines(source);
-  std::string line;
-  while (std::getline(lines, line)) {
-    const std::string code = line.substr(0, line.find("//"));
+  SourceLines lines(source);
+  for (std::string_view line; lines.next(line);) {
+    const std::string_view code = line.substr(0, line.find("//"));
     const size_t word = code.find("uniform ");
     const size_t end = code.rfind(';');
-    if (word == std::string::npos || end == std::string::npos || code.find('{') != std::string::npos) continue;
-    TextIn words(code.substr(word, end - word));
-    std::string qualifier, type, name;
-    words >> qualifier >> type;
-    while (std::getline(words >> std::ws, name, ',')) out.push_back(withoutIndex(name.substr(0, name.find(' '))));
+    if (word == std::string_view::npos || end == std::string_view::npos || code.find('{') != std::string_view::npos)
+      continue;
+    std::string_view names = code.substr(word, end - word);
+    takeWord(names);  // "uniform"
+    takeWord(names);  // its type
+    while (!names.empty()) {
+      std::string_view one = names.substr(0, names.find(','));
+      names.remove_prefix(std::min(one.size() + 1, names.size()));
+      out.push_back(withoutIndex(std::string(takeWord(one))));
+    }
   }
   return out;
 }

@@ -3,10 +3,9 @@
 #include "gpu/shader_text.h"
 
 #include <algorithm>
-#include <sstream>
 
 #include "gpu/embedded_shaders.h"
-#include "math/number_text.h"
+#include "gpu/source_lines.h"
 #include "viscera/math/error.h"
 
 namespace viscera::gpu {
@@ -29,43 +28,47 @@ int fileNumber(ShaderFiles& files, const std::string& name) {
 }
 
 /// Returns the file name of an #include line, without its folder, which only C++ needs.
-std::string includedName(const std::string& line) {
+std::string includedName(std::string_view line) {
   if (line.rfind("#include", 0) != 0) return "";
   const size_t open = line.find('"');
   const size_t close = line.rfind('"');
-  if (open == std::string::npos || close == open) return "";
-  const std::string path = line.substr(open + 1, close - open - 1);
-  return path.substr(path.rfind('/') + 1);
+  if (open == std::string_view::npos || close == open) return "";
+  const std::string_view path = line.substr(open + 1, close - open - 1);
+  return std::string(path.substr(path.rfind('/') + 1));
 }
 
-void expand(const std::string& name, const std::string& from, ShaderFiles& files, std::ostringstream& out) {
+/// Appends `#line`, from which the compiler counts on. @param file  its number
+void appendLineNumber(int line, int file, std::string& out) {
+  out += "#line " + std::to_string(line) + ' ' + std::to_string(file) + '\n';
+}
+
+void expand(const std::string& name, const std::string& from, ShaderFiles& files, std::string& out) {
   const EmbeddedShader* shader = find(name);
   if (!shader) throw GpuError("no shader '" + name + "'" + (from.empty() ? "" : ", included from " + from));
   const int number = fileNumber(files, name);
-  out << "#line 1 " << number << '\n';
-  TextIn lines(shader->text);
-  std::string line;
-  for (int line_number = 1; std::getline(lines, line); ++line_number) {
+  appendLineNumber(1, number, out);
+  SourceLines lines(shader->text);
+  std::string_view line;
+  for (int line_number = 1; lines.next(line); ++line_number) {
     const std::string included = includedName(line);
     if (included.empty()) {
-      out << line << '\n';
+      out.append(line) += '\n';
       continue;
     }
     if (std::find(files.begin(), files.end(), included) == files.end()) {  // every file at most once
       expand(included, name + ":" + std::to_string(line_number), files, out);
     }
-    out << "#line " << line_number + 1 << ' ' << number << '\n';
+    appendLineNumber(line_number + 1, number, out);
   }
 }
 
 }  // namespace
 
 std::string expandedShader(const std::string& name, const std::vector<std::string>& defines, ShaderFiles& files) {
-  TextOut out;
-  out << "#version 450 core\n";
-  for (const std::string& define : defines) out << "#define " << define << '\n';
+  std::string out = "#version 450 core\n";
+  for (const std::string& define : defines) out += "#define " + define + '\n';
   expand(name, "", files, out);
-  return out.str();
+  return out;
 }
 
 std::string filesLegend(const ShaderFiles& files) {

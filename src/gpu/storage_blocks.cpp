@@ -3,25 +3,27 @@
 #include "gpu/storage_blocks.h"
 
 #include <algorithm>
-#include <regex>
+#include <functional>
 #include <set>
+#include <string_view>
 #include <vector>
 
-#include "math/number_text.h"
+#include "gpu/source_lines.h"
 
 namespace viscera::gpu {
 
 namespace {
 
-using Names = std::set<std::string>;
+using Names = std::set<std::string_view, std::less<>>;
 
 /// Returns whether a condition of `#if` or `#elif` holds: defined(A) || defined(B) ..., or with && throughout.
-bool holds(const std::string& condition, const Names& defined) {
-  static const std::regex name_pattern(R"(defined\((\w+)\))");
-  const bool all = condition.find("||") == std::string::npos;
+bool holds(std::string_view condition, const Names& defined) {
+  constexpr std::string_view kDefined = "defined(";
+  const bool all = condition.find("||") == std::string_view::npos;
   bool out = all;
-  for (std::sregex_iterator it(condition.begin(), condition.end(), name_pattern), end; it != end; ++it) {
-    const bool is = defined.count((*it)[1]) > 0;
+  for (size_t at = condition.find(kDefined); at != std::string_view::npos; at = condition.find(kDefined, at)) {
+    at += kDefined.size();
+    const bool is = defined.count(condition.substr(at, condition.find(')', at) - at)) > 0;
     out = all ? out && is : out || is;
   }
   return out;
@@ -39,11 +41,10 @@ size_t declaredStorageBlocks(const std::string& source) {
   Names defined;
   std::vector<Choice> open;
   size_t count = 0;
-  TextIn lines(source);
-  for (std::string line; std::getline(lines, line);) {
-    TextIn words(line);
-    std::string directive, name;
-    words >> directive >> name;
+  SourceLines lines(source);
+  for (std::string_view line; lines.next(line);) {
+    std::string_view rest = line;
+    const std::string_view directive = takeWord(rest), name = takeWord(rest);
     if (directive == "#ifdef" || directive == "#ifndef" || directive == "#if") {
       const bool is = directive == "#if" ? holds(line, defined) : (defined.count(name) > 0) == (directive == "#ifdef");
       open.push_back({is, is});
@@ -55,7 +56,7 @@ size_t declaredStorageBlocks(const std::string& source) {
       choice.chosen = choice.chosen || choice.taken;
     } else if (std::all_of(open.begin(), open.end(), [](const Choice& choice) { return choice.taken; })) {
       if (directive == "#define") defined.insert(name.substr(0, name.find('(')));
-      if (line.rfind("layout(std430", 0) == 0 && line.find(" buffer ") != std::string::npos) ++count;
+      if (line.rfind("layout(std430", 0) == 0 && line.find(" buffer ") != std::string_view::npos) ++count;
     }
   }
   return count;

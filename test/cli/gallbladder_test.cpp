@@ -21,7 +21,7 @@ nlohmann::json runGallbladder(std::vector<std::string> options) {
 }
 
 TEST(Gallbladder, SceneRunsWithoutRollBacksToOneHash) {
-  const auto first = runGallbladder({"--seconds", "2"}), second = runGallbladder({"--seconds", "2"});
+  const auto first = runGallbladder({"--seconds", "0.5"}), second = runGallbladder({"--seconds", "0.5"});
   EXPECT_EQ(first["roll_backs"], 0);
   EXPECT_EQ(first["nonfinite"], 0);
   EXPECT_EQ(first["state_hash"], second["state_hash"]);
@@ -29,15 +29,15 @@ TEST(Gallbladder, SceneRunsWithoutRollBacksToOneHash) {
 
 TEST(Gallbladder, EveryVariantRuns) {
   std::set<std::string> hashes;
-  for (const char* seed : {"0", "1", "2", "3", "4", "5", "42", "99"}) {
+  for (const char* seed : {"0", "1", "2", "3", "4", "42"}) {  // the anatomies by name, and a drawn one
     SCOPED_TRACE(seed);
-    const auto metrics = runGallbladder({"--seconds", "0.25", "--set", "bodies[0].spacing_m=0.004", "--set",
+    const auto metrics = runGallbladder({"--seconds", "0.1", "--set", "bodies[0].spacing_m=0.004", "--set",
                                          std::string("bodies[0].phantom_seed=") + seed});
     EXPECT_EQ(metrics["roll_backs"], 0);
     EXPECT_EQ(metrics["nonfinite"], 0);
     hashes.insert(metrics["state_hash"].get<std::string>());
   }
-  EXPECT_EQ(hashes.size(), 8U) << "variants differ";
+  EXPECT_EQ(hashes.size(), 6U) << "variants differ";
 }
 
 TEST(Gallbladder, SeedOutOfRangeAndUnknownAnatomyAreErrors) {

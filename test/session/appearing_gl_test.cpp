@@ -12,7 +12,7 @@ using namespace test;
 
 constexpr double kForceN = 0.1;  ///< well below the force of millimetres of tissue of 20 kPa, well above rounding
 constexpr int kGapTicks = 60;    ///< tissue comes back meanwhile
-constexpr int kHeldTicks = 20;
+constexpr int kHeldTicks = 8;
 
 class Appearing : public OnSceneBackend {
  protected:
@@ -73,8 +73,7 @@ TEST_P(AppearingAbove, InTheAirWithinACellOfTheSkinPushesAtOnce) {
   body.fixed[0].point_m.z() = -0.5 * body.box_size_m.z();
   Session session(low, context_);
   const double skin_m = 0.5 * body.box_size_m.z(), begin_m = skin_m + low.styluses[0].probe.radius_m + 0.0005;
-  for (int t = 0; t < kPressTicks; ++t)
-    EXPECT_FALSE(session.step(leftAt({0, 0, begin_m - 0.0005 * t}), {}).inside[0]) << t;
+  for (int t = 0; t < 6; ++t) EXPECT_FALSE(session.step(leftAt({0, 0, begin_m - 0.0007 * t}), {}).inside[0]) << t;
   EXPECT_GT(session.drain().reactions[0].force_n.z(), kForceN);
 }
 

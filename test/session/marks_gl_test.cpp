@@ -246,16 +246,17 @@ TEST_P(Marks, OfAUserComeAndGoWithoutOthers) {
 
 TEST_P(Marks, OfEveryKindAreSeenWithTheirPatterns) {
   std::vector<size_t> counts;
+  Session session(scene({}), context_);
   for (const MarkKind kind : {MarkKind::kLine, MarkKind::kCircle, MarkKind::kRing, MarkKind::kTarget}) {
     for (const MarkPattern pattern :
          {MarkPattern::kSolid, MarkPattern::kDashed, MarkPattern::kDouble, MarkPattern::kCrossed, MarkPattern::kThin}) {
-      Scene one = scene({besideCut()});
-      one.marks[0].kind = kind;
-      one.marks[0].pattern = pattern;
-      one.marks[0].center_m = Vector3d(0, 0, kind == MarkKind::kRing ? 0 : kHalfM);
-      if (kind == MarkKind::kRing) one.marks[0].normal = Vector3d::UnitY();
-      one.marks[0].radius_m = kind == MarkKind::kRing ? 2 * kHalfM : 0.008;
-      Session session(one, context_);
+      MarkConfig one = lineMark(besideCut());
+      one.kind = kind;
+      one.pattern = pattern;
+      one.center_m = Vector3d(0, 0, kind == MarkKind::kRing ? 0 : kHalfM);
+      if (kind == MarkKind::kRing) one.normal = Vector3d::UnitY();
+      one.radius_m = kind == MarkKind::kRing ? 2 * kHalfM : 0.008;
+      session.showMarks({one});
       const ImageFrame image = picture(session);
       size_t green = 0;
       for (size_t i = 0; 3 * i < image.rgb.size(); ++i) green += isGreen(image, i);

@@ -17,7 +17,8 @@ namespace {
 
 using namespace test;
 
-constexpr int kAfterTicks = 12;  ///< after the reset; the first ones show any remaining state
+constexpr int kAfterTicks =
+    7;  ///< after the reset: the first ones show any remaining state, and the probe touches by the fourth
 
 /// What is done to a session, and what must have happened by then for the test to be meaningful.
 struct Disturbance {

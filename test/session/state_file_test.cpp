@@ -45,6 +45,16 @@ void expectRefused(const TemporaryFolder& folder, const std::string& bytes, cons
   }
 }
 
+/// As expectRefused(), from memory: the same function reads both (IsInMemoryWhatItIsOnTheDisk).
+void expectBytesRefused(const std::string& bytes, const std::string& what) {
+  try {
+    readStateBytes(bytes, "memory");
+    ADD_FAILURE() << what << " was taken";
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()).rfind("memory: ", 0), 0u) << error.what();
+  }
+}
+
 TEST(StateFile, ComesBackAsItWas) {
   const TemporaryFolder folder;
   const auto sections = someSections(70000, 'a');
@@ -67,24 +77,16 @@ TEST(StateFile, IsInMemoryWhatItIsOnTheDisk) {
   const auto read = readStateBytes(bytes, "memory");
   ASSERT_EQ(read.size(), sections.size());
   for (size_t s = 0; s < read.size(); ++s) EXPECT_EQ(read[s].bytes, sections[s].bytes);
-  for (const std::string& spoilt : {std::string(), bytes.substr(0, bytes.size() - 1), bytes + "x"}) {
-    try {
-      readStateBytes(spoilt, "memory");
-      ADD_FAILURE() << spoilt.size() << " bytes were taken";
-    } catch (const Error& error) {
-      EXPECT_EQ(std::string(error.what()).rfind("memory: ", 0), 0u) << error.what();
-    }
-  }
+  for (const std::string& spoilt : {std::string(), bytes.substr(0, bytes.size() - 1), bytes + "x"})
+    expectBytesRefused(spoilt, std::to_string(spoilt.size()) + " bytes");
 }
 
 TEST(StateFile, EveryTurnedBitIsRefused) {
-  const TemporaryFolder folder;
-  writeStateFile(folder.file("state"), someSections(60, 'b'));
-  const std::string whole = textOf(folder.file("state"));
+  const std::string whole = stateBytes(someSections(60, 'b'));
   for (size_t bit = 0; bit < 8 * whole.size(); ++bit) {
     std::string spoilt = whole;
     spoilt[bit / 8] = static_cast<char>(spoilt[bit / 8] ^ 1 << bit % 8);
-    expectRefused(folder, spoilt, "bit " + std::to_string(bit));
+    expectBytesRefused(spoilt, "bit " + std::to_string(bit));
   }
 }
 
@@ -99,14 +101,12 @@ TEST(StateFile, EveryCutAndEveryMoreIsRefused) {
 }
 
 TEST(StateFile, WhateverBytesThereAreMemoryStaysBounded) {
-  const TemporaryFolder folder;
-  writeStateFile(folder.file("state"), someSections(3000, 'c'));
-  const std::string whole = textOf(folder.file("state"));
+  const std::string whole = stateBytes(someSections(3000, 'c'));
   std::mt19937 random(7);
   for (int round = 0; round < 1000; ++round) {
     std::string spoilt = whole;
     for (size_t k = 1 + random() % 30; k > 0; --k) spoilt[random() % 250] = static_cast<char>(random());
-    if (spoilt != whole) expectRefused(folder, spoilt, "round " + std::to_string(round));
+    if (spoilt != whole) expectBytesRefused(spoilt, "round " + std::to_string(round));
   }
 }
 

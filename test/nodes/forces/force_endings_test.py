@@ -37,6 +37,7 @@ class ForceEndingsTest(ForceCase):
     def test_interrupt(self):
         self.signal_ends(signal.SIGINT, 0)
 
+    @LONG
     def test_termination(self):
         self.signal_ends(signal.SIGTERM, 0)
 

@@ -45,7 +45,7 @@ class StylusRecordTest(unittest.TestCase):
 
     def replayed(self, path):
         sets = [part for key in rospy.get_param("~overrides").split(";") for part in ("--set", key)]
-        done = self.command("run", "heart", "--strokes", path, "--no-view", *sets)
+        done = self.command("run", rospy.get_param("~scene"), "--strokes", path, "--no-view", *sets)
         self.assertEqual(done.returncode, 0, done.stderr)
         return json.loads(done.stdout.splitlines()[-1])
 
@@ -106,7 +106,7 @@ class StylusRecordTest(unittest.TestCase):
         # a file without the effect of a pause is a different session: the check above can fail
         with open(self.file) as file:
             text = file.read()
-        self.assertIn('scene: "heart"', text)
+        self.assertIn('scene: "%s"' % rospy.get_param("~scene"), text)
         self.assertIn(rospy.get_param("~overrides") + '"', text)
         begun = text.index("input_reset:")
         other = os.path.join(self.folder.name, "other.yaml")
@@ -128,7 +128,7 @@ class StylusRecordTest(unittest.TestCase):
         self.assertEqual(recorder.process.wait(LIMIT_S), 0)
         tick_hz = self.watch_samples().tick_hz
         self.assertAlmostEqual(self.replayed(self.file)["simulated_s"], 0.5, delta=2 / tick_hz)
-        rate = self.command("run", "heart", "--strokes", self.file, "--no-view", "--set", "solver.tick_hz=50")
+        rate = self.command("run", rospy.get_param("~scene"), "--strokes", self.file, "--no-view", "--set", "solver.tick_hz=50")
         self.assertNotEqual(rate.returncode, 0)
         self.assertIn("'tick_hz' is %g Hz" % tick_hz, rate.stderr)
 

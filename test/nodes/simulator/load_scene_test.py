@@ -28,7 +28,7 @@ LONGEST_GAP_S = 0.6
 TOO_SLOW = 0.2  # real-time factor for which a lattice is created: below the one that causes a warning
 HERE = os.path.dirname(os.path.abspath(__file__))
 OTHER = os.path.join(os.path.dirname(HERE), "views", "cameras.yaml")
-HEART = ["bodies[0].spacing_m=0.008", "environment.gravity_m_per_s2=[0,0,0]"]
+WALL = os.path.join(os.path.dirname(HERE), "support", "front_wall.yaml")  # as in the launch file
 
 
 class LoadSceneTest(unittest.TestCase):
@@ -56,7 +56,7 @@ class LoadSceneTest(unittest.TestCase):
                               ({"scene": "heart", "mesh": os.path.join(HERE, "nowhere.obj")}, "no file"),
                               ({"scene": "heart", "mesh": OTHER}, "cameras.yaml"),
                               ({"scene": "heart", "mesh_unit_m": 0.001}, "is only used with"),
-                              ({"scene": "heart", "overrides": ["bodies[0].fixed=[{shape: sphere, radius_m: 1}]"]}, "")):
+                              ({"scene": WALL, "overrides": ["bodies[0].fixed=[{shape: sphere, radius_m: 1}]"]}, "")):
             answer = self.load(**request)
             self.assertFalse(answer.success, str(request))
             self.assertTrue(answer.message, str(request))
@@ -112,7 +112,7 @@ class LoadSceneTest(unittest.TestCase):
                            m.text for m in it.markers if m.ns == "preparing" and m.action == Marker.ADD), queue_size=100)]
         wait_until(lambda: ticks, 10, "ticks")
         del lines[:]
-        answer = self.load(scene="heart", overrides=HEART)
+        answer = self.load(scene=WALL)
         self.assertTrue(answer.success, answer.message)
         wait_until(lambda: ticks[-1][1] > 20 and any(after[1] < before[1] for before, after in zip(ticks, ticks[1:])), 10,
                    "ticks of the new scene")
@@ -134,7 +134,7 @@ class LoadSceneTest(unittest.TestCase):
         self.assertIn("%d nodes have no contacts" % self.watch.value("simulation", "nodes_crowded"), status.message)
 
     def test_4_and_back(self):
-        answer = self.load(scene="heart", overrides=HEART + ["styluses[0].max_force_n=10"])
+        answer = self.load(scene=WALL, overrides=["styluses[0].max_force_n=10"])
         self.assertTrue(answer.success, answer.message)
         self.assertIn("stylus left: max_force_n is 4, as set by the ~overrides of the launch file, not 10", answer.message)
         wait_until(lambda: "/left/body/servo_cf" in self.topics() and "/scope/image_raw" not in self.topics(), 10,

@@ -32,10 +32,11 @@ LIVE_S = float(os.environ.get("VISCERA_LIVE_S", 0))
 REPLAYS = 3 if LIVE_S else 1
 OPEN_RAD, CLOSED_RAD = 0.6, 0.02
 # As in the launch file: jaws are no finer than the lattice.
-HEART = ["bodies[0].spacing_m=0.008", "solver.backend=cpu", "styluses[0].grasper.radius_m=0.012", "styluses[0].grasper.jaw_length_m=0.03"]
+OVERRIDES = ["solver.backend=cpu", "styluses[0].grasper.radius_m=0.012", "styluses[0].grasper.jaw_length_m=0.03"]
 LEAST_PULL_N = 0.1                 # force of the wall at 25 mm; a probe next to it has none
 HERE = os.path.dirname(os.path.abspath(__file__))
 OTHER = os.path.join(os.path.dirname(HERE), "views", "cameras.yaml")
+WALL = os.path.join(os.path.dirname(HERE), "support", "front_wall.yaml")
 RECORDINGS = os.path.join(os.environ["ROS_HOME"], "recordings")
 
 
@@ -135,7 +136,7 @@ class RecordingTest(unittest.TestCase):
         self.act()
         self.done(self.load(scene=OTHER, overrides=["solver.backend=cpu"]))
         time.sleep(0.3)
-        self.done(self.load(scene="heart", overrides=HEART))
+        self.done(self.load(scene=WALL, overrides=OVERRIDES))
         self.act()
         self.done(self.call["pause"]())
         live = self.step(ticks=0)
@@ -163,7 +164,7 @@ class RecordingTest(unittest.TestCase):
             if rounds % 4 == 1:
                 self.done(self.call["reset"]())
             if rounds % 4 == 3:
-                self.done(self.load(scene="heart", overrides=HEART))
+                self.done(self.load(scene=WALL, overrides=OVERRIDES))
                 self.jaws()
             self.act_with_jaws()
             wait_until(lambda: self.watch.value("simulation", "springs_cut"), LIMIT_S, "springs that scissors have cut")

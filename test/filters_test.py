@@ -1,0 +1,36 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the viscera authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every pattern of TIMING and LONG in test/CMakeLists.txt names a test: filters_test.py PROGRAM FILTER [PROGRAM FILTER]...
+
+A test that is renamed would otherwise run where its pattern was to keep it away."""
+import fnmatch
+import subprocess
+import sys
+
+
+def names_of(program):
+    """Returns the names of all tests of a program, as suite.test."""
+    listed = subprocess.run([program, "--gtest_list_tests"], check=True, capture_output=True, text=True).stdout
+    suite, names = "", []
+    for line in listed.splitlines():
+        word = line.split("#")[0].strip()
+        if line.startswith(" "):
+            names.append(suite + word)
+        elif word.endswith("."):
+            suite = word
+    return names
+
+
+def main(arguments):
+    unmatched = []
+    for program, patterns in zip(arguments[::2], arguments[1::2]):
+        names = names_of(program)
+        unmatched += [(program, pattern) for pattern in patterns.split(":") if not fnmatch.filter(names, pattern)]
+    for program, pattern in unmatched:
+        print("%s has no test %s" % (program, pattern))
+    return 1 if unmatched or not arguments else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
