@@ -111,6 +111,7 @@ Frame Session::step(const StylusSamples& samples, const FrameRequest& outputs) {
   });                                                                    // VR05 2.7: probe, grab, cut
   solver_->step(tools_.ofHeld(request_.motions), obstacles_.motions());  // VR05 2.4: n substeps
   updateProcesses();
+  placeEndoscopes(scene_.cameras, scene_.styluses, request_.motions, request_.cameras);
   request_.tick = ++tick_;
   request_.outputs = outputs;
   updateArrows();
