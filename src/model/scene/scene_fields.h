@@ -187,7 +187,8 @@ void visitFields(V& v, CameraConfig& c) {
          "A name that ends in `_optical` or `_optical_frame` means the optical frame itself (z forward, x right)");
   v.text("stylus", c.stylus,
          "stylus that is an endoscope with this camera in it: the lens is at its tip, and `up` stays up in the image. "
-         "Until the stylus has a pose, the camera is at `position_m`. Not with `frame` (docs/user_guide.md#cameras)");
+         "Until the stylus has a pose, the camera is at `position_m`. Not with `frame` "
+         "(docs/user_guide.md#pictures-and-cameras)");
   v.number(
       "lens_angle_deg", c.lens_angle_deg, {0, 90}, "deg",
       "angle between the shaft of the endoscope and its line of sight, towards -y of the stylus; laparoscopes have "
