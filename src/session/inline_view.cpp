@@ -71,7 +71,7 @@ InlineView::InlineView(const Model& model, const Scene& scene)
       strain_range_(scene.cameras.empty() ? CameraConfig().strain_range : scene.cameras.front().strain_range),
       reads_late_(gpu::isSoftware()) {
   if (Blanching::isSeenIn(model)) pale_skin_ = std::make_unique<Blanching>(model);
-  if (hasSuturesOrClips(scene)) renderer_.addTubes(stylesOf(scene));
+  if (hasSuturesOrClips(scene) || !scene.attachments.empty()) renderer_.addTubes(stylesOf(scene));
   const std::vector<CameraConfig>& cameras = scene.cameras;
   for (size_t c = 0; c < cameras.size(); ++c) addEye(c, cameras[c], PictureKind::kColor);
   for (size_t c = 0; c < cameras.size(); ++c) {

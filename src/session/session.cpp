@@ -284,7 +284,7 @@ void Session::collect(Frame& frame, bool wait) {
   frame.sutures.clear();
   const VisibleTubes& shown = request_.processes.sutures;
   std::copy_if(shown.begin(), shown.end(), std::back_inserter(frame.sutures),
-               [](const VisibleTube& one) { return one.part != TubeKind::kNeedle; });
+               [](const VisibleTube& one) { return one.part == TubeKind::kSuture || one.part == TubeKind::kClip; });
   frame.needles = needleStates(*this);
   frame.marks = request_.marks;
   collectStats(frame, wait);

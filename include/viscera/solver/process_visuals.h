@@ -21,7 +21,7 @@ struct NodePaint {
 
 /// Drawable state of the processes in the tissue, in addition to the tissue itself.
 struct ProcessVisuals {
-  VisibleTubes sutures;  ///< sutures and pieces of them, then needles, then clips
+  VisibleTubes sutures;  ///< sutures and pieces of them, needles, clips, strands
   /// In ascending order of their kinds. A paint that changed is a new object, so a comparison of pointers shows whether
   /// to draw again.
   std::vector<std::shared_ptr<const NodePaint>> paints;
