@@ -50,7 +50,7 @@ Pose carriedOpticalPose(const CameraConfig& camera, const Pose& frame);
 /// in the image, as the head of the camera does not turn with the shaft; where the camera looks along it, y of the
 /// stylus is. @param tip  pose of the stylus in the tissue frame
 Pose endoscopePose(const CameraConfig& camera, const Pose& tip);
-/// Moves the cameras whose styluses are present. @param poses  [cameras] of optical frames
+/// Moves the cameras in styluses that are present. @param poses  [cameras] of optical frames
 void placeEndoscopes(const std::vector<CameraConfig>& cameras, const std::vector<StylusConfig>& styluses,
                      const ToolMotions& motions, std::vector<Pose>& poses);
 /// Returns the motions of the tools that a camera shows: an endoscope does not show itself.

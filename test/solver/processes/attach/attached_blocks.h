@@ -43,7 +43,7 @@ inline Scene freeBlocks(const std::string& glue) {
                     "free.yaml");
 }
 
-/// Returns two blocks whose fibres tear under a load, the lower one held, without a stability monitor.
+/// Returns two blocks with fibres that tear under a load. The lower one is held; nothing monitors stability.
 inline Scene loadedBlocks() {
   Scene scene = freeBlocks("modulus_pa: 5000, strength_pa: 500, toughness_j_per_m2: 0.5");
   scene.solver.stability_monitor = scene.solver.measured_limit = false;
