@@ -97,6 +97,7 @@ TEST(AttachmentSession, StrandsAreDrawnBehindTheFrontOfAPeel) {
   EXPECT_LE(strands.size(), kMostStrands);
   EXPECT_EQ(strands, strandsOf(again));
   EXPECT_TRUE(frame.sutures.empty()) << "they are no sutures";
+  EXPECT_EQ(frame.strands, strands);
   double widest_m = 0, thinnest = 1;
   for (const VisibleTube& strand : strands) {
     ASSERT_EQ(strand.part, TubeKind::kStrand);
