@@ -55,9 +55,9 @@ constexpr Kind kKinds[] = {
      [](const Setup& setup) -> std::unique_ptr<TissueProcess> {
        return std::make_unique<Clips>(setup.scene.styluses, setup.model);
      }},
-    {[](const Setup& setup) { return mayBleed(setup.model.bodies, Fluid::kBlood); }, ProcessActs::kNever,
+    {[](const Setup& setup) { return mayBleed(setup.model.bodies, Fluid::kBlood); }, ProcessActs::kWithTools,
      [](const Setup& setup) { return bleedingOf(setup, Fluid::kBlood); }},
-    {[](const Setup& setup) { return mayBleed(setup.model.bodies, Fluid::kBile); }, ProcessActs::kNever,
+    {[](const Setup& setup) { return mayBleed(setup.model.bodies, Fluid::kBile); }, ProcessActs::kWithTools,
      [](const Setup& setup) { return bleedingOf(setup, Fluid::kBile); }},
     {[](const Setup& setup) { return mayBurn(setup.scene.styluses); }, ProcessActs::kAlways,
      [](const Setup& setup) -> std::unique_ptr<TissueProcess> {
