@@ -30,7 +30,7 @@ inline std::string boxText(const std::string& name, const Vector3d& size_m, doub
 }
 
 /// Returns two free blocks, grown together, without damping.
-inline Scene freeBlocks(const std::string& glue) {
+inline Scene freeBlocks(const std::string& glue, const std::string& backend = "cpu") {
   // The tissue's own dashpots keep momentum, but not angular momentum.
   const char* const kUndamped =
       "material: {young_modulus_pa: 5000, poisson_ratio: 0.4, density_kg_per_m3: 1000, mass_damping_per_s: 0, "
@@ -39,13 +39,14 @@ inline Scene freeBlocks(const std::string& glue) {
                         boxText("top", {0.012, 0.012, 0.008}, 0.008, 0.002, kUndamped) +
                         "attachments: [{body_a: low, body_b: top, " + glue +
                         "}]\nenvironment: {gravity_m_per_s2: [0, 0, 0]}\nstyluses: [{name: hand, idle: none}]\n"
-                        "solver: {backend: cpu, threads: 1, sleep_speed_m_per_s: 0}\n",
+                        "solver: {backend: " +
+                        backend + ", threads: 1, sleep_speed_m_per_s: 0}\n",
                     "free.yaml");
 }
 
 /// Returns two blocks with fibres that tear under a load. The lower one is held; nothing monitors stability.
-inline Scene loadedBlocks() {
-  Scene scene = freeBlocks("modulus_pa: 5000, strength_pa: 500, toughness_j_per_m2: 0.5");
+inline Scene loadedBlocks(const std::string& backend = "cpu") {
+  Scene scene = freeBlocks("modulus_pa: 5000, strength_pa: 500, toughness_j_per_m2: 0.5", backend);
   scene.solver.stability_monitor = scene.solver.measured_limit = false;
   scene.bodies[0].fixed.resize(1);
   scene.bodies[0].fixed[0].shape = FixedShape::kPlane;

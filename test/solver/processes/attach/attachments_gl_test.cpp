@@ -15,19 +15,17 @@ constexpr double kAsOnTheCpu = 1e-3;  // of a work: the backends round different
 class AttachmentsOnGpu : public GpuTest {};
 
 TEST_F(AttachmentsOnGpu, ActAsOnTheReference) {
-  Scene scene = loadedBlocks();
-  scene.solver.backend = Backend::kGpu;
+  const Scene scene = loadedBlocks("gpu");
   const Model model = buildModel(scene);
   GpuSolver solver(model, scene);
   expectToMoveAsTheReference(model, scene, solver, 4);
 }
 
 TEST_F(AttachmentsOnGpu, TearAsOnTheCpu) {
-  Scene scene = loadedBlocks();
+  Scene scene = loadedBlocks("gpu");
   scene.environment.gravity_m_per_s2 = {0, 0, 60};
   const Model model = buildModel(scene);
   CpuSolver cpu(model, scene);
-  scene.solver.backend = Backend::kGpu;
   GpuSolver gpu(model, scene);
   for (int t = 0; t < 4; ++t) {
     cpu.step(ToolMotions{});
