@@ -12,9 +12,9 @@ namespace viscera {
 namespace {
 
 constexpr std::array<uint8_t, 4> kSteel = {190, 195, 202, 255}, kTitanium = {150, 200, 90, 255},
-                                 kConnective = {232, 208, 178, 255};  // sRGB, by eye: pale, a little yellow
+                                 kConnective = {206, 168, 132, 255};  // sRGB, by eye: pale, a little yellow
 constexpr double kClipWire_m = 0.0005;
-constexpr double kStrand_m = 0.00025;  // radius of a strand at its ends, by eye
+constexpr double kStrand_m = 0.00018;  // radius of a strand at its ends, by eye
 constexpr size_t kClipPositions = 4;   // number of Clips::positions_m()
 
 /// Returns the usual dye of such sutures.

@@ -45,11 +45,17 @@ Attachments::Attachments(const Scene& scene, const Model& model)
   reset();
 }
 
-/// Orders the fibres so that every beginning of the order is spread over all of them, always the same.
+/// Orders half of the fibres so that every beginning of the order is spread irregularly over all of them, always the
+/// same: all of them would be as regular as the grid on which they grew.
 void Attachments::orderStrands() {
   for (uint32_t f = 0; f < grown_.size(); ++f) strand_order_.push_back(f);
-  const auto key = [](uint32_t f) { return f * 2654435769U; };  // Knuth's multiplicative hash
+  const auto key = [](uint32_t f) {  // a hash of the index: multiplications and shifts that lose nothing
+    uint32_t out = f * 2654435769U;
+    out = (out ^ out >> 15U) * 2246822519U;
+    return out ^ out >> 13U;
+  };
   std::sort(strand_order_.begin(), strand_order_.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
+  strand_order_.resize((strand_order_.size() + 1) / 2);
 }
 
 void Attachments::reset() {

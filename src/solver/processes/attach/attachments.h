@@ -57,7 +57,7 @@ class Attachments : public TissueProcess {
   std::vector<Fibre> fibres_;  ///< the same with their ends in whole cells
   FibreForces forces_;
   SutureBlades blades_;
-  std::vector<uint32_t> strand_order_;  ///< all fibres, those first that are drawn if too many are open
+  std::vector<uint32_t> strand_order_;  ///< fibres that may be drawn, those first that are if too many are open
   bool may_be_cut_ = false;             ///< a blade moves in this tick
   std::vector<layout::NodeBits> seen_;  ///< [slots] springs of the nodes when ends were embedded; empty: whole
   // State.
