@@ -212,7 +212,7 @@ TEST_P(Bleeding, IsTakenAwayBySuctionWithinItsReach) {
   const auto hold = [&](const Vector3d& at_m, bool sucks) {
     StylusSamples cup{};
     cup[1] = {true, {at_m, Quaterniond::Identity()}, sucks, false};
-    for (int t = 0; t < 30; ++t) session.step(cup, {});
+    for (int t = 0; t < 15; ++t) session.step(cup, {});
   };
   hold({0.004, 0, 0.004}, false);
   hold({0.004, 0, 0.05}, false);  // suction holds tissue: it must begin away from it
