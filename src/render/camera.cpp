@@ -14,6 +14,22 @@ constexpr double kFarOverDistance = 100;
 constexpr double kSmallestSine = 1e-6;  // between `up` and the line of sight; below it no direction is upright
 constexpr double kSamePosition = 1e-9;  // tangent: where an image folds over, it shows other points as well
 constexpr int kBeside_px = 1;           // margin, so that interpolation at a border uses pixels of the image only
+
+/// Returns the orientation of an optical frame. @returns nothing  `up` is along the line of sight
+std::optional<Quaterniond> upright(const Vector3d& forward, const Vector3d& up) {
+  const Vector3d right = forward.cross(up.normalized());
+  if (!(right.norm() > kSmallestSine)) return std::nullopt;
+  Eigen::Matrix3d axes;
+  axes.col(0) = right.normalized();
+  axes.col(1) = forward.cross(axes.col(0));
+  axes.col(2) = forward;
+  return Quaterniond(axes);
+}
+
+bool isCarriedBy(const CameraConfig& camera, const StylusConfig& stylus) {
+  return !camera.stylus.empty() && camera.stylus == stylus.name;
+}
+
 }  // namespace
 
 Intrinsics intrinsics(const CameraConfig& camera) {
@@ -76,18 +92,13 @@ Pose opticalPose(const CameraConfig& camera) {
   if (!(sight.norm() > 0)) {
     throw SceneError("camera '" + camera.name + "': target_m must differ from position_m");
   }
-  const Vector3d forward = sight.normalized();
-  const Vector3d right = forward.cross(camera.up.normalized());
-  if (!(right.norm() > kSmallestSine)) {
+  const std::optional<Quaterniond> orientation = upright(sight.normalized(), camera.up);
+  if (!orientation) {
     throw SceneError("camera '" + camera.name +
                      "': up must be non-zero and not parallel to the line from position_m to "
                      "target_m");
   }
-  Eigen::Matrix3d axes;
-  axes.col(0) = right.normalized();
-  axes.col(1) = forward.cross(axes.col(0));
-  axes.col(2) = forward;
-  return {camera.position_m, Quaterniond(axes)};
+  return {camera.position_m, *orientation};
 }
 
 bool isCarriedByOpticalFrame(const CameraConfig& camera) {
@@ -100,6 +111,32 @@ bool isCarriedByOpticalFrame(const CameraConfig& camera) {
 
 Pose carriedOpticalPose(const CameraConfig& camera, const Pose& frame) {
   return isCarriedByOpticalFrame(camera) ? frame : frame * opticalPose(camera);
+}
+
+Pose endoscopePose(const CameraConfig& camera, const Pose& tip) {
+  const double angle_rad = camera.lens_angle_deg * M_PI / 180;
+  const Vector3d forward = tip.orientation * Vector3d(0, -std::sin(angle_rad), -std::cos(angle_rad));
+  const std::optional<Quaterniond> orientation = upright(forward, camera.up);
+  return {tip.position_m, orientation ? *orientation : *upright(forward, tip.orientation * Vector3d::UnitY())};
+}
+
+void placeEndoscopes(const std::vector<CameraConfig>& cameras, const std::vector<StylusConfig>& styluses,
+                     const ToolMotions& motions, std::vector<Pose>& poses) {
+  for (size_t c = 0; c < cameras.size(); ++c) {
+    for (size_t s = 0; s < styluses.size(); ++s) {
+      if (motions[s].present && isCarriedBy(cameras[c], styluses[s]))
+        poses[c] = endoscopePose(cameras[c], motions[s].to);
+    }
+  }
+}
+
+ToolMotions shownTools(const CameraConfig& camera, const std::vector<StylusConfig>& styluses,
+                       const ToolMotions& motions) {
+  ToolMotions out = motions;
+  for (size_t s = 0; s < styluses.size(); ++s) {
+    if (isCarriedBy(camera, styluses[s])) out[s].present = false;
+  }
+  return out;
 }
 
 Pose rightEye(const CameraConfig& camera) {

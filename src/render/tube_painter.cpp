@@ -3,6 +3,7 @@
 #include "render/tube_painter.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "render/mesh_uniforms.h"
@@ -43,24 +44,27 @@ TubePainter::TubePainter(std::vector<TubeStyle> sutures, const std::vector<std::
 }
 
 /// Makes the tube of a suture in the optical frame of a camera.
-void TubePainter::shape(const TubeStyle& suture, const std::vector<Vector3d>& positions_m,
-                        const Pose& optical_from_tissue, double pixel) {
+void TubePainter::shape(const TubeStyle& suture, const VisibleTube& piece, const Pose& optical_from_tissue,
+                        double pixel) {
   points_m_.clear();
   radii_m_.clear();
   tube_.vertices.clear();
   tube_.indices.clear();
-  for (const Vector3d& position_m : positions_m) {
-    const Vector3d at_m = optical_from_tissue * position_m;
+  const auto nodes = static_cast<double>(piece.positions_m.size());
+  for (size_t i = 0; i < piece.positions_m.size(); ++i) {
+    const Vector3d at_m = optical_from_tissue * piece.positions_m[i];
+    const double off_middle = std::abs(2 * static_cast<double>(i) / (nodes - 1) - 1);
+    const double radius_m = suture.radius_m * (piece.waist + off_middle * (1 - piece.waist));
     points_m_.push_back(at_m.cast<float>());
-    radii_m_.push_back(static_cast<float>(std::max(suture.radius_m, kLeastRadius_px * pixel * at_m.z())));
+    radii_m_.push_back(static_cast<float>(std::max(radius_m, kLeastRadius_px * pixel * at_m.z())));
   }
   addTube(points_m_, radii_m_, suture.color, tube_);
 }
 
-/// Draws all sutures. @param before  called with each suture first
+/// Draws all sutures. @param strands  draw them too   @param before  called with each suture first
 template <class Before>
 void TubePainter::drawWith(const gpu::Program& program, const VisibleTubes& shown, const Pose& optical_from_tissue,
-                           const Eigen::Matrix4f& clip_from_optical, double pixel, Before before) {
+                           const Eigen::Matrix4f& clip_from_optical, double pixel, bool strands, Before before) {
   glBindVertexArray(inputs_.id());
   program.use();
   setMeshMatrices(program, Pose{}, clip_from_optical);
@@ -69,8 +73,9 @@ void TubePainter::drawWith(const gpu::Program& program, const VisibleTubes& show
     const auto style = std::find_if(sutures_.begin(), sutures_.end(), [&](const TubeStyle& suture) {
       return suture.suture == piece.suture && suture.part == piece.part;
     });
+    if (piece.part == TubeKind::kStrand && !strands) continue;
     if (style == sutures_.end() || piece.positions_m.size() < 2 || piece.positions_m.size() > style->nodes) continue;
-    shape(*style, piece.positions_m, optical_from_tissue, pixel);
+    shape(*style, piece, optical_from_tissue, pixel);
     const size_t first = first_vertex;
     first_vertex += tube_.vertices.size();
     vertices_.write(tube_.vertices, first);
@@ -83,12 +88,12 @@ void TubePainter::drawWith(const gpu::Program& program, const VisibleTubes& show
 
 void TubePainter::draw(const VisibleTubes& shown, const Pose& optical_from_tissue,
                        const Eigen::Matrix4f& clip_from_optical, double pixel) {
-  drawWith(program_, shown, optical_from_tissue, clip_from_optical, pixel, [](const TubeStyle&) {});
+  drawWith(program_, shown, optical_from_tissue, clip_from_optical, pixel, true, [](const TubeStyle&) {});
 }
 
 void TubePainter::drawGeometry(const gpu::Program& program, const VisibleTubes& shown, const Pose& optical_from_tissue,
                                const Eigen::Matrix4f& clip_from_optical, double pixel) {
-  drawWith(program, shown, optical_from_tissue, clip_from_optical, pixel, [&](const TubeStyle& style) {
+  drawWith(program, shown, optical_from_tissue, clip_from_optical, pixel, false, [&](const TubeStyle& style) {
     const auto of_suture = static_cast<uint32_t>(layout::kFirstSutureLabel + style.suture);
     program.set("label", style.part == TubeKind::kClip ? layout::kClipLabel : of_suture);
   });

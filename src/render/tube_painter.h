@@ -16,12 +16,12 @@
 
 namespace viscera {
 
-/// Appearance of a suture, a needle or a clip.
+/// Appearance of a suture, a needle, a clip or a strand.
 struct TubeStyle {
   double radius_m;
   std::array<uint8_t, 4> color;  ///< sRGB, solid
   size_t nodes;                  ///< that it has
-  size_t suture;                 ///< index in the scene, of a needle that of its suture; of clips 0
+  size_t suture;                 ///< index in the scene, of a needle that of its suture; of clips and strands 0
   TubeKind part = TubeKind::kSuture;
   size_t most = 1;  ///< most pieces of it
 };
@@ -36,16 +36,15 @@ class TubePainter {
   /// @param pixel  its width at a distance of 1
   void draw(const VisibleTubes& shown, const Pose& optical_from_tissue, const Eigen::Matrix4f& clip_from_optical,
             double pixel);
-  /// Draws with another program, in use: geometry.frag.
+  /// Draws with another program, in use: geometry.frag. Leaves strands out, which have no label.
   void drawGeometry(const gpu::Program& program, const VisibleTubes& shown, const Pose& optical_from_tissue,
                     const Eigen::Matrix4f& clip_from_optical, double pixel);
 
  private:
   template <class Before>
   void drawWith(const gpu::Program& program, const VisibleTubes& shown, const Pose& optical_from_tissue,
-                const Eigen::Matrix4f& clip_from_optical, double pixel, Before before);
-  void shape(const TubeStyle& suture, const std::vector<Vector3d>& positions_m, const Pose& optical_from_tissue,
-             double pixel);
+                const Eigen::Matrix4f& clip_from_optical, double pixel, bool strands, Before before);
+  void shape(const TubeStyle& suture, const VisibleTube& piece, const Pose& optical_from_tissue, double pixel);
 
   std::vector<TubeStyle> sutures_;
   gpu::Program program_;

@@ -29,6 +29,7 @@ const MeasureWords kWords[] = {
     {"clip_off_mm", "Largest distance of a clip from its place", " mm", 1, {"clip_and_divide"}},
     {"bad_clips", "Misplaced clips", "", 0, {"clip_and_divide"}},
     {"blood_ml", "Blood lost", " ml", 1, {"clip_and_divide", "operation"}},
+    {"bile_ml", "Bile spilt", " ml", 1, {"operation"}},
     {"spared_cuts", "Cuts in tissue to be spared", "", 0, {"operation"}},
     {"force_s", "Time above the force limit", " s", 1},
     {"peak_force_n", "Largest force", " N", 2},

@@ -64,13 +64,14 @@ bool isSame(const Pose& a, const Pose& b) {
 
 InlineView::InlineView(const Model& model, const Scene& scene)
     : model_(model),
+      styluses_(scene.styluses),
       surface_(model),
       renderer_(eyesOf(scene.cameras), scene.styluses, scene.obstacles, &model, !scene.marks.empty()),
       surface_ring_(makeRing(surface_)),
       strain_range_(scene.cameras.empty() ? CameraConfig().strain_range : scene.cameras.front().strain_range),
       reads_late_(gpu::isSoftware()) {
   if (Blanching::isSeenIn(model)) pale_skin_ = std::make_unique<Blanching>(model);
-  if (hasSuturesOrClips(scene)) renderer_.addTubes(stylesOf(scene));
+  if (hasSuturesOrClips(scene) || !scene.attachments.empty()) renderer_.addTubes(stylesOf(scene));
   const std::vector<CameraConfig>& cameras = scene.cameras;
   for (size_t c = 0; c < cameras.size(); ++c) addEye(c, cameras[c], PictureKind::kColor);
   for (size_t c = 0; c < cameras.size(); ++c) {
@@ -252,7 +253,7 @@ void InlineView::captureGeometry(size_t e, const StateView& state, const RenderR
   if (eye.measures) {
     renderer_.placeObstacles(request.obstacles);
     renderer_.placeTubes(request.processes.sutures);
-    renderer_.drawGeometry(e, surface_, request.motions, eye.skin.drawn());
+    renderer_.drawGeometry(e, surface_, shownTools(eye.config, styluses_, request.motions), eye.skin.drawn());
     eye.measured.reset();
     if (state.moved_revision) {
       eye.measured =
@@ -283,14 +284,15 @@ void InlineView::startReadback(Channel& channel, const Eye& eye, uint64_t tick) 
 void InlineView::draw(size_t e, const StateView& state, const RenderRequest& request) {
   Eye& eye = eyes_[e];
   const Overlays overlays = overlaysOf(eye.camera, request);
+  const ToolMotions tools = shownTools(eye.config, styluses_, request.motions);
   renderer_.placeObstacles(request.obstacles);
   renderer_.placeTubes(request.processes.sutures);
   if (overlays.any()) {
     const OverlayStyle over = {overlays,        eye.config.strain_range, state,    &surface_,
                                &request.arrows, eye.skin.drawn(),        captures_};
-    renderer_.draw(e, model_, over, request.motions);
+    renderer_.draw(e, model_, over, tools);
   } else {
-    renderer_.draw(e, surface_, request.motions, eye.skin.drawn());
+    renderer_.draw(e, surface_, tools, eye.skin.drawn());
   }
   eye.drawn.reset();
   if (state.moved_revision) {

@@ -99,6 +99,7 @@ class InlineView : public View {
   bool takeSurface(Pictures& out, bool wait);
 
   const Model& model_;
+  const std::vector<StylusConfig> styluses_;
   Surface surface_;
   std::unique_ptr<Blanching> pale_skin_;  ///< null where no body blanches
   Renderer renderer_;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 
 #include "math/float_bits.h"
@@ -111,6 +110,7 @@ Frame Session::step(const StylusSamples& samples, const FrameRequest& outputs) {
   });                                                                    // VR05 2.7: probe, grab, cut
   solver_->step(tools_.ofHeld(request_.motions), obstacles_.motions());  // VR05 2.4: n substeps
   updateProcesses();
+  placeEndoscopes(scene_.cameras, scene_.styluses, request_.motions, request_.cameras);
   request_.tick = ++tick_;
   request_.outputs = outputs;
   updateArrows();
@@ -281,9 +281,14 @@ void Session::collect(Frame& frame, bool wait) {
   frame.obstacles = request_.obstacles;
   frame.cameras = request_.cameras;
   frame.sutures.clear();
-  const VisibleTubes& shown = request_.processes.sutures;
-  std::copy_if(shown.begin(), shown.end(), std::back_inserter(frame.sutures),
-               [](const VisibleTube& one) { return one.part != TubeKind::kNeedle; });
+  frame.strands.clear();
+  for (const VisibleTube& one : request_.processes.sutures) {
+    if (one.part == TubeKind::kStrand) {
+      frame.strands.push_back(one);
+    } else if (one.part != TubeKind::kNeedle) {
+      frame.sutures.push_back(one);
+    }
+  }
   frame.needles = needleStates(*this);
   frame.marks = request_.marks;
   collectStats(frame, wait);

@@ -14,7 +14,7 @@ namespace viscera {
 // the bytes, then the name and the bytes. All numbers are little-endian.
 
 /// Version of the format and of the content of sections: grows with either, as older files cannot be read then.
-constexpr uint32_t kStateVersion = 8;
+constexpr uint32_t kStateVersion = 9;
 
 /// Writes a file next to the target and renames it once all of it is on disk: after any failure the file is the old or
 /// the new one.

@@ -18,6 +18,14 @@ const SutureBodies* suturesOf(const Session& session) {
   return findProcess<SutureBodies>(session.solver());
 }
 
+BloodReport seenFluid(const Session& session, Fluid fluid) {
+  for (const auto& process : session.solver().processes()) {
+    const auto* const bleeding = dynamic_cast<const Bleeding*>(process.get());
+    if (bleeding && bleeding->fluid() == fluid) return bleeding->seen();
+  }
+  return {};
+}
+
 }  // namespace
 
 size_t suturePieces(const Session& session) {
@@ -73,8 +81,11 @@ BurnReport seenBurns(const Session& session) {
 }
 
 BloodReport seenBlood(const Session& session) {
-  const Bleeding* const bleeding = findProcess<Bleeding>(session.solver());
-  return bleeding ? bleeding->seen() : BloodReport();
+  return seenFluid(session, Fluid::kBlood);
+}
+
+BloodReport seenBile(const Session& session) {
+  return seenFluid(session, Fluid::kBile);
 }
 
 FactGroups Session::facts() const {

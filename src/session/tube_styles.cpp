@@ -11,9 +11,11 @@ namespace viscera {
 
 namespace {
 
-constexpr std::array<uint8_t, 4> kSteel = {190, 195, 202, 255}, kTitanium = {150, 200, 90, 255};
+constexpr std::array<uint8_t, 4> kSteel = {190, 195, 202, 255}, kTitanium = {150, 200, 90, 255},
+                                 kConnective = {206, 168, 132, 255};  // sRGB, by eye: pale, a little yellow
 constexpr double kClipWire_m = 0.0005;
-constexpr size_t kClipPositions = 4;  // number of Clips::positions_m()
+constexpr double kStrand_m = 0.00018;  // radius of a strand at its ends, by eye
+constexpr size_t kClipPositions = 4;   // number of Clips::positions_m()
 
 /// Returns the usual dye of such sutures.
 std::array<uint8_t, 4> colorOf(SutureMaterial material) {
@@ -39,6 +41,8 @@ std::vector<TubeStyle> stylesOf(const Scene& scene) {
     if (needle.arc != NeedleArc::kNone)
       out.push_back({needle.wire_radius_m, kSteel, NeedleShape::kShown, t, TubeKind::kNeedle});
   }
+  if (!scene.attachments.empty())
+    out.push_back({kStrand_m, kConnective, kStrandNodes, 0, TubeKind::kStrand, kMostStrands});
   if (mayClip(scene.styluses)) out.push_back({kClipWire_m, kTitanium, kClipPositions, 0, TubeKind::kClip, kMostClips});
   return out;
 }

@@ -26,7 +26,7 @@ struct TaskTick {
   size_t spared_cuts = 0;            ///< springs cut in TaskConfig::spared_parts
   std::vector<SutureState> sutures;  ///< where the task needs them
   ClipStates clips;                  ///< where the task needs them
-  double blood_ml = 0;               ///< lost since the last reset
+  double blood_ml = 0, bile_ml = 0;  ///< lost since the last reset
   std::optional<double> gap_m;       ///< TaskJudge::gapOf() after the tick, where requested
   layout::TickStats stats{};
   double tick_s = 0;

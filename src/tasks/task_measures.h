@@ -12,7 +12,7 @@ struct TaskTally {
   double wrong_touches = 0, drops = 0;
   double gap_mm = 0, weak_knots = 0;
   double clip_off_mm = 0, bad_clips = 0;
-  double blood_ml = 0;
+  double blood_ml = 0, bile_ml = 0;
   double spared_cuts = 0;
   double force_s = 0, peak_force_n = 0;
   double strain_s = 0, peak_strain = 0;
@@ -51,6 +51,8 @@ inline constexpr TaskMeasure kTaskMeasures[] = {
      &TaskTally::bad_clips, "", "bad clips"},
     {"blood_ml", "ml: blood that has flowed out of vessels (bleeding.flow_ml_per_min)", &TaskTally::blood_ml, "ml",
      "blood loss"},
+    {"bile_ml", "ml: bile that has flowed out of parts with bleeding.fluid bile", &TaskTally::bile_ml, "ml",
+     "spilt bile"},
     {"spared_cuts", "springs that were cut in `spared_parts`", &TaskTally::spared_cuts, "",
      "cuts in tissue to be spared"},
     {"force_s", "s: time in which the force on a stylus was above limits.force_n", &TaskTally::force_s, "s",

@@ -55,6 +55,7 @@ void TaskWatch::begin(std::unique_ptr<TaskJudge> judge) {
   showMarks();
   base_tick_ = session_.tick();
   base_blood_ml_ = seenBlood(session_).bled_ml;
+  base_bile_ml_ = seenBile(session_).bled_ml;
   stepped_.clear();
   measured_.clear();
   tools_.emplace(session_);
@@ -105,6 +106,7 @@ void TaskWatch::stepped(Session& session, const StylusSamples& samples) {
   }
   if (judge_->usesClips()) tick.clips = seenClips(session);
   tick.blood_ml = seenBlood(session).bled_ml;
+  tick.bile_ml = seenBile(session).bled_ml;
   stepped_.push_back(std::move(tick));
   judgeNoted();
 }
@@ -154,6 +156,7 @@ void TaskWatch::judge(const TaskTick& tick) {
 void TaskWatch::count(const TaskTick& tick) {
   TaskTally& tally = status_.tally;
   tally.blood_ml = tick.blood_ml - base_blood_ml_;
+  tally.bile_ml = tick.bile_ml - base_bile_ml_;
   tally.spared_cuts += static_cast<double>(tick.spared_cuts);
   double largest_n = 0;
   for (size_t s = 0; s < tick.motions.size(); ++s) {

@@ -93,8 +93,8 @@ class TaskWatch : public SessionLog {
   std::vector<MarkState> mark_states_;  ///< of the marks that are shown
   CutState cuts_;
   TaskStatus status_;
-  uint64_t base_tick_ = 0;    ///< measurements up to this tick belong to earlier ticks
-  double base_blood_ml_ = 0;  ///< blood lost before the task
+  uint64_t base_tick_ = 0;                       ///< measurements up to this tick belong to earlier ticks
+  double base_blood_ml_ = 0, base_bile_ml_ = 0;  ///< lost before the task
   std::deque<TaskTick> stepped_;
   std::deque<layout::TickStats> measured_;
   std::optional<ToolRows> tools_;

@@ -65,6 +65,26 @@ TEST_P(ShippedTask, IsPassedByAGoodUser) {
   }
 }
 
+/// A vessel of bile that is cut: the measure has a cost and a limit of its own.
+TEST(SpiltBile, IsAMeasureOfTasks) {
+  TemporaryFolder folder;
+  const std::string task = folder.write("spill.yaml",
+                                        "scene: bleeding_vessel\ntitle: Spill\ninstructions: Do not.\nkind: lift\n"
+                                        "lift: {center_m: [0, 0, 0], radius_m: 0.01, up: [0, 0, 1], height_m: 0.02, "
+                                        "hold_s: 1}\ntime_limit_s: 2.5\npass_score: 0\n"
+                                        "measures: [{measure: bile_ml, cost_s: 3, most: 0.1}]\n");
+  const Ending ending =
+      viscera({"task", task, "--strokes", sourceFolder() + "/config/strokes/bleeding.yaml", "--no-view", "--set",
+               "solver.threads=1", "--set", "bodies[0].material.bleeding.fluid=bile"});
+  ASSERT_EQ(ending.status, 0) << ending.err;
+  const nlohmann::json measures = lastLine(ending)["tasks"][0]["measures"];
+  const double bile_ml = measures["bile_ml"]["value"];
+  EXPECT_GT(bile_ml, 0.1);
+  EXPECT_EQ(measures["bile_ml"]["failed"], true);
+  EXPECT_NEAR(measures["bile_ml"]["cost_s"], 3 * bile_ml, 1e-9);
+  EXPECT_EQ(measures["blood_ml"]["value"], 0);
+}
+
 TEST_P(ShippedTask, IsFailedByAClumsyOne) {
   const nlohmann::json result = judged(GetParam(), "clumsy");
   EXPECT_EQ(result["state"], "failed") << result["why"];

@@ -59,9 +59,9 @@ bodies:
     rotation_deg: [61, 62, 63]
     color: [0.071, 0.072, 0.073]
     material: {tissue: liver, young_modulus_pa: 8100, poisson_ratio: 0.25, density_kg_per_m3: 820, mass_damping_per_s: 8.3, stiffness_damping_ratio: 0.084, weights: cell, law: springs, walls: cells, stiffening: 0, cut: {toughness_j_per_m2: 187},
-               bleeding: {flow_ml_per_min: 191, calibre_m: 0.0192}}
+               bleeding: {flow_ml_per_min: 191, calibre_m: 0.0192, fluid: bile, volume_ml: 19.3}}
     parts: [{part: valve, color: [0.074, 0.075, 0.076], tissue: spleen, young_modulus_pa: 8101, poisson_ratio: 0.25, density_kg_per_m3: 821, cut: {toughness_j_per_m2: 188},
-             bleeding: {flow_ml_per_min: 193, calibre_m: 0.0194}}]
+             bleeding: {flow_ml_per_min: 193, calibre_m: 0.0194, fluid: blood, volume_ml: 19.5}}]
     fixed:
       - shape: part
         min_m: [-0.11, -0.12, -0.13]
@@ -163,6 +163,8 @@ bodies:
 attachments:
   - {body_a: tissue, body_b: bed, reach_m: 0.00151, modulus_pa: 1520, thickness_m: 0.00153, toughness_j_per_m2: 15.4,
      strength_pa: 1550}
+styluses: [{name: laparoscope}]
+cameras: [{stylus: laparoscope, lens_angle_deg: 31}]
 )";
 
 /// Collects the paths of all keys below a node, list items as name[].
@@ -246,6 +248,8 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(body.material.cut.toughness_j_per_m2, 187);
   EXPECT_EQ(body.material.bleeding.flow_ml_per_min, 191);
   EXPECT_EQ(body.material.bleeding.calibre_m, 0.0192);
+  EXPECT_EQ(body.material.bleeding.fluid, Fluid::kBile);
+  EXPECT_EQ(body.material.bleeding.volume_ml, 19.3);
   EXPECT_EQ(body.material.weights, Weights::kCell);
   EXPECT_EQ(body.material.law, Law::kSprings);
   EXPECT_EQ(body.material.stiffening, 0);
@@ -258,6 +262,8 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(part.density_kg_per_m3, 821);
   EXPECT_EQ(part.bleeding.flow_ml_per_min, 193);
   EXPECT_EQ(part.bleeding.calibre_m, 0.0194);
+  EXPECT_EQ(part.bleeding.fluid, Fluid::kBlood);
+  EXPECT_EQ(part.bleeding.volume_ml, 19.5);
   const FixedConfig& fixed = body.fixed.at(0);
   EXPECT_EQ(fixed.shape, FixedShape::kPart);
   EXPECT_EQ(fixed.min_m, Vector3d(-0.11, -0.12, -0.13));
@@ -294,6 +300,12 @@ TEST(SceneKeys, EveryKeyOfAttachmentsReachesItsField) {
   EXPECT_EQ(attachment.thickness_m, 0.00153);
   EXPECT_EQ(attachment.toughness_j_per_m2, 15.4);
   EXPECT_EQ(attachment.strength_pa, 1550);
+}
+
+TEST(SceneKeys, EveryKeyOfEndoscopesReachesItsField) {
+  const CameraConfig camera = parseScene(kOfLatticesAlone, "lattice").cameras.at(0);
+  EXPECT_EQ(camera.stylus, "laparoscope");
+  EXPECT_EQ(camera.lens_angle_deg, 31);
 }
 
 TEST(SceneKeys, PapersWeightsGoWithSprings) {
@@ -504,6 +516,7 @@ TEST(SceneKeys, KeyEndsInItsUnit) {
                                                        {"J/m2", "_j_per_m2"},
                                                        {"N/m", "_n_per_m"},
                                                        {"W", "_w"},
+                                                       {"ml", "_ml"},
                                                        {"ml/min", "_ml_per_min"}};
   for (const auto& row : tableRows(sceneKeysTable())) {
     const size_t comma = row.at(2).find(", ");

@@ -187,6 +187,16 @@ TEST(Scene, CameraWithoutALineOfSightIsRefusedByName) {
   }
 }
 
+TEST(Scene, ACameraIsOnOneStylusThatTheSceneHasOrOnAFrame) {
+  const std::string left = "bodies: [{}]\nstyluses: [{name: left}]\ncameras: [{name: eye, ";
+  EXPECT_EQ(parseScene(left + "stylus: left}]\n", "s").cameras[0].stylus, "left");
+  expectRefusals({
+      {left + "stylus: right}]\n", {"camera 'eye'", "'stylus' must be the name of a stylus", "found 'right'"}},
+      {left + "stylus: left, frame: arm}]\n", {"camera 'eye'", "'stylus' and 'frame' exclude each other"}},
+      {left + "lens_angle_deg: 30}]\n", {"camera 'eye'", "'lens_angle_deg' needs 'stylus'"}},
+  });
+}
+
 TEST(Scene, ALensThatShowsOnePositionTwiceIsRefusedByName) {
   const std::string eye = "bodies: [{}]\ncameras: [{name: eye, vertical_fov_deg: 90, distortion: {";
   EXPECT_TRUE(

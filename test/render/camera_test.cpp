@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
+
 #include "viscera/math/error.h"
 
 using namespace viscera;
@@ -31,6 +34,29 @@ TEST(Camera, OpticalFrameHasXRightYDownZForward) {
   EXPECT_LT((pose.orientation * Vector3d::UnitX() - Vector3d::UnitX()).norm(), kTight);
   EXPECT_LT((pose.orientation * Vector3d::UnitY() + Vector3d::UnitZ()).norm(), kTight);
   EXPECT_LT((pose.orientation * Vector3d::UnitZ() - Vector3d::UnitY()).norm(), kTight);
+}
+
+/// A point ahead of the tip, on the axis of the shaft, as the handle turns about that axis. Image rows go down.
+TEST(Camera, OfAnEndoscopeShowsAPointWhereItsLensAngleAndTheTurnOfItsHandlePutIt) {
+  CameraConfig camera;
+  camera.stylus = "scope";
+  camera.lens_angle_deg = 30;
+  const Intrinsics k = intrinsics(camera);
+  const double aside_px = k.fy * std::tan(M_PI / 6);
+  const Pose ahead{Vector3d(0.01, -0.1, 0.02), Quaterniond(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitX()))};
+  const Vector3d point_m(0.01, -0.03, 0.02);
+  const auto shown = [&](double turn_rad) {
+    const Pose turned = ahead * Pose{Vector3d::Zero(), Quaterniond(Eigen::AngleAxisd(turn_rad, Vector3d::UnitZ()))};
+    return pixelOf(camera, endoscopePose(camera, turned).inverse() * point_m).value();
+  };
+  EXPECT_LT((shown(0) - Eigen::Vector2d(k.cx, k.cy - aside_px)).norm(), 1e-9) << "looks down";
+  EXPECT_LT((shown(M_PI / 2) - Eigen::Vector2d(k.cx - aside_px, k.cy)).norm(), 1e-9) << "looks right";
+  EXPECT_LT((shown(M_PI) - Eigen::Vector2d(k.cx, k.cy + aside_px)).norm(), 1e-9) << "looks up, and up is up";
+  camera.lens_angle_deg = 0;
+  for (const double turn_rad : {0.0, 1.0, 3.0})
+    EXPECT_LT((shown(turn_rad) - Eigen::Vector2d(k.cx, k.cy)).norm(), 1e-9) << "along the shaft";
+  camera.up = Vector3d::UnitY();  // along the line of sight: y of the stylus is up
+  EXPECT_LT((endoscopePose(camera, ahead).orientation * Vector3d::UnitY() + Vector3d::UnitZ()).norm(), kTight);
 }
 
 TEST(Camera, TargetIsSeenAtThePrincipalPoint) {

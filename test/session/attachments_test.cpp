@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "session/block_session.h"
+#include "solver/processes/process.h"
 #include "support/temporary_folder.h"
 #include "viscera/session/session.h"
 
@@ -72,6 +73,46 @@ TEST(AttachmentSession, PeelingTakesToughnessTimesWidth) {
   // The work of the hand over the path of the front, which is as long along x and along z.
   EXPECT_NEAR(mean_n, kPeelToughness_j_per_m2 * kWidth_m, kPeeled * kPeelToughness_j_per_m2 * kWidth_m);
   EXPECT_EQ(session.drain().health.trips, 0U);
+}
+
+VisibleTubes strandsOf(const Session& session) {
+  ProcessVisuals visuals;
+  for (const auto& process : session.solver().processes()) process->draw(visuals);
+  return visuals.sutures;
+}
+
+/// Strands: only where the strip has come off the bed by half the fibres' thickness, thinner the wider they are open.
+TEST(AttachmentSession, StrandsAreDrawnBehindTheFrontOfAPeel) {
+  constexpr double kThickness_m = 0.001, kEnd_m = 2 * kPeelToughness_j_per_m2 / 5000;
+  Session session(parseScene(kPeel, "peel.yaml")), again(parseScene(kPeel, "peel.yaml"));
+  session.step({}, {});
+  EXPECT_TRUE(strandsOf(session).empty());
+  Frame frame;
+  for (int t = 1; t <= kArcTicks + 10; ++t) {
+    frame = session.step(peel(t), {});
+    again.step(peel(t), {});
+  }
+  const VisibleTubes strands = strandsOf(session);
+  EXPECT_GT(strands.size(), 10U);
+  EXPECT_LE(strands.size(), kMostStrands);
+  EXPECT_EQ(strands, strandsOf(again));
+  EXPECT_TRUE(frame.sutures.empty()) << "they are no sutures";
+  EXPECT_EQ(frame.strands, strands);
+  double widest_m = 0, thinnest = 1;
+  for (const VisibleTube& strand : strands) {
+    ASSERT_EQ(strand.part, TubeKind::kStrand);
+    ASSERT_EQ(strand.positions_m.size(), kStrandNodes);
+    const double gap_m = (strand.positions_m.back() - strand.positions_m.front()).norm();
+    EXPECT_GT(gap_m, 0.5 * kThickness_m);
+    EXPECT_NEAR(strand.positions_m.back().z(), 0, 0.001) << "on the bed, which is held";
+    widest_m = std::max(widest_m, gap_m);
+    thinnest = std::min(thinnest, strand.waist);
+  }
+  EXPECT_LT(widest_m, 1.2 * kEnd_m);
+  EXPECT_GT(widest_m, 2 * kThickness_m);
+  EXPECT_LT(thinnest, 0.8);
+  session.reset();
+  EXPECT_TRUE(strandsOf(session).empty());
 }
 
 TEST(AttachmentSession, SavedHalfWayThroughAPeelGoesOnAsItWas) {

@@ -12,6 +12,7 @@
 #include "math/archive.h"
 #include "session/on_backends.h"
 #include "solver/processes/bleed/bleeding.h"
+#include "surface/skins/part_colors.h"
 #include "viscera/math/error.h"
 #include "viscera/session/tissue_processes.h"
 
@@ -119,6 +120,15 @@ TEST_P(Bleeding, SurfacesHaveTheColourOfBlood) {
   EXPECT_EQ(beside_the_cut.count(*at_the_far_end.begin()), 0U);
 }
 
+TEST(FluidColor, OfBileIsYellowGreenAndThatOfBloodRed) {
+  constexpr uint32_t kGrey = 0xff808080U;
+  const auto channel = [](uint32_t rgba, int c) { return static_cast<int>(rgba >> (8 * c) & 255); };
+  const uint32_t bile = paintedColor(PaintKind::kBile, kGrey, 1), blood = paintedColor(PaintKind::kBlood, kGrey, 1);
+  EXPECT_GT(channel(bile, 1), 3 * channel(bile, 2));
+  EXPECT_NEAR(channel(bile, 0), channel(bile, 1), 10);
+  EXPECT_GT(channel(blood, 0), 5 * channel(blood, 1));
+}
+
 TEST_P(Bleeding, OutOfANickIsItsShareOfTheCrossSectionOnEitherSide) {
   Session session(vessel(), context_);
   cutAt(session, 0.0051, 0.0031);  // an eighth of it: of five layers of nodes, half a spacing of the uppermost
@@ -166,6 +176,52 @@ TEST_P(Bleeding, StopsWhereTheStumpIsBurnt) {
   EXPECT_GT(ticks, 7) << "16 mm2 are not coagulated in a tenth of a second by 24 W";
   EXPECT_EQ(seenBlood(session).flow_ml_per_min, 0);
   EXPECT_GT(seenBurns(session).coagulated_m3, 0);
+}
+
+/// Out of an elastic bag: V (1 - exp(-Q t / V)).
+TEST_P(Bleeding, OfBileFallsAsItsVolumeRunsOut) {
+  constexpr double kVolume_ml = 0.8;
+  Scene scene = vessel();
+  scene.bodies[0].material.bleeding.fluid = Fluid::kBile;
+  scene.bodies[0].material.bleeding.volume_ml = kVolume_ml;
+  Session session(scene, context_);
+  cutAt(session, 0.0051);
+  const BloodReport first = seenBile(session);
+  EXPECT_NEAR(first.flow_ml_per_min, kFlow * (1 - first.bled_ml / kVolume_ml), kFull * kFlow);
+  constexpr int kTicks = 60;
+  rest(session, kTicks);
+  const BloodReport seen = seenBile(session);
+  const double decay = std::exp(-kFlow / 60 * kTicks * session.tick_s() / kVolume_ml);
+  EXPECT_NEAR(kVolume_ml - seen.bled_ml, (kVolume_ml - first.bled_ml) * decay, kBalance * kVolume_ml);
+  EXPECT_LT(decay, 0.5);
+  EXPECT_EQ(seenBlood(session).bled_ml, 0);
+  session.reset();
+  EXPECT_EQ(seenBile(session).bled_ml, 0);
+  cutAt(session, 0.0051);
+  EXPECT_EQ(seenBile(session).bled_ml, first.bled_ml) << "full again";
+}
+
+TEST_P(Bleeding, IsTakenAwayBySuctionWithinItsReach) {
+  Scene scene = vessel();
+  scene.styluses[1].button1 = ToolMode::kSuction;
+  scene.styluses[1].suction.radius_m = 0.006;
+  Session session(scene, context_);
+  cutAt(session, 0.0051);
+  rest(session, 20);
+  EXPECT_EQ(seenBlood(session).suctioned_ml, 0);
+  const auto hold = [&](const Vector3d& at_m, bool sucks) {
+    StylusSamples cup{};
+    cup[1] = {true, {at_m, Quaterniond::Identity()}, sucks, false};
+    for (int t = 0; t < 15; ++t) session.step(cup, {});
+  };
+  hold({0.004, 0, 0.004}, false);
+  hold({0.004, 0, 0.05}, false);  // suction holds tissue: it must begin away from it
+  hold({0.004, 0, 0.05}, true);
+  EXPECT_EQ(seenBlood(session).suctioned_ml, 0) << "not sucking, then out of reach";
+  hold({0.004, 0, 0.004}, true);
+  const BloodReport seen = seenBlood(session);
+  EXPECT_GT(seen.suctioned_ml, 0.01);
+  EXPECT_NEAR(seen.on_tissue_ml + seen.dripped_ml + seen.suctioned_ml, seen.bled_ml, kBalance * seen.bled_ml);
 }
 
 TEST_P(Bleeding, PushesNothingAndIsSeen) {
@@ -237,6 +293,13 @@ TEST(BleedingKeys, OfPartsAreThoseOfTheMaterialUnlessTheySayOtherwiseAndRangesAr
     EXPECT_NE(text.find("vessels.yaml"), std::string::npos) << text;
     EXPECT_NE(text.find("bleeding.flow_ml_per_min"), std::string::npos) << text;
     EXPECT_NE(text.find("0 .. 10000"), std::string::npos) << text;
+  }
+  try {
+    parseScene("bodies: [{source: box, material: {bleeding: {fluid: water}}}]", "vessels.yaml");
+    FAIL() << "water is taken";
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("bleeding.fluid"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("bile, blood"), std::string::npos) << error.what();
   }
 }
 

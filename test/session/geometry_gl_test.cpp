@@ -258,6 +258,39 @@ TEST_P(Geometry, AnOpticalFrameIsTheCameraItself) {
   EXPECT_EQ(seen.rgb, picture(fixed, PictureKind::kColor).rgb);
 }
 
+/// An endoscope through a trocar, at three poses: its pixels lie on the block where its own pose puts them, and it does
+/// not show itself.
+TEST_P(Geometry, ThroughAnEndoscopePixelsLieOnTheSurfaceToo) {
+  Scene inside = scene();
+  StylusConfig& scope = inside.styluses[0];
+  scope.idle = ToolMode::kNone;
+  scope.shaft_length_m = 0.3;
+  scope.trocar = {TrocarMotion::kTip, Vector3d(0, -0.15, 0.03)};
+  inside.cameras[0].stylus = scope.name;
+  inside.cameras[0].lens_angle_deg = 30;
+  Session session(inside, context_);
+  for (const Vector3d& tip_m : {Vector3d(0, -0.1, 0.03), Vector3d(0.02, -0.09, 0.02), Vector3d(-0.01, -0.07, 0.05)}) {
+    StylusSamples samples{};
+    samples[0] = {true, {tip_m, Quaterniond(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitX()))}, false, false};
+    const Frame frame = session.step(samples, {});
+    const Pose optical = frame.cameras[0];
+    EXPECT_LT((optical.position_m - tip_m).norm(), 1e-12);
+    const Vector3d shaft = (optical.position_m - scope.trocar.position_m).normalized();
+    EXPECT_NEAR(shaft.dot(optical.orientation * Vector3d::UnitZ()), std::cos(M_PI / 6), 1e-9);
+    const ImageFrame depths = picture(session, PictureKind::kDepth), labels = picture(session, PictureKind::kLabels);
+    size_t on_block = 0;
+    for (size_t i = 0; i < labels.labels.size(); ++i) {
+      if (labels.labels[i] == 0) continue;
+      ASSERT_EQ(labels.labels[i], layout::kFirstBodyLabel) << "only the block";
+      ++on_block;
+      const auto column = static_cast<double>(i % 160) + 0.5, row = static_cast<double>(i / 160) + 0.5;
+      const Vector3d at_m = optical * (depths.depths_m[i] * lineOfSight(inside.cameras[0], {column, row}));
+      ASSERT_NEAR(at_m.cwiseAbs().maxCoeff(), kHalfM, kSnappedM) << i;
+    }
+    EXPECT_GT(on_block, 500U);
+  }
+}
+
 /// docs/surface.md, for a camera that moves over the block and past it.
 TEST_P(Geometry, WhatAMovingCameraDoesNotSeeIsLeftOutAndNoPictureDiffers) {
   constexpr int kFlightTicks = 20;

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "viscera/api.h"
 #include "viscera/math/types.h"
 #include "viscera/model/scene/camera_config.h"
+#include "viscera/model/scene/stylus_config.h"
+#include "viscera/tools/stylus.h"
 
 namespace VISCERA_PUBLIC viscera {
 
@@ -42,6 +45,17 @@ bool isCarriedByOpticalFrame(const CameraConfig& camera);
 /// Returns the pose of the optical frame in the tissue frame of a camera that a tf frame carries.
 /// @param frame  pose of CameraConfig::frame in the tissue frame   @throws SceneError  as above
 Pose carriedOpticalPose(const CameraConfig& camera, const Pose& frame);
+/// Returns the pose of the optical frame of a camera in an endoscope (CameraConfig::stylus), in the tissue frame. The
+/// lens is at the tip and looks along -z of the stylus, tilted by lens_angle_deg towards its -y. CameraConfig::up is up
+/// in the image, as the head of the camera does not turn with the shaft; where the camera looks along it, y of the
+/// stylus is. @param tip  pose of the stylus in the tissue frame
+Pose endoscopePose(const CameraConfig& camera, const Pose& tip);
+/// Moves the cameras in styluses that are present. @param poses  [cameras] of optical frames
+void placeEndoscopes(const std::vector<CameraConfig>& cameras, const std::vector<StylusConfig>& styluses,
+                     const ToolMotions& motions, std::vector<Pose>& poses);
+/// Returns the motions of the tools that a camera shows: an endoscope does not show itself.
+ToolMotions shownTools(const CameraConfig& camera, const std::vector<StylusConfig>& styluses,
+                       const ToolMotions& motions);
 /// Returns the pose of a stereo camera's right eye in the camera's optical frame, which is that of the left eye.
 Pose rightEye(const CameraConfig& camera);
 

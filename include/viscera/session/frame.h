@@ -101,6 +101,7 @@ struct Frame : Pictures {
   std::vector<Pose> obstacles;       ///< [obstacles] poses at the end of the tick, tissue frame
   std::vector<Pose> cameras;         ///< [cameras] poses of the optical frames in the tick, tissue frame
   VisibleTubes sutures;              ///< sutures of the scene at the end of the tick, then the pieces cut from them
+  VisibleTubes strands;              ///< open fibres of attachments, as images show them
   std::vector<NeedleState> needles;  ///< needles at the end of the tick
   /// Nodes that each stylus holds, in the frame of its tool [m]; empty here, filled by the code that shows them.
   std::array<std::vector<Vector3d>, layout::kMaxStyluses> held_m;

@@ -41,5 +41,6 @@ std::vector<NeedleState> needleStates(const Session& session);
 ClipStates seenClips(const Session& session);
 BurnReport seenBurns(const Session& session);
 BloodReport seenBlood(const Session& session);
+BloodReport seenBile(const Session& session);
 
 }  // namespace viscera

@@ -11,17 +11,17 @@
 namespace VISCERA_PUBLIC viscera {
 
 /// Paint on nodes of the tissue. A later kind covers an earlier one.
-enum class PaintKind { kBurn, kBlood };
+enum class PaintKind { kBurn, kBile, kBlood };
 
 /// Strength of one paint on each node.
 struct NodePaint {
   PaintKind kind = PaintKind::kBurn;
-  std::vector<float> shares;  ///< [slots] kBurn: 0 fresh, 1 coagulated, 2 charred; kBlood: 0 clean, 1 blood only
+  std::vector<float> shares;  ///< [slots] kBurn: 0 fresh, 1 coagulated, 2 charred; fluids: 0 clean, 1 fluid only
 };
 
 /// Drawable state of the processes in the tissue, in addition to the tissue itself.
 struct ProcessVisuals {
-  VisibleTubes sutures;  ///< sutures and pieces of them, then needles, then clips
+  VisibleTubes sutures;  ///< sutures and pieces of them, needles, clips, strands
   /// In ascending order of their kinds. A paint that changed is a new object, so a comparison of pointers shows whether
   /// to draw again.
   std::vector<std::shared_ptr<const NodePaint>> paints;

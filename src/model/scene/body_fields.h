@@ -62,11 +62,17 @@ void visitFields(V& v, TearConfig& c) {
 template <class V>
 void visitFields(V& v, BleedingConfig& c) {
   v.number("flow_ml_per_min", c.flow_ml_per_min, {0, 1e4}, "ml/min",
-           "blood flow from a stump that is cut clean through; a smaller wound bleeds by its share of the cross "
+           "flow of `fluid` from a stump that is cut clean through; a smaller wound leaks by its share of the cross "
            "section (docs/lessons/instruments.md); 0: no bleeding, and no cost");
   v.number("calibre_m", c.calibre_m, {0, 1}, "m",
            "diameter of a vessel with that flow; 0: from the volume of the part over the distance between its ends, "
            "which is wrong for a part that bends or branches");
+  v.choice(
+      "fluid", c.fluid, {{"blood", Fluid::kBlood}, {"bile", Fluid::kBile}},
+      "fluid that leaves a cut: parts with different fluids are separate vessels, and tasks score them separately");
+  v.number("volume_ml", c.volume_ml, {0, 1e5}, "ml",
+           "fluid in the part: flows fall in proportion to what is left of the sum over connected parts; 0: adds "
+           "nothing, and flows do not fall where no part adds anything");
 }
 
 template <class V>
@@ -103,7 +109,7 @@ void visitFields(V& v, MaterialConfig& c) {
       "initial stress: tissue is under tension at rest and gapes when it is cut; the share of the stress that is in "
       "equilibrium in the given shape is kept. Needs structure lattice with law neo_hookean, or structure surface");
   v.group("tear", c.tear, "resistance of the tissue to tearing");
-  v.group("bleeding", c.bleeding, "bleeding of the tissue where it is cut, as from a vessel");
+  v.group("bleeding", c.bleeding, "blood or bile that leaves the tissue where it is cut, as from a vessel");
 }
 
 template <class V>

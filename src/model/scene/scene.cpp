@@ -223,6 +223,19 @@ void requireNeedles(const std::string& file, const Scene& scene) {
   }
 }
 
+/// Checks what carries a camera.
+void requireCarrier(const std::string& file, const Scene& scene, const CameraConfig& camera) {
+  const std::string where = file + ": camera '" + camera.name + "': ";
+  if (camera.stylus.empty()) {
+    if (camera.lens_angle_deg > 0) throw SceneError(where + "'lens_angle_deg' needs 'stylus'");
+    return;
+  }
+  if (!camera.frame.empty()) throw SceneError(where + "'stylus' and 'frame' exclude each other");
+  const auto carries = [&](const StylusConfig& stylus) { return stylus.name == camera.stylus; };
+  if (std::none_of(scene.styluses.begin(), scene.styluses.end(), carries))
+    throw SceneError(where + "'stylus' must be the name of a stylus of the scene; found '" + camera.stylus + "'");
+}
+
 /// Checks rules that involve several keys.
 void requireConsistent(const std::string& file, const Scene& scene) {
   if (scene.bodies.empty()) throw SceneError(file + ": 'bodies' must contain at least one body");
@@ -260,6 +273,7 @@ void requireConsistent(const std::string& file, const Scene& scene) {
   for (const BodyConfig& body : scene.bodies) requireStableSubstep(file, scene.solver, body);
   for (const CameraConfig& camera : scene.cameras) {
     requireLens(file, camera);
+    requireCarrier(file, scene, camera);
     const Vector3d sight = camera.target_m - camera.position_m;
     if (sight.cross(camera.up).norm() <= 1e-9 * camera.up.norm()) {
       throw SceneError(

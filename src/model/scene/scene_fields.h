@@ -185,6 +185,14 @@ void visitFields(V& v, CameraConfig& c) {
   v.text("frame", c.frame,
          "tf frame that carries the camera, as an endoscope: `position_m`, `target_m` and `up` are then in this frame. "
          "A name that ends in `_optical` or `_optical_frame` means the optical frame itself (z forward, x right)");
+  v.text("stylus", c.stylus,
+         "stylus that is an endoscope with this camera in it: the lens is at its tip, and `up` stays up in the image. "
+         "Until the stylus has a pose, the camera is at `position_m`. Not with `frame` "
+         "(docs/user_guide.md#pictures-and-cameras)");
+  v.number(
+      "lens_angle_deg", c.lens_angle_deg, {0, 90}, "deg",
+      "angle between the shaft of the endoscope and its line of sight, towards -y of the stylus; laparoscopes have "
+      "0 or 30. Needs `stylus`");
   v.group("distortion", c.distortion,
           "distortion of the lens, plumb_bob: the D of CameraInfo; all 0: a pinhole (docs/surface.md#looks)");
   v.choice("light", c.light, {{"lamp", CameraLight::kLamp}, {"lens", CameraLight::kLens}},

@@ -38,10 +38,10 @@ inline bool isPrestressed(const BodyConfig& body) {
   return isPrestressed(body.material, body.parts);
 }
 
-/// Returns whether some body (Body or BodyConfig) or a part of one bleeds where it is cut.
+/// Returns whether a fluid leaves some body (Body or BodyConfig), or a part of one, where it is cut.
 template <class Bodies>
-bool mayBleed(const Bodies& bodies) {
-  const auto bleeds = [](const auto& it) { return it.bleeding.flow_ml_per_min > 0; };
+bool mayBleed(const Bodies& bodies, Fluid fluid) {
+  const auto bleeds = [fluid](const auto& it) { return it.bleeding.flow_ml_per_min > 0 && it.bleeding.fluid == fluid; };
   return std::any_of(bodies.begin(), bodies.end(), [&](const auto& body) {
     return bleeds(body.material) || std::any_of(body.parts.begin(), body.parts.end(), bleeds);
   });

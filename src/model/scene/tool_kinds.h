@@ -67,6 +67,7 @@ struct ToolKind {
   bool clips = false;                           ///< it sets a clip when its jaws have closed
   bool grips = false;  ///< it holds what its jaws close on, which slides above the grip's force
   bool burns = false;  ///< it heats what its tip touches
+  bool sucks = false;  ///< it takes away the fluid that lies on tissue within its reach
 
   constexpr bool does(uint32_t some) const { return (effects & some) != 0; }
   /// Returns whether it moves nodes: contact kernels run, and their reactions are summed.
@@ -98,7 +99,8 @@ inline constexpr ToolKind kToolKinds[] = {
      [](const StylusConfig& c) { return c.cut_particles.eraser_radius_m; }},
     {ToolMode::kSuction, layout::kModeSuction, "suction", kHolds, ToolTip::kCup, {230, 159, 0},
      [](const StylusConfig& c) { return c.suction.radius_m; },
-     [](const StylusConfig& c) { return Grip{c.suction.release_speed_m_per_s, c.suction.max_force_n}; }},
+     [](const StylusConfig& c) { return Grip{c.suction.release_speed_m_per_s, c.suction.max_force_n}; }, nullptr,
+     false, false, false, false, true},
     {ToolMode::kNeedle, layout::kModeNeedle, "needle", 0, ToolTip::kJaws, {213, 94, 0},
      [](const StylusConfig& c) { return c.grab.radius_m; }, nullptr, plainJaws},
     {ToolMode::kScissors, layout::kModeScissors, "scissors", kCuts, ToolTip::kJaws, {0, 114, 178},

@@ -63,7 +63,7 @@ void FramePublisher::broadcastStaticFrames(const Scene& scene, const std::string
   for (size_t c = 0; c < scene.cameras.size(); ++c) {
     const CameraConfig& camera = scene.cameras[c];
     const std::string optical_frame = opticalFrame(camera, frame_prefix);
-    if (camera.frame.empty()) {
+    if (camera.frame.empty() && camera.stylus.empty()) {
       frames.push_back(toTransform(opticalPose(camera), world.tissue_frame, optical_frame, now));
     } else if (!isCarriedByOpticalFrame(camera)) {
       carried_.push_back({c, optical_frame});

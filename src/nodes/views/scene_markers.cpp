@@ -74,6 +74,7 @@ std::vector<Vector3d> pointsOf(const ToolShape& shape) {
 SceneStyle styleOf(const Frame& frame, const StylusSamples& samples) {
   SceneStyle style{frame.tools, frame.obstacles, frame.reactions, frame.sutures, frame.held_m, frame.needles};
   style.marks = frame.marks;
+  style.strands = frame.strands;
   for (size_t s = 0; s < samples.size(); ++s)
     style.in_tf[s] = samples[s].valid && frame.tools[s].present && isSame(samples[s].pose, frame.tools[s].to);
   return style;
@@ -137,6 +138,7 @@ MarkerArray SceneMarkers::at(const SceneStyle& style, const ros::Time& stamp) co
     addParts("obstacles", kMostParts * i, obstacles_[i].parts, style.obstacles[i], "", stamp, out);
   addTubes(style, stamp, out);
   addNeedles(style, stamp, out);
+  addStrands(style, stamp, out);
   addMarks(style, stamp, out);
   addNames(style, stamp, out);
   addText("", stamp, out);
@@ -248,6 +250,22 @@ void SceneMarkers::addNeedles(const SceneStyle& style, const ros::Time& stamp, M
       if (needle.suture == how.suture)
         positions_m = NeedleShape(needle.radius_m, needle.arc_rad, needle.wire_radius_m).positions(needle.pose);
     addLine("needles", id++, how, positions_m, stamp, out);
+  }
+}
+
+/// Adds all strands as lines of one marker, if the scene has any attachments.
+void SceneMarkers::addStrands(const SceneStyle& style, const ros::Time& stamp, MarkerArray& out) const {
+  const auto how = std::find_if(sutures_.begin(), sutures_.end(),
+                                [](const TubeStyle& one) { return one.part == TubeKind::kStrand; });
+  if (how == sutures_.end()) return;
+  Marker& marker = out.markers.emplace_back(this->marker("strands", 0, stamp));
+  marker.type = Marker::LINE_LIST;
+  marker.action = style.strands.empty() ? Marker::DELETE : Marker::ADD;
+  marker.scale.x = kLeastSuture_m;
+  paint(how->color, marker);
+  for (const VisibleTube& strand : style.strands) {
+    marker.points.push_back(toPoint(strand.positions_m.front()));
+    marker.points.push_back(toPoint(strand.positions_m.back()));
   }
 }
 

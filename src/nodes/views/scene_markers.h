@@ -36,6 +36,7 @@ struct SceneStyle {
   std::array<bool, layout::kMaxStyluses> in_tf = {};  ///< whether the tool's pose is that of its frame in tf
   std::shared_ptr<const VisibleMarks> marks = {};     ///< marks on the tissue; null: none
   std::vector<MarkPiece> mark_pieces = {};            ///< their lines on a recent surface
+  VisibleTubes strands = {};
 };
 /// Returns the contents of a frame. @param samples  samples that determine the tool frames in tf
 SceneStyle styleOf(const Frame& frame, const StylusSamples& samples);
@@ -88,6 +89,7 @@ class SceneMarkers {
   void addLine(const char* names, size_t id, const TubeStyle& how, const std::vector<Vector3d>& positions_m,
                const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
   void addNeedles(const SceneStyle& style, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
+  void addStrands(const SceneStyle& style, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
   void addTubes(const SceneStyle& style, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
   void addText(const std::string& text, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;
   void addMarks(const SceneStyle& style, const ros::Time& stamp, visualization_msgs::MarkerArray& out) const;

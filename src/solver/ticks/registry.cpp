@@ -31,6 +31,11 @@ struct Kind {
   std::unique_ptr<TissueProcess> (*make)(const Setup&);
 };
 
+std::unique_ptr<TissueProcess> bleedingOf(const Setup& setup, Fluid fluid) {
+  return std::make_unique<Bleeding>(setup.model, setup.scene.styluses, setup.scene.environment.gravity_m_per_s2,
+                                    1 / setup.scene.solver.tick_hz, fluid);
+}
+
 /// One row per process, in the order in which they act. A process that reads another one's results of the tick
 /// (TissueProcess::endTick) need not follow it: all have acted by then.
 constexpr Kind kKinds[] = {
@@ -50,11 +55,10 @@ constexpr Kind kKinds[] = {
      [](const Setup& setup) -> std::unique_ptr<TissueProcess> {
        return std::make_unique<Clips>(setup.scene.styluses, setup.model);
      }},
-    {[](const Setup& setup) { return mayBleed(setup.model.bodies); }, ProcessActs::kNever,
-     [](const Setup& setup) -> std::unique_ptr<TissueProcess> {
-       return std::make_unique<Bleeding>(setup.model, setup.scene.environment.gravity_m_per_s2,
-                                         1 / setup.scene.solver.tick_hz);
-     }},
+    {[](const Setup& setup) { return mayBleed(setup.model.bodies, Fluid::kBlood); }, ProcessActs::kWithTools,
+     [](const Setup& setup) { return bleedingOf(setup, Fluid::kBlood); }},
+    {[](const Setup& setup) { return mayBleed(setup.model.bodies, Fluid::kBile); }, ProcessActs::kWithTools,
+     [](const Setup& setup) { return bleedingOf(setup, Fluid::kBile); }},
     {[](const Setup& setup) { return mayBurn(setup.scene.styluses); }, ProcessActs::kAlways,
      [](const Setup& setup) -> std::unique_ptr<TissueProcess> {
        return std::make_unique<Burns>(setup.scene, setup.model);

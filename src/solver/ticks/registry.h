@@ -13,7 +13,7 @@ struct Scene;
 /// @param model  must outlive them   @param tools  there are styluses   @throws SceneError  a process cannot be made
 TissueProcesses makeProcesses(const Scene& scene, const Model& model, bool tools);
 
-/// When a process reads or pushes nodes after substeps.
+/// When a process reads or pushes nodes.
 enum class ProcessActs { kNever, kWithTools, kAlways };
 
 /// Returns the most that any process of a scene does. With kAlways the tissue cannot sleep as a whole; with any but

@@ -142,15 +142,18 @@ uint32_t burntColor(uint32_t rgba, float share) {
   return towards(from, kStops[to].rgb, std::min(1.0F, (share - from_share) / (kStops[to].share - from_share)));
 }
 
-uint32_t bloodyColor(uint32_t rgba, float share) {
-  constexpr std::array<float, 3> kBlood = {112, 6, 12};  // sRGB, by eye: between that of arteries and that of veins
-  return share <= 0 ? rgba : towards(rgba, kBlood, std::min(1.0F, share));
+constexpr std::array<float, 3> kBlood = {112, 6, 12};  // sRGB, by eye: between that of arteries and that of veins
+constexpr std::array<float, 3> kBile = {126, 124, 8};  // sRGB, by eye: dark yellow-green
+
+uint32_t wetColor(uint32_t rgba, const std::array<float, 3>& fluid, float share) {
+  return share <= 0 ? rgba : towards(rgba, fluid, std::min(1.0F, share));
 }
 
 }  // namespace
 
 uint32_t paintedColor(PaintKind kind, uint32_t rgba, float share) {
-  return kind == PaintKind::kBurn ? burntColor(rgba, share) : bloodyColor(rgba, share);
+  if (kind == PaintKind::kBurn) return burntColor(rgba, share);
+  return wetColor(rgba, kind == PaintKind::kBlood ? kBlood : kBile, share);
 }
 
 }  // namespace viscera

@@ -35,7 +35,8 @@ constexpr uint32_t bodyOfAlpha(uint32_t alpha) {
 }
 static_assert(layout::kMaxBodies <= 16);
 
-/// Returns a colour under a paint: burnt tissue is paler as it coagulates, then brown and black; blood is red.
+/// Returns a colour under a paint: burnt tissue is paler as it coagulates, then brown and black; blood is
+/// red, bile yellow-green.
 /// @param rgba  without the paint; its alpha stays   @param share  as NodePaint::shares
 uint32_t paintedColor(PaintKind kind, uint32_t rgba, float share);
 

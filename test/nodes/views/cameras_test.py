@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the viscera authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A stereo camera on a tf frame. There are no images while the frame is unknown; later, depths, labels and stereo pairs
+"""A stereo camera on a tf frame, and one in an endoscope. There are no images while the frame is unknown; later, depths, labels and stereo pairs
 agree with tf and camera_info, also while paused. Each is made only for subscribers."""
 import array
 import math
@@ -12,7 +12,7 @@ import unittest
 
 import rospy
 import rostest
-from geometry_msgs.msg import TransformStamped
+from geometry_msgs.msg import PoseStamped, TransformStamped
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import CameraInfo, Image
 from simulator_watch import Latest, SimulatorWatch, wait_until
@@ -74,6 +74,7 @@ class CamerasTest(unittest.TestCase):
         rospy.init_node("cameras_test")
         cls.carrier = Carrier()
         cls.optical = {}  # stamp -> transform
+        cls.of_scope = {}  # the same of the laparoscope
         cls.frames = Latest("/tf", TFMessage, cls.note_frames, queue_size=100)
         cls.watch = SimulatorWatch()
         cls.watch.wait_ready()
@@ -83,6 +84,8 @@ class CamerasTest(unittest.TestCase):
         for transform in message.transforms:
             if transform.child_frame_id == "scope_optical_frame":
                 cls.optical[transform.header.stamp] = transform
+            if transform.child_frame_id == "laparoscope_optical_frame":
+                cls.of_scope[transform.header.stamp] = transform
 
     def pair(self, first, second, types=(Image, Image)):
         """Returns two messages with the same stamp."""
@@ -94,13 +97,14 @@ class CamerasTest(unittest.TestCase):
             topic.stop()
         return [messages[max(common)] for messages in found]
 
-    def face_y(self, depth, info):
+    def face_y(self, depth, info, frames=None):
         """Returns the height of the face along y, tissue frame, from the centre pixel of the depths, tf and
         camera_info."""
+        frames = self.optical if frames is None else frames
         row, column = depth.height // 2, depth.width // 2
         z = middle(depth)
         x, y = (column - info.K[2]) / info.K[0] * z, (row - info.K[5]) / info.K[4] * z
-        at = wait_until(lambda: self.optical.get(depth.header.stamp), 5, "transform at the stamp of a picture")
+        at = wait_until(lambda: frames.get(depth.header.stamp), 5, "transform at the stamp of a picture")
         self.assertEqual(at.header.frame_id, "tissue")
         at = at.transform
         return rotated(at.rotation, [x, y, z])[1] + at.translation.y
@@ -185,7 +189,26 @@ class CamerasTest(unittest.TestCase):
             topic.stop()
         self.assertTrue(rospy.ServiceProxy("resume", Trigger)().success)
 
-    def test_6_pictures_that_come_far_too_seldom_are_told_with_ways_out(self):
+    def test_6_an_endoscope_sees_from_the_tip_of_its_stylus(self):
+        """Its lens looks down by 30 degrees from a shaft along y, at the front face of the block."""
+        poses = rospy.Publisher("endoscope/measured_cp", PoseStamped, queue_size=1, tcp_nodelay=True)
+        pose = PoseStamped()
+        pose.pose.position.y, pose.pose.position.z = -0.06, 0.02
+        pose.pose.orientation.x = pose.pose.orientation.w = math.sqrt(0.5)
+        sending = rospy.Timer(rospy.Duration(0.02), lambda _: (
+            setattr(pose.header, "stamp", rospy.Time.now()), poses.publish(pose)))
+
+        def there():
+            newest = self.of_scope[max(self.of_scope)].transform.translation if self.of_scope else None
+            return newest and abs(newest.y + 0.06) < 1e-9 and abs(newest.z - 0.02) < 1e-9
+
+        wait_until(there, 20, "frame of the laparoscope at the tip")
+        both = self.pair("laparoscope/depth/image_raw", "laparoscope/depth/camera_info", (Image, CameraInfo))
+        sending.shutdown()
+        self.assertEqual([message.header.frame_id for message in both], 2 * ["laparoscope_optical_frame"])
+        self.assertAlmostEqual(self.face_y(*both, self.of_scope), FACE_Y_M, delta=DEPTH_M)
+
+    def test_7_pictures_that_come_far_too_seldom_are_told_with_ways_out(self):
         told = []
         log = Latest("/rosout", Log, lambda m: told.append(m.msg) if m.level == Log.WARN and "huge" in m.msg else None, 100)
         huge = Latest("huge/image_raw", Image)

@@ -248,6 +248,22 @@ TEST(SceneMarkers, NeedlesAreLinesAlongTheirWireFromTheTip) {
   EXPECT_NEAR(lines[0].points[lines[0].points.size() / 2].z, 0.09, 1e-4) << "the tip heads for +z";
 }
 
+TEST(SceneMarkers, StrandsAreLinesOfOneMarkerWhereTheSceneHasAttachments) {
+  Scene with = scene();
+  SceneStyle placed = style();
+  placed.strands.resize(2);
+  for (VisibleTube& strand : placed.strands)
+    strand = {0, TubeKind::kStrand, std::vector<Vector3d>(kStrandNodes, Vector3d(0, 0, 0.1))};
+  EXPECT_TRUE(shown(SceneMarkers(with, {}).at(placed, ros::Time(3)), "strands").empty());
+  with.attachments.resize(1);
+  const SceneMarkers markers(with, {});
+  const auto lines = shown(markers.at(placed, ros::Time(3)), "strands");
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0].type, Marker::LINE_LIST);
+  EXPECT_EQ(lines[0].points.size(), 4U);
+  EXPECT_TRUE(shown(markers.at(style(), ros::Time(3)), "strands").empty());
+}
+
 TEST(SceneMarkers, ToolsThatAreWhereTheirFramesAreGoWithThese) {
   SceneStyle style = viscera::nodes::style();
   style.in_tf[0] = true;

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "math/number_text.h"
 #include "solver/processes/burn/burns.h"
@@ -18,6 +19,7 @@ namespace {
 constexpr double kNothingLeft = 0.1;  // share of strength below which a burnt fibre is parted
 constexpr double kBurnSeen = 1e-3;    // smallest change of that share
 constexpr double kSquare_mm = 1e6;    // mm2 per m2
+constexpr double kStrandGap = 0.5;    // of the thickness: fibres that are less open are not drawn
 
 bool isSame(const layout::NodeBits& a, const layout::NodeBits& b) {
   return a.lo == b.lo && a.hi == b.hi;
@@ -39,7 +41,21 @@ Attachments::Attachments(const Scene& scene, const Model& model)
       grown_(growFibres(scene, model, cells_)),
       forces_(model),
       blades_(scene.styluses) {
+  orderStrands();
   reset();
+}
+
+/// Orders half of the fibres so that every beginning of the order is spread irregularly over all of them, always the
+/// same: all of them would be as regular as the grid on which they grew.
+void Attachments::orderStrands() {
+  for (uint32_t f = 0; f < grown_.size(); ++f) strand_order_.push_back(f);
+  const auto key = [](uint32_t f) {  // a hash of the index: multiplications and shifts that lose nothing
+    uint32_t out = f * 2654435769U;
+    out = (out ^ out >> 15U) * 2246822519U;
+    return out ^ out >> 13U;
+  };
+  std::sort(strand_order_.begin(), strand_order_.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
+  strand_order_.resize((strand_order_.size() + 1) / 2);
 }
 
 void Attachments::reset() {
@@ -217,6 +233,27 @@ bool Attachments::addTo(StateHash& hash) const {
     hash.add(left_[f]);
   }
   return true;
+}
+
+void Attachments::draw(ProcessVisuals& visuals) const {
+  const auto thinner = [](const AttachmentConfig& a, const AttachmentConfig& b) {
+    return a.thickness_m < b.thickness_m;
+  };
+  const double thinnest_m = std::min_element(configs_.begin(), configs_.end(), thinner)->thickness_m;
+  if (forces_.largestGap_m() <= kStrandGap * thinnest_m) return;
+  size_t count = 0;
+  for (const uint32_t f : strand_order_) {
+    if (!isWhole(f)) continue;
+    const Vector3d gap_m = forces_.gap_m(f);
+    if (gap_m.norm() <= kStrandGap * configs_[grown_[f].attachment].thickness_m) continue;
+    const Vector3d from_m = grown_[f].rest_m + forces_.firstEnd_m(f);
+    const double left = 1 - static_cast<double>(opening_m_[f]) / grown_[f].law.end_m;
+    VisibleTube strand{0, TubeKind::kStrand, {}, std::sqrt(std::clamp(left, 0.0, 1.0))};
+    for (size_t i = 0; i < kStrandNodes; ++i)
+      strand.positions_m.emplace_back(from_m + static_cast<double>(i) / (kStrandNodes - 1) * gap_m);
+    visuals.sutures.push_back(std::move(strand));
+    if (++count == kMostStrands) return;
+  }
 }
 
 FactGroup Attachments::facts() const {

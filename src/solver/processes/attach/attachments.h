@@ -37,8 +37,11 @@ class Attachments : public TissueProcess {
   void undone(bool at_rest) override;
   bool addTo(StateHash& hash) const override;
   FactGroup facts() const override;
+  /// Adds strands, where fibres are open by more than half of their thickness.
+  void draw(ProcessVisuals& visuals) const override;
 
  private:
+  void orderStrands();
   void updateSecant(size_t fibre);
   void updateSecants();
   bool isWhole(size_t fibre) const;
@@ -54,6 +57,7 @@ class Attachments : public TissueProcess {
   std::vector<Fibre> fibres_;  ///< the same with their ends in whole cells
   FibreForces forces_;
   SutureBlades blades_;
+  std::vector<uint32_t> strand_order_;  ///< fibres that may be drawn, those first that are if too many are open
   bool may_be_cut_ = false;             ///< a blade moves in this tick
   std::vector<layout::NodeBits> seen_;  ///< [slots] springs of the nodes when ends were embedded; empty: whole
   // State.

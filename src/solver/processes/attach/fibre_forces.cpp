@@ -58,6 +58,7 @@ void FibreForces::embed(const std::vector<Fibre>& fibres) {
     patch_of_.push_back(static_cast<uint32_t>(patches_.size() - 1));
   }
   secant_n_per_m_.assign(fibres.size(), 0);
+  largest_m2_ = 0;
   grows_m2_.assign(fibres.size(), std::numeric_limits<float>::max());
   u_m_.assign(slots_.size(), Eigen::Array4f::Zero());
 }

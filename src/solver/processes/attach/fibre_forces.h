@@ -3,7 +3,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -38,6 +40,7 @@ class FibreForces {
   void pull(const Grow& grow) {
     impulse_.assign(slots_.size(), Eigen::Array4f::Zero());
     stored_j_ = 0;
+    largest_m2_ = 0;
     Nodal u_m, force_n;
     for (const Patch& patch : patches_) {
       for (uint32_t i = 0; i < patch.nodes; ++i) {
@@ -49,6 +52,7 @@ class FibreForces {
         if (secant_n_per_m_[f] == 0) continue;
         const Eigen::Array4f gap = weighted(patch.nodes, weights, u_m);
         const float squared = gap.matrix().squaredNorm();
+        largest_m2_ = std::max(largest_m2_, squared);
         if (squared > grows_m2_[f]) grow(f, Vector3d(gap.head<3>().cast<double>()));
         stored_j_ += 0.5 * static_cast<double>(secant_n_per_m_[f] * squared);
         const Eigen::Array4f force = secant_n_per_m_[f] * gap;
@@ -60,6 +64,8 @@ class FibreForces {
   /// Writes the impulses. @returns  work on the tissue [J]
   double apply(TissuePort& port, double dt_s);
   double stored_j() const { return stored_j_; }  ///< elastic energy at the last pull()
+  /// Returns the largest gap of a fibre at the last pull() [m].
+  double largestGap_m() const { return std::sqrt(static_cast<double>(largest_m2_)); }
 
  private:
   using Nodal = std::array<Eigen::Array4f, 2 * TissuePoint::kMost>;
@@ -92,6 +98,7 @@ class FibreForces {
   std::vector<float> weights_;                    ///< of fibres: one per node of the patch, negative in the first body
   std::vector<float> secant_n_per_m_, grows_m2_;  ///< [fibres]
   double stored_j_ = 0;
+  float largest_m2_ = 0;
   // Data of a substep, by node; the fourth number is 0.
   std::vector<Eigen::Array4f, Eigen::aligned_allocator<Eigen::Array4f>> u_m_, impulse_;
   std::vector<Vector3f> read_u_, read_v_;

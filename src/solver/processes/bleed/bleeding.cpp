@@ -8,17 +8,35 @@
 
 #include "math/number_text.h"
 #include "model/body/body_nodes.h"
+#include "model/scene/tool_kinds.h"
 #include "solver/processes/burn/burns.h"
 
 namespace viscera {
 
 namespace {
 
-constexpr double kSqueezed = 0.75;    // spacings at rest from a clip's line that are squeezed: its lines close a layer
-constexpr double kOpaque_m = 3.5e-5;  // depth at which blood with 150 g/l of haemoglobin transmits 1/e of green light
-constexpr double kSeen = 1.0 / 128;   // smallest change of a share that is drawn
+constexpr double kSqueezed = 0.75;   // spacings at rest from a clip's line that are squeezed: its lines close a layer
+constexpr double kSuction_s = 0.1;   // in which 1/e of a film stays: suction of litres a minute has no limit here
+constexpr double kSeen = 1.0 / 128;  // smallest change of a share that is drawn
 constexpr double kMlPerM3 = 1e6;
 constexpr double kSecondsPerMinute = 60;
+
+/// What distinguishes the fluids, in the order of Fluid.
+struct FluidTraits {
+  const char* name;  ///< of its facts and of its section of saved states
+  const char* lost;  ///< fact: what has flowed out
+  PaintKind paint;
+  double viscosity_m2_per_s;
+  double opaque_m;  ///< depth at which it transmits 1/e of the light
+};
+constexpr FluidTraits kFluids[] = {
+    {"bleeding", "bled_ml", PaintKind::kBlood, kBloodViscosity_m2_per_s, 3.5e-5},  // green light, 150 g/l haemoglobin
+    {"bile", "bile_ml", PaintKind::kBile, 2e-6, 1e-4},                             // 2 mPa s over 1 kg/l; by eye
+};
+
+const FluidTraits& traitsOf(Fluid fluid) {
+  return kFluids[static_cast<size_t>(fluid)];
+}
 
 double distance_m(const Vector3d& to, const std::array<Vector3d, 2>& line) {
   const Vector3d along = line[1] - line[0];
@@ -29,14 +47,18 @@ double distance_m(const Vector3d& to, const std::array<Vector3d, 2>& line) {
 
 }  // namespace
 
-Bleeding::Bleeding(const Model& model, const Vector3d& gravity_m_per_s2, double tick_s)
+Bleeding::Bleeding(const Model& model, const std::vector<StylusConfig>& styluses, const Vector3d& gravity_m_per_s2,
+                   double tick_s, Fluid fluid)
     : model_(model),
+      styluses_(styluses),
       tick_s_(tick_s),
+      fluid_(fluid),
       graph_(model, 1),
-      vessels_(model, graph_),
-      film_(model, graph_, gravity_m_per_s2),
+      vessels_(model, graph_, fluid),
+      film_(model, graph_, gravity_m_per_s2, traitsOf(fluid).viscosity_m2_per_s),
       is_cut_(graph_.links.size(), 0),
-      is_closed_(model.slots(), 0) {}
+      is_closed_(model.slots(), 0),
+      left_m3_(vessels_.supplies_m3()) {}
 
 void Bleeding::cutsChanged(const CutSprings& cuts) {
   bool changed = false;
@@ -72,28 +94,70 @@ void Bleeding::detectClosed(const Clips* clips, const HeatField* heat) {
   }
 }
 
-bool Bleeding::endTick(TissuePort&, const ProcessTick&, const TissueProcesses& all) {
+/// Returns the share of a vessel's fluid that is left; 1 where it does not end.
+double Bleeding::fullness(uint32_t group) const {
+  const double all_m3 = vessels_.supplies_m3()[group];
+  return all_m3 > 0 ? left_m3_[group] / all_m3 : 1;
+}
+
+/// Lets a tick's fluid out. Where it ends, the flow falls with what is left, as out of an elastic bag: exponentially.
+void Bleeding::leak() {
+  std::vector<double> full_m3(left_m3_.size(), 0);
+  for (const Vessels::Leak& leak : leaks_.of_nodes) full_m3[leak.group] += leak.m3_per_s * tick_s_;
+  std::vector<double> share(left_m3_.size(), 1);  // of the flow of a full vessel
+  for (size_t group = 0; group < left_m3_.size(); ++group) {
+    const double all_m3 = vessels_.supplies_m3()[group];
+    if (all_m3 <= 0 || full_m3[group] <= 0) continue;
+    const double out_m3 = left_m3_[group] * -std::expm1(-full_m3[group] / all_m3);
+    share[group] = out_m3 / full_m3[group];
+    left_m3_[group] -= out_m3;
+  }
+  for (const Vessels::Leak& leak : leaks_.of_nodes) {
+    const double m3 = leak.m3_per_s * tick_s_ * share[leak.group];
+    film_.give(leak.slot, m3);
+    bled_m3_ += m3;
+  }
+}
+
+/// Takes fluid from the nodes within reach of tools that suck.
+void Bleeding::suck(const TissuePort& port, const ToolMotions& motions) {
+  const auto sucks = [](const StylusMotion& motion) { return motion.present && kindOf(motion.mode).sucks; };
+  if (std::none_of(motions.begin(), motions.end(), sucks)) return;
+  const std::vector<uint32_t>& wet = film_.wet();
+  std::vector<Vector3f> u_m(wet.size()), v_m_per_s(wet.size());
+  port.readNodes(wet, u_m, v_m_per_s);
+  const double share = -std::expm1(-tick_s_ / kSuction_s);
+  for (size_t s = 0; s < styluses_.size(); ++s) {
+    if (!sucks(motions[s])) continue;
+    const double reach_m = kindOf(motions[s].mode).reach_m(styluses_[s]);
+    for (size_t i = 0; i < wet.size(); ++i) {
+      const Vector3d at_m = vessels_.rest_m(wet[i]) + u_m[i].cast<double>();
+      if ((at_m - motions[s].to.position_m).norm() <= reach_m) suctioned_m3_ += film_.take(wet[i], share);
+    }
+  }
+}
+
+bool Bleeding::endTick(TissuePort& port, const ProcessTick& tick, const TissueProcesses& all) {
   const Burns* const burns = findProcess<Burns>(all);
   detectClosed(findProcess<Clips>(all), burns ? &burns->heat() : nullptr);
   if (std::exchange(is_stale_, false)) leaks_ = vessels_.find(is_cut_, is_closed_);
-  for (const Vessels::Leak& leak : leaks_.of_nodes) {
-    film_.give(leak.slot, leak.m3_per_s * tick_s_);
-    bled_m3_ += leak.m3_per_s * tick_s_;
-  }
+  leak();
   if (film_.wet().empty()) return false;
   film_.step(tick_s_);
+  suck(port, tick.motions);
   updateVisuals();
   return false;
 }
 
 void Bleeding::updateVisuals() {
   std::vector<float> shares(model_.slots(), 0);
+  const FluidTraits& traits = traitsOf(fluid_);
   bool changed = !paint_;
   for (const uint32_t slot : film_.wet()) {
-    shares[slot] = static_cast<float>(1 - std::exp(-film_.thickness_m(slot) / kOpaque_m));
+    shares[slot] = static_cast<float>(1 - std::exp(-film_.thickness_m(slot) / traits.opaque_m));
     changed = changed || std::abs(static_cast<double>(shares[slot] - paint_->shares[slot])) > kSeen;
   }
-  if (changed) paint_ = std::make_shared<const NodePaint>(NodePaint{PaintKind::kBlood, std::move(shares)});
+  if (changed) paint_ = std::make_shared<const NodePaint>(NodePaint{traits.paint, std::move(shares)});
 }
 
 BloodReport Bleeding::seen() const {
@@ -101,7 +165,9 @@ BloodReport Bleeding::seen() const {
   out.bled_ml = kMlPerM3 * bled_m3_;
   out.on_tissue_ml = kMlPerM3 * film_.onTissue_m3();
   out.dripped_ml = kMlPerM3 * film_.dripped_m3();
-  for (const Vessels::Leak& leak : leaks_.of_nodes) out.flow_ml_per_min += kMlPerM3 * kSecondsPerMinute * leak.m3_per_s;
+  out.suctioned_ml = kMlPerM3 * suctioned_m3_;
+  for (const Vessels::Leak& leak : leaks_.of_nodes)
+    out.flow_ml_per_min += kMlPerM3 * kSecondsPerMinute * leak.m3_per_s * fullness(leak.group);
   out.stumps = leaks_.stumps;
   return out;
 }
@@ -114,15 +180,18 @@ void Bleeding::reset() {
   coagulated_ = 0;
   is_stale_ = true;
   leaks_ = {};
-  bled_m3_ = 0;
+  bled_m3_ = suctioned_m3_ = 0;
+  left_m3_ = vessels_.supplies_m3();
   if (paint_)
-    paint_ = std::make_shared<const NodePaint>(NodePaint{PaintKind::kBlood, std::vector<float>(model_.slots(), 0)});
+    paint_ = std::make_shared<const NodePaint>(NodePaint{paint_->kind, std::vector<float>(model_.slots(), 0)});
 }
 
 void Bleeding::persist(Archive& archive) {
-  archive.section("bleeding");
+  archive.section(traitsOf(fluid_).name);
   if (archive.reads()) reset();
   archive.value(bled_m3_);
+  archive.value(suctioned_m3_);
+  archive.values(left_m3_);
   film_.persist(archive);
   if (archive.reads() && !film_.wet().empty()) updateVisuals();
 }
@@ -135,10 +204,12 @@ bool Bleeding::addTo(StateHash& hash) const {
 
 FactGroup Bleeding::facts() const {
   const BloodReport blood = seen();
-  FactGroup out{"bleeding", fixedText(blood.bled_ml, 1) + " ml, " + fixedText(blood.flow_ml_per_min, 0) + " ml/min"};
-  out.facts = {{"bled_ml", blood.bled_ml},
+  const FluidTraits& traits = traitsOf(fluid_);
+  FactGroup out{traits.name, fixedText(blood.bled_ml, 1) + " ml, " + fixedText(blood.flow_ml_per_min, 0) + " ml/min"};
+  out.facts = {{traits.lost, blood.bled_ml},
                {"on_tissue_ml", blood.on_tissue_ml},
                {"dripped_ml", blood.dripped_ml},
+               {"suctioned_ml", blood.suctioned_ml},
                {"flow_ml_per_min", blood.flow_ml_per_min},
                {"stumps", blood.stumps}};
   return out;

@@ -13,9 +13,8 @@ namespace viscera {
 
 namespace {
 
-constexpr double kViscosity_m2_per_s = 3.3e-6;  // whole blood at a high shear rate, 3.5 mPa s over 1060 kg/m3
-constexpr double kClings_m = 1e-5;              // a film no thicker than the width of a red cell does not flow
-constexpr int kSubsteps = 4;                    // per tick
+constexpr double kClings_m = 1e-5;    // a film no thicker than the width of a red cell does not flow
+constexpr int kSubsteps = 4;          // per tick
 constexpr double kMostLeaves = 0.5;   // of a node's blood leaves it per substep, at most: two spacings in a tick
 constexpr double kFacesDown = 0.3;    // cosine: exceeded by edges of flat tissue, not by walls
 constexpr double kOverAnEdge = -0.1;  // cosine: the same of the edges of a flat sheet
@@ -28,9 +27,10 @@ bool isSheet(const Body& body) {
 
 }  // namespace
 
-BloodFilm::BloodFilm(const Model& model, const HeatGraph& graph, const Vector3d& gravity_m_per_s2)
+BloodFilm::BloodFilm(const Model& model, const HeatGraph& graph, const Vector3d& gravity_m_per_s2,
+                     double viscosity_m2_per_s)
     : graph_(graph),
-      speed_per_m2_s_(gravity_m_per_s2.norm() / (3 * kViscosity_m2_per_s)),
+      speed_per_m2_s_(gravity_m_per_s2.norm() / (3 * viscosity_m2_per_s)),
       rest_m_(model.slots(), Vector3d::Zero()),
       height_m_(model.slots(), 0),
       drip_cos_(model.slots(), kFacesDown),
@@ -107,6 +107,12 @@ void BloodFilm::wetten(uint32_t slot) {
 void BloodFilm::give(uint32_t slot, double m3) {
   wetten(slot);
   volume_m3_[slot] += m3;
+}
+
+double BloodFilm::take(uint32_t slot, double share) {
+  const double out_m3 = share * volume_m3_[slot];
+  volume_m3_[slot] -= out_m3;
+  return out_m3;
 }
 
 void BloodFilm::step(double dt_s) {

@@ -12,23 +12,29 @@
 
 namespace viscera {
 
-/// Blood on the surface of tissue at rest, as a film that flows down it (docs/lessons/instruments.md, The film). All
-/// blood given is on the tissue or has dripped off.
+constexpr double kBloodViscosity_m2_per_s = 3.3e-6;  // whole blood at a high shear rate, 3.5 mPa s over 1060 kg/m3
+
+/// Blood, or another fluid, on the surface of tissue at rest, as a film that flows down it
+/// (docs/lessons/instruments.md, The film). All that was given is on the tissue, was taken, or has dripped off.
 class BloodFilm {
  public:
   /// @param model, graph  as of Vessels; must outlive it   @param gravity_m_per_s2  tissue frame
-  BloodFilm(const Model& model, const HeatGraph& graph, const Vector3d& gravity_m_per_s2);
+  /// @param viscosity_m2_per_s  kinematic
+  BloodFilm(const Model& model, const HeatGraph& graph, const Vector3d& gravity_m_per_s2,
+            double viscosity_m2_per_s = kBloodViscosity_m2_per_s);
 
   /// Sets the cut links. @param is_cut  [links of the graph] their ends are exposed
   void setCuts(const std::vector<uint8_t>& is_cut);
   void give(uint32_t slot, double m3);
+  /// Takes a share of a node's fluid away, 0 .. 1. @returns its volume [m3]
+  double take(uint32_t slot, double share);
   void step(double dt_s);
 
   double volume_m3(uint32_t slot) const { return volume_m3_[slot]; }
   double onTissue_m3() const;
   double dripped_m3() const { return dripped_m3_; }
   double thickness_m(uint32_t slot) const;
-  /// Returns slots that ever had blood, in that order.
+  /// Returns slots that ever had some of it, in that order.
   const std::vector<uint32_t>& wet() const { return wet_; }
 
   void reset();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <utility>
 
 #include "model/body/body_nodes.h"
@@ -15,6 +16,11 @@ namespace {
 constexpr double kVesselPi = 3.14159265358979323846;
 constexpr double kM3PerMl = 1e-6;
 constexpr double kMinute_s = 60;
+
+/// Returns whether it leaks a fluid.
+bool leaks(const BleedingConfig& bleeding, Fluid fluid) {
+  return bleeding.flow_ml_per_min > 0 && bleeding.fluid == fluid;
+}
 
 /// Returns [labels] the bleeding of each part; 0 is no part.
 std::vector<BleedingConfig> bleedingByLabel(const Body& body) {
@@ -45,7 +51,7 @@ double lengthOf_m(const std::vector<Vector3d>& rest_m, const std::vector<uint32_
 
 }  // namespace
 
-Vessels::Vessels(const Model& model, const HeatGraph& graph)
+Vessels::Vessels(const Model& model, const HeatGraph& graph, Fluid fluid)
     : graph_(graph),
       rest_m_(model.slots(), Vector3d::Zero()),
       of_slots_(model.slots()),
@@ -55,15 +61,26 @@ Vessels::Vessels(const Model& model, const HeatGraph& graph)
     const uint32_t offset = model.slotOffset(b);
     forEachNode(body, [&](uint32_t slot) { rest_m_[offset + slot] = restPosition(body, slot); });
     if (hasOwnNetwork(body)) {
-      addNetwork(body, offset);
+      addNetwork(body, offset, fluid);
     } else {
-      addCells(body, offset);
+      addCells(body, offset, fluid);
     }
   }
   const std::vector<uint8_t> whole(graph.links.size(), 0), open(of_slots_.size(), 0);
   for (const Piece& piece : pieces(whole, open)) {
     for (const uint32_t slot : piece.slots) of_slots_[slot].group = static_cast<uint32_t>(group_is_held_.size());
     group_is_held_.push_back(piece.is_held);
+  }
+  sumSupplies();
+}
+
+/// Sums the fluid of the parts of each group. A part in several groups has its fluid in each of them.
+void Vessels::sumSupplies() {
+  supplies_m3_.assign(group_is_held_.size(), 0);
+  std::set<std::pair<uint32_t, uint32_t>> added;
+  for (const uint32_t slot : nodes_) {
+    const Node& node = of_slots_[slot];
+    if (added.emplace(node.group, node.part).second) supplies_m3_[node.group] += part_volumes_m3_[node.part];
   }
 }
 
@@ -88,12 +105,14 @@ void Vessels::addPart(const Body& body, uint32_t offset, const std::vector<uint3
     if (node.flow_m3_per_s == 0) nodes_.push_back(offset + slot);
     node.flow_m3_per_s = bleeding.flow_ml_per_min * kM3PerMl / kMinute_s;
     node.section_m2 = section_m2;
+    node.part = static_cast<uint32_t>(part_volumes_m3_.size());
     node.is_held = (body.lattice.nodes[slot].lo & layout::kFixedBit) != 0;
   }
+  part_volumes_m3_.push_back(bleeding.volume_ml * kM3PerMl);
 }
 
 /// Adds the sections of cells: a cell gives each of its edges a quarter of its faces.
-void Vessels::addCells(const Body& body, uint32_t offset) {
+void Vessels::addCells(const Body& body, uint32_t offset, Fluid fluid) {
   const Lattice& lattice = body.lattice;
   const std::vector<BleedingConfig> by_label = bleedingByLabel(body);
   std::vector<double> volumes_m3(by_label.size(), 0);
@@ -101,7 +120,7 @@ void Vessels::addCells(const Body& body, uint32_t offset) {
   const double face_m2 = lattice.spacing_m * lattice.spacing_m;
   for (const uint32_t cell : lattice.active_slots) {
     const uint16_t label = lattice.cell_labels[cell];
-    if (label == 0 || by_label[label].flow_ml_per_min == 0) continue;
+    if (label == 0 || !leaks(by_label[label], fluid)) continue;
     const double share = fillOf(lattice, cell).share;
     volumes_m3[label] += share * face_m2 * lattice.spacing_m;
     std::array<uint32_t, 8> corners{};
@@ -123,8 +142,8 @@ void Vessels::addCells(const Body& body, uint32_t offset) {
 
 /// Adds the sections of a network, scaled for isotropic conduction: their sum of area times direction across a plane
 /// equals that of the plane.
-void Vessels::addNetwork(const Body& body, uint32_t offset) {
-  if (body.material.bleeding.flow_ml_per_min == 0) return;
+void Vessels::addNetwork(const Body& body, uint32_t offset, Fluid fluid) {
+  if (!leaks(body.material.bleeding, fluid)) return;
   std::vector<uint32_t> slots;
   double volume_m3 = 0;
   forEachNode(body, [&](uint32_t slot) {
@@ -169,8 +188,8 @@ Vector3d Vessels::open_m2(uint32_t slot, const std::vector<uint8_t>& is_cut) con
   return out;
 }
 
-/// Finds the leaks. Blood comes from where a vessel is fixed, as it continues there beyond the scene. Of a vessel that
-/// is fixed nowhere, the largest piece has the blood.
+/// Finds the leaks. Fluid comes from where a vessel is fixed, as it continues there beyond the scene. Of a vessel that
+/// is fixed nowhere, the largest piece has the fluid.
 Vessels::Leaks Vessels::find(const std::vector<uint8_t>& is_cut, const std::vector<uint8_t>& is_closed) const {
   const std::vector<Piece> all = pieces(is_cut, is_closed);
   std::vector<const Piece*> largest(group_is_held_.size(), nullptr);
@@ -189,7 +208,7 @@ Vessels::Leaks Vessels::find(const std::vector<uint8_t>& is_cut, const std::vect
       const Node& node = of_slots_[slot];
       const double flow_m3_per_s = node.flow_m3_per_s * open_m2(slot, is_cut).norm() / node.section_m2;
       if (flow_m3_per_s == 0) continue;
-      out.of_nodes.push_back({slot, flow_m3_per_s});
+      out.of_nodes.push_back({slot, flow_m3_per_s, group});
       sum_m3_per_s += flow_m3_per_s;
       most_m3_per_s = std::max(most_m3_per_s, node.flow_m3_per_s);
     }

@@ -11,7 +11,6 @@
 #include "solver/processes/attach/attached_blocks.h"
 #include "solver/processes/attach/attachments.h"
 #include "solver/processes/attach/cohesive_law.h"
-#include "solver/reference/reference_ticks.h"
 #include "support/text.h"
 #include "viscera/math/error.h"
 #include "viscera/model/body/elasticity.h"
@@ -88,20 +87,6 @@ TEST_P(GluedBlocks, DeformAsOne) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Ratios, GluedBlocks, ::testing::Values(1, 2, 3));
-
-/// Returns two free blocks, grown together, without damping.
-Scene freeBlocks(const std::string& glue) {
-  // The tissue's own dashpots keep momentum, but not angular momentum.
-  const char* const kUndamped =
-      "material: {young_modulus_pa: 5000, poisson_ratio: 0.4, density_kg_per_m3: 1000, mass_damping_per_s: 0, "
-      "stiffness_damping_ratio: 0}";
-  return parseScene("bodies:\n" + boxText("low", {0.012, 0.012, 0.008}, 0, 0.004, kUndamped) +
-                        boxText("top", {0.012, 0.012, 0.008}, 0.008, 0.002, kUndamped) +
-                        "attachments: [{body_a: low, body_b: top, " + glue +
-                        "}]\nenvironment: {gravity_m_per_s2: [0, 0, 0]}\nstyluses: [{name: hand, idle: none}]\n"
-                        "solver: {backend: cpu, threads: 1, sleep_speed_m_per_s: 0}\n",
-                    "free.yaml");
-}
 
 struct Totals {
   Vector3d momentum = Vector3d::Zero(), angular = Vector3d::Zero();  ///< N s, N m s
@@ -188,26 +173,10 @@ TEST(Attachments, DoNotTearUnderPressure) {
 }
 
 TEST(Attachments, ActOnTheReferenceAsOnTheCpu) {
-  Scene scene = freeBlocks("modulus_pa: 5000, strength_pa: 500, toughness_j_per_m2: 0.5");
-  scene.solver.stability_monitor = scene.solver.measured_limit = false;
-  scene.bodies[0].fixed.resize(1);
-  scene.bodies[0].fixed[0].shape = FixedShape::kPlane;
-  scene.environment.gravity_m_per_s2 = {3, 0, 9};
+  const Scene scene = loadedBlocks();
   const Model model = buildModel(scene);
   CpuSolver solver(model, scene);
-  ReferenceTicks reference(model, scene);
-  for (int t = 0; t < 8; ++t) {
-    solver.step(ToolMotions{});
-    reference.step(ToolMotions{}, {});
-  }
-  const HostState state = solver.readState();
-  double off_m = 0, most_m = 0;
-  for (const uint32_t slot : reference.solver().active) {
-    off_m = std::max(off_m, (xyz(state.displacement_m[slot]) - reference.solver().u_m[slot]).norm());
-    most_m = std::max(most_m, reference.solver().u_m[slot].norm());
-  }
-  EXPECT_GT(most_m, 1e-4);
-  EXPECT_LT(off_m, 1e-3 * most_m);
+  expectToMoveAsTheReference(model, scene, solver, 8);
 }
 
 TEST(Attachments, GoOnFromASavedState) {
@@ -289,8 +258,6 @@ TEST(Attachments, RefuseWhatTheyCannotJoin) {
       says(attachmentRefusal("body_a: low, body_b: cloth"), {"'body_b' must name a body of structure lattice"}));
   EXPECT_TRUE(says(attachmentRefusal(both), {"attachments[0]: ", "within reach_m = 0.001 m", "0.003 m away"}));
   EXPECT_TRUE(says(attachmentRefusal(both + ", reach_m: 0.005"), {"reach_m is 0.005 m", "at most 0.004 m"}));
-  EXPECT_TRUE(
-      says(attachmentRefusal(both, "solver: {backend: gpu}\n"), {"attachments needs solver.backend auto or cpu"}));
   EXPECT_TRUE(
       says(attachmentRefusal(both, "solver: {integrator: pd}\n"), {"attachments needs solver.integrator leapfrog"}));
   EXPECT_TRUE(says(attachmentRefusal(both, "collision: {enabled: true}\n"), {"'collision.enabled' must be false"}));

@@ -95,6 +95,20 @@ TEST_F(Vessel, IsClosedByAWholeLayerAndNotByHalfOfOne) {
       << "beyond the cut";
 }
 
+/// Parts with another fluid are no part of a vessel; a part's fluid is that of its vessel.
+TEST_F(Vessel, HasTheFluidOfItsParts) {
+  const HeatGraph graph(model_, 1);
+  model_.bodies[0].parts[0].bleeding.volume_ml = 40;
+  EXPECT_TRUE(Vessels(model_, graph, Fluid::kBile).nodes().empty());
+  PartConfig duct{"tissue", 20e3, 0.25, 1060};
+  duct.bleeding = {kFlow, 0.003, Fluid::kBile, 0};
+  model_.bodies[0].parts.push_back(duct);
+  const Vessels blood(model_, graph), bile(model_, graph, Fluid::kBile);
+  ASSERT_EQ(blood.supplies_m3().size(), 1U);
+  EXPECT_DOUBLE_EQ(blood.supplies_m3()[0], 40e-6);
+  EXPECT_EQ(bile.supplies_m3(), std::vector<double>{0}) << "any amount";
+}
+
 class LooseVessel : public Vessel {
  protected:
   LooseVessel() : Vessel("") {}
