@@ -3,6 +3,7 @@
 #pragma once
 
 #include "model/scene/field_ranges.h"
+#include "model/scene/tube_fields.h"
 #include "viscera/model/scene/body_config.h"
 
 namespace viscera {
@@ -169,9 +170,10 @@ void visitFields(V& v, BodyConfig& c) {
        {"box", TissueSource::kBox},
        {"sheet", TissueSource::kSheet},
        {"ball", TissueSource::kBall},
+       {"tube", TissueSource::kTube},
        {"labels", TissueSource::kLabels}},
-      "source of the tissue: a built-in anatomy (`phantom`), a mesh file, a box, a flat sheet, a ball, or labels of a "
-      "scan");
+      "source of the tissue: a built-in anatomy (`phantom`), a mesh file, a box, a flat sheet, a ball, a hollow tube, "
+      "or labels of a scan");
   v.choice("structure", c.structure,
            {{"lattice", Structure::kLattice}, {"explicit", Structure::kExplicit}, {"surface", Structure::kSurface}},
            "structure of the model: a solid lattice; the same lattice with explicit connections (VR05 2.5.1); or "
@@ -219,6 +221,9 @@ void visitFields(V& v, BodyConfig& c) {
   v.vector("box_size_m", c.box_size_m, {1e-4, 10}, "m",
            "box: edge lengths, centred on the body's origin; sheet: lengths along x and y");
   v.number("ball_radius_m", c.ball_radius_m, {1e-4, 10}, "m", "ball: radius, centred on the body's origin");
+  v.group("tube", c.tube, "tube: a hollow, round vessel along a path, with branches; its own part is `tube`");
+  v.group("pressure", c.pressure,
+          "pressure in the lumen of a tube, or in the cavities that tissue encloses (docs/physics.md#18-pressure)");
   v.number("thickness_m", c.thickness_m, {1e-6, 1}, "m",
            "structure surface: thickness of the membrane, which gives mass and stiffness");
   v.number("bending_ratio", c.bending_ratio, {0, 1}, "1",
@@ -243,9 +248,9 @@ void visitFields(V& v, BodyConfig& c) {
            "mapping of the surface mesh to the lattice (docs/surface.md): each vertex follows one node (EGVE 3.2), a "
            "triangle of nodes (eqs 4 to 7), the same turned by approximate normals (eq 8), or these normals alone "
            "(3.5); auto: the corners of the cell where cells are partly tissue, else interpolated");
-  v.number(
-      "skin_spacing_m", c.skin_spacing_m, kLength, "m",
-      "phantom, ball: edge length of the surface mesh, if it is to be finer than the lattice; 0: that of the lattice");
+  v.number("skin_spacing_m", c.skin_spacing_m, kLength, "m",
+           "phantom, ball, tube: edge length of the surface mesh, if it is to be finer than the lattice; 0: that of "
+           "the lattice");
   v.vector("position_m", c.position_m, kCoordinate, "m", "position of the body's origin in the tissue frame");
   v.vector("rotation_deg", c.rotation_deg, kAngle, "deg",
            "rotation of the body: turns about the fixed x, then y, then z axis");

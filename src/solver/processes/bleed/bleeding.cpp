@@ -9,6 +9,7 @@
 #include "math/number_text.h"
 #include "model/body/body_nodes.h"
 #include "solver/processes/burn/burns.h"
+#include "solver/processes/pressure/pressures.h"
 
 namespace viscera {
 
@@ -76,6 +77,7 @@ bool Bleeding::endTick(TissuePort&, const ProcessTick&, const TissueProcesses& a
   const Burns* const burns = findProcess<Burns>(all);
   detectClosed(findProcess<Clips>(all), burns ? &burns->heat() : nullptr);
   if (std::exchange(is_stale_, false)) leaks_ = vessels_.find(is_cut_, is_closed_);
+  if (const Pressures* const pressures = findProcess<Pressures>(all)) flowByPressure(*pressures);
   for (const Vessels::Leak& leak : leaks_.of_nodes) {
     film_.give(leak.slot, leak.m3_per_s * tick_s_);
     bled_m3_ += leak.m3_per_s * tick_s_;
@@ -84,6 +86,16 @@ bool Bleeding::endTick(TissuePort&, const ProcessTick&, const TissueProcesses& a
   film_.step(tick_s_);
   updateVisuals();
   return false;
+}
+
+/// Lets blood flow out of bodies with pressure as their lumens do, in this tick.
+void Bleeding::flowByPressure(const Pressures& pressures) {
+  is_stale_ = true;
+  auto& leaks = leaks_.of_nodes;
+  leaks.erase(std::remove_if(leaks.begin(), leaks.end(), [&](const auto& leak) { return pressures.owns(leak.slot); }),
+              leaks.end());
+  for (const Pressures::Leak& leak : pressures.leaks()) leaks.push_back({leak.slot, leak.m3_per_s});
+  leaks_.stumps = pressures.openStations();
 }
 
 void Bleeding::updateVisuals() {

@@ -17,6 +17,8 @@
 
 namespace viscera {
 
+class Pressures;
+
 /// Blood that flows out of cut vessels, down the tissue and off it, until clips or burns stop it
 /// (docs/lessons/instruments.md). It exerts no forces. Exists only if some part bleeds.
 class Bleeding : public TissueProcess {
@@ -39,6 +41,7 @@ class Bleeding : public TissueProcess {
 
  private:
   void detectClosed(const Clips* clips, const HeatField* heat);
+  void flowByPressure(const Pressures& pressures);
   void updateVisuals();
 
   const Model& model_;
