@@ -22,7 +22,7 @@ class SurfaceLoads {
   /// @param surfaces  must outlive them
   SurfaceLoads(const Model& model, const std::vector<Cavities>& surfaces);
 
-  /// Vertices of surface s begin here; the centres of its rims follow its own.
+  /// Returns the first vertex of a surface; the centres of its rims follow its own.
   uint32_t firstVertex(size_t surface) const { return first_vertex_[surface]; }
   uint32_t firstTriangle(size_t surface) const { return first_triangle_[surface]; }
   /// Sets the point that carries a vertex. @param vertex  among those of all surfaces, not a centre
