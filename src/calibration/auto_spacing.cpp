@@ -79,6 +79,7 @@ class SubstepRule {
     scene.solver = config_;
     scene.solver.start = SolverStart::kRest;
     scene.attachments.clear();  // the model has not all of their bodies
+    for (BodyConfig& body : scene.bodies) body.pressure = {};  // nor the surfaces of cavities
     return makeSolver(model, scene, context)->dtLimit_s();
   }
   double mostPerSecond(double spacing_m) const {

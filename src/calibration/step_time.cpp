@@ -42,6 +42,7 @@ Scene measuredScene(Scene scene, const Model& model) {
   solver.sleep_speed_m_per_s = 0;
   scene.environment.gravity_m_per_s2.setZero();
   scene.attachments.clear();  // the model may lack one of their bodies
+  for (BodyConfig& body : scene.bodies) body.pressure = {};  // and the surfaces of cavities
   return scene;
 }
 

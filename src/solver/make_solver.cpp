@@ -6,6 +6,7 @@
 #include "model/fracture/tearing.h"
 #include "model/fracture/toughness.h"
 #include "model/scene/integrators.h"
+#include "model/scene/structure_rules.h"
 #include "model/scene/tool_kinds.h"
 #include "solver/cpu/cpu_solver.h"
 #include "solver/cpu/equilibrium.h"
@@ -55,7 +56,8 @@ std::string thinProbeNote(const Model& model, const Scene& scene) {
 Backend chooseBackend(const Scene& scene, const gpu::Context* context) {
   const SolverConfig& config = scene.solver;
   if (config.backend != Backend::kAuto) return config.backend;
-  if (resistsBlades(scene) || tears(scene) || !scene.attachments.empty()) return Backend::kCpu;
+  if (resistsBlades(scene) || tears(scene) || !scene.attachments.empty() || hasPressure(scene.bodies))
+    return Backend::kCpu;
   return !context || context->isSoftware() ? Backend::kCpu : Backend::kGpu;
 }
 
@@ -67,6 +69,7 @@ std::string backendNote(const Scene& scene, const gpu::Context* context, const S
   if (resistsBlades(scene))
     return taken + ", because tissue that resists blades (material.cut) would have to wait for a GPU in every substep";
   if (tears(scene)) return taken + ", because tearing (material.tear) only exists there";
+  if (hasPressure(scene.bodies)) return taken + ", because pressure would have to wait for a GPU in every substep";
   if (!scene.attachments.empty()) return taken + ", because attachments would have to wait for a GPU in every substep";
   if (!context) return taken + ", because there is no OpenGL context";
   return taken +

@@ -34,6 +34,8 @@ bodies:
     phantom_wall_scale: 1.02
     box_size_m: [0.031, 0.032, 0.033]
     ball_radius_m: 0.034
+    tube: {path: [{position_m: [0.0341, 0.0342, 0.0343]}, {position_m: [0.0344, 0.0345, 0.0346]}], radius_m: 0.0347, wall_m: 0.0348, branches: [{name: fork, path: [{position_m: [0.0351, 0.0352, 0.0353]}], radius_m: 0.0354, wall_m: 0.0355}]}
+    pressure: {pulse_pa: 3562, pulse_hz: 3.563}
     thickness_m: 0.0035
     bending_ratio: 0.36
     textures: false
@@ -157,6 +159,7 @@ constexpr const char* kOfLatticesAlone = R"(
 bodies:
   - material: {poisson_ratio: 0.31, law: neo_hookean, stiffening: 4.3, tear: {toughness_j_per_m2: 189},
                prestress: {strain: 0.0821, strains: [0.0822, 0.0823, 0.0824], axes_deg: [82.5, 82.6, 82.7]}}
+    pressure: {mean_pa: 3561}
     parts: [{part: valve, poisson_ratio: 0.32,
              prestress: {strain: 0.0831, strains: [0.0832, 0.0833, 0.0834], axes_deg: [83.5, 83.6, 83.7]}}]
   - {name: bed}
@@ -198,6 +201,16 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(body.source, TissueSource::kMesh);
   EXPECT_EQ(body.structure, Structure::kExplicit);
   EXPECT_EQ(body.mesh_file, "organ.obj");
+  EXPECT_EQ(body.tube.path.at(1).position_m, Vector3d(0.0344, 0.0345, 0.0346));
+  EXPECT_EQ(body.tube.radius_m, 0.0347);
+  EXPECT_EQ(body.tube.wall_m, 0.0348);
+  EXPECT_EQ(body.tube.branches.at(0).name, "fork");
+  EXPECT_EQ(body.tube.branches.at(0).path.at(0).position_m, Vector3d(0.0351, 0.0352, 0.0353));
+  EXPECT_EQ(body.tube.branches.at(0).radius_m, 0.0354);
+  EXPECT_EQ(body.tube.branches.at(0).wall_m, 0.0355);
+  EXPECT_EQ(body.pressure.pulse_pa, 3562);
+  EXPECT_EQ(body.pressure.pulse_hz, 3.563);
+  EXPECT_EQ(parseScene(kOfLatticesAlone, "lattices").bodies.at(0).pressure.mean_pa, 3561);
   EXPECT_EQ(body.scan.file, "scan.nrrd");
   EXPECT_EQ(body.scan.labels, (std::vector<std::string>{"liver", "5"}));
   EXPECT_EQ(body.scan.names_file, "names.txt");

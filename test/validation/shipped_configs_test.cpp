@@ -42,6 +42,7 @@ Scene coarse(const fs::path& file) {
   if (!scene.sutures.empty()) return scene;  // its channels are at fixed positions of the tissue
   for (BodyConfig& body : scene.bodies) {
     if (body.source == TissueSource::kSheet) continue;  // quick to build, and fixed along lines
+    if (body.source == TissueSource::kTube) continue;   // refuses cells wider than its wall
     body.target_nodes = 0;
     body.spacing_m = std::max(body.spacing_m, kCoarseM);
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "model/scene/field_ranges.h"
+#include "model/scene/mark_fields.h"
 #include "viscera/model/scene/body_config.h"
 
 namespace viscera {
@@ -165,6 +166,43 @@ void visitFields(V& v, LayerConfig& c) {
            "the material or part. Not with structure surface");
 }
 
+constexpr double kMostTubeBranches = 32, kMostTubePoints = 200;
+constexpr Range kTubeRadius{1e-4, 1};        // m
+constexpr Range kOwnTubeRadius{0, 1};        // m
+constexpr Range kCavityPressure{0, 200000};  // Pa
+
+template <class V>
+void visitFields(V& v, TubeBranch& c) {
+  v.text("name", c.name, "name of the branch, a part of the body");
+  v.list("path", c.path, kMostTubePoints,
+         "points of the axis of the branch, at least two; the first lies in the lumen of the tube or of an earlier "
+         "branch");
+  v.number("radius_m", c.radius_m, kOwnTubeRadius, "m", "outer radius of the branch; 0: that of the tube");
+  v.number("wall_m", c.wall_m, kOwnTubeRadius, "m", "thickness of its wall; 0: that of the tube");
+}
+
+template <class V>
+void visitFields(V& v, TubeConfig& c) {
+  v.list("path", c.path, kMostTubePoints,
+         "points of the axis, at least two, in the body's own coordinates; a smooth curve goes through them, which may "
+         "not bend tighter than the radius. The tube is open at both ends");
+  v.number("radius_m", c.radius_m, kTubeRadius, "m", "outer radius");
+  v.number("wall_m", c.wall_m, kTubeRadius, "m",
+           "thickness of the wall, at least half a cell; the lumen must be two cells wide");
+  v.list("branches", c.branches, kMostTubeBranches, "hollow branches, with lumens that join that of the tube");
+}
+
+template <class V>
+void visitFields(V& v, PressureConfig& c) {
+  v.number("mean_pa", c.mean_pa, kCavityPressure, "Pa",
+           "mean pressure of the fluid in the cavities of the body over that outside, reached 0.2 s after the start; "
+           "the open ends of a tube are closed by caps that load their rims (docs/physics.md#18-pressure); 0: none. "
+           "Above 0: needs structure lattice, solver.integrator leapfrog, solver.backend cpu or auto, solver.start "
+           "rest");
+  v.number("pulse_pa", c.pulse_pa, kCavityPressure, "Pa", "amplitude of the pulse, added as a sine");
+  v.number("pulse_hz", c.pulse_hz, {0, 20}, "Hz", "frequency of the pulse");
+}
+
 template <class V>
 void visitFields(V& v, BodyConfig& c) {
   v.text("name", c.name, "name of the body, unique");
@@ -175,9 +213,10 @@ void visitFields(V& v, BodyConfig& c) {
        {"box", TissueSource::kBox},
        {"sheet", TissueSource::kSheet},
        {"ball", TissueSource::kBall},
+       {"tube", TissueSource::kTube},
        {"labels", TissueSource::kLabels}},
-      "source of the tissue: a built-in anatomy (`phantom`), a mesh file, a box, a flat sheet, a ball, or labels of a "
-      "scan");
+      "source of the tissue: a built-in anatomy (`phantom`), a mesh file, a box, a flat sheet, a ball, a hollow tube, "
+      "or labels of a scan");
   v.choice("structure", c.structure,
            {{"lattice", Structure::kLattice}, {"explicit", Structure::kExplicit}, {"surface", Structure::kSurface}},
            "structure of the model: a solid lattice; the same lattice with explicit connections (VR05 2.5.1); or "
@@ -225,6 +264,9 @@ void visitFields(V& v, BodyConfig& c) {
   v.vector("box_size_m", c.box_size_m, {1e-4, 10}, "m",
            "box: edge lengths, centred on the body's origin; sheet: lengths along x and y");
   v.number("ball_radius_m", c.ball_radius_m, {1e-4, 10}, "m", "ball: radius, centred on the body's origin");
+  v.group("tube", c.tube, "tube: a hollow, round vessel along a path, with branches; its own part is `tube`");
+  v.group("pressure", c.pressure,
+          "pressure in the lumen of a tube, or in the cavities that tissue encloses (docs/physics.md#18-pressure)");
   v.number("thickness_m", c.thickness_m, {1e-6, 1}, "m",
            "structure surface: thickness of the membrane, which gives mass and stiffness");
   v.number("bending_ratio", c.bending_ratio, {0, 1}, "1",
@@ -249,9 +291,9 @@ void visitFields(V& v, BodyConfig& c) {
            "mapping of the surface mesh to the lattice (docs/surface.md): each vertex follows one node (EGVE 3.2), a "
            "triangle of nodes (eqs 4 to 7), the same turned by approximate normals (eq 8), or these normals alone "
            "(3.5); auto: the corners of the cell where cells are partly tissue, else interpolated");
-  v.number(
-      "skin_spacing_m", c.skin_spacing_m, kLength, "m",
-      "phantom, ball: edge length of the surface mesh, if it is to be finer than the lattice; 0: that of the lattice");
+  v.number("skin_spacing_m", c.skin_spacing_m, kLength, "m",
+           "phantom, ball, tube: edge length of the surface mesh, if it is to be finer than the lattice; 0: that of "
+           "the lattice");
   v.vector("position_m", c.position_m, kCoordinate, "m", "position of the body's origin in the tissue frame");
   v.vector("rotation_deg", c.rotation_deg, kAngle, "deg",
            "rotation of the body: turns about the fixed x, then y, then z axis");

@@ -61,6 +61,11 @@ constexpr Set kCells = in(Structure::kLattice, Structure::kExplicit);
 constexpr Rule kRules[] = {
     {"source: sheet", [](const BodyConfig& b) { return b.source == TissueSource::kSheet; }, nullptr,
      in(Structure::kSurface), kAll, kAll, true, "a sheet has no volume"},
+    {"source: tube", [](const BodyConfig& b) { return b.source == TissueSource::kTube; }, nullptr, kCells, kAll, kAll,
+     true, "a tube has a wall of tissue"},
+    {"pressure.mean_pa above 0", [](const BodyConfig& b) { return b.pressure.mean_pa > 0; }, nullptr,
+     in(Structure::kLattice), in(Integrator::kLeapfrog), in(Backend::kAuto, Backend::kCpu), false,
+     "pressure would have to wait for a GPU in every substep"},
     {"fill: enclosed", [](const BodyConfig& b) { return b.fill == Fill::kEnclosed; }, nullptr, kCells},
     {"parts", [](const BodyConfig& b) { return !b.parts.empty(); }, nullptr, kCells},
     {"layers[].toughness_j_per_m2 above 0",

@@ -270,6 +270,8 @@ void requireConsistent(const std::string& file, const Scene& scene) {
   } catch (const SceneError& error) {
     throw SceneError(file + ": " + error.what());
   }
+  if (hasPressure(scene.bodies) && scene.solver.start == SolverStart::kEquilibrium)
+    throw SceneError(file + ": 'solver.start' must be rest with 'pressure'; equilibrium is found without it");
   for (const BodyConfig& body : scene.bodies) requireStableSubstep(file, scene.solver, body);
   for (const CameraConfig& camera : scene.cameras) {
     requireLens(file, camera);

@@ -47,6 +47,12 @@ bool mayBleed(const Bodies& bodies, Fluid fluid) {
   });
 }
 
+/// Returns whether some body of a scene has pressure in its cavities.
+template <class Bodies>
+bool hasPressure(const Bodies& bodies) {
+  return std::any_of(bodies.begin(), bodies.end(), [](const auto& body) { return body.pressure.mean_pa > 0; });
+}
+
 /// Returns what the body's structure cannot be combined with, for a person; empty: no fault.
 std::string structureFault(const BodyConfig& body);
 

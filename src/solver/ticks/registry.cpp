@@ -12,6 +12,7 @@
 #include "solver/processes/bleed/bleeding.h"
 #include "solver/processes/burn/burns.h"
 #include "solver/processes/clip/clips.h"
+#include "solver/processes/pressure/pressures.h"
 #include "solver/processes/suture/suture_bodies.h"
 #include "viscera/model/scene/scene.h"
 
@@ -24,6 +25,18 @@ struct Setup {
   const Model& model;
   bool tools;
 };
+
+/// Returns [bodies] whether they are tubes.
+std::vector<uint8_t> hollowBodies(const Setup& setup) {
+  std::vector<uint8_t> out;
+  for (const Body& body : setup.model.bodies) {
+    const auto& all = setup.scene.bodies;
+    out.push_back(std::any_of(all.begin(), all.end(), [&](const BodyConfig& config) {
+      return config.name == body.name && config.source == TissueSource::kTube;
+    }));
+  }
+  return out;
+}
 
 struct Kind {
   bool (*has)(const Setup&);  ///< whether a scene has it
@@ -47,13 +60,17 @@ constexpr Kind kKinds[] = {
      [](const Setup& setup) -> std::unique_ptr<TissueProcess> {
        return std::make_unique<Attachments>(setup.scene, setup.model);
      }},
+    {[](const Setup& setup) { return hasPressure(setup.scene.bodies); }, ProcessActs::kAlways,
+     [](const Setup& setup) -> std::unique_ptr<TissueProcess> {
+       return std::make_unique<Pressures>(setup.scene, setup.model);
+     }},
     {[](const Setup& setup) { return !setup.scene.sutures.empty(); }, ProcessActs::kAlways,
      [](const Setup& setup) -> std::unique_ptr<TissueProcess> {
        return std::make_unique<SutureBodies>(setup.scene, &setup.model);
      }},
     {[](const Setup& setup) { return mayClip(setup.scene.styluses); }, ProcessActs::kAlways,
      [](const Setup& setup) -> std::unique_ptr<TissueProcess> {
-       return std::make_unique<Clips>(setup.scene.styluses, setup.model);
+       return std::make_unique<Clips>(setup.scene.styluses, setup.model, hollowBodies(setup));
      }},
     {[](const Setup& setup) { return mayBleed(setup.model.bodies, Fluid::kBlood); }, ProcessActs::kWithTools,
      [](const Setup& setup) { return bleedingOf(setup, Fluid::kBlood); }},

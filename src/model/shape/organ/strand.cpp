@@ -19,18 +19,23 @@ T curvePoint(const T& a, const T& b, const T& c, const T& d, double t) {
 
 }  // namespace
 
-Strand::Strand(const std::vector<Knot>& knots, double far) : far_(far) {
-  points_ = {knots.front()};
+std::vector<Strand::Knot> curveThrough(const std::vector<Strand::Knot>& knots, int pieces) {
+  using Knot = Strand::Knot;
+  std::vector<Knot> out = {knots.front()};
   for (size_t i = 1; i < knots.size(); ++i) {
     const Knot &from = knots[i - 1], &to = knots[i];
     const Knot before = i > 1 ? knots[i - 2] : Knot{2 * from.at - to.at, from.radius};
     const Knot after = i + 1 < knots.size() ? knots[i + 1] : Knot{2 * to.at - from.at, to.radius};
-    for (int k = 1; k <= kPiecesPerSpan; ++k) {
-      const double t = static_cast<double>(k) / kPiecesPerSpan;
-      points_.push_back({curvePoint(before.at, from.at, to.at, after.at, t),
-                         curvePoint(before.radius, from.radius, to.radius, after.radius, t)});
+    for (int k = 1; k <= pieces; ++k) {
+      const double t = static_cast<double>(k) / pieces;
+      out.push_back({curvePoint(before.at, from.at, to.at, after.at, t),
+                     curvePoint(before.radius, from.radius, to.radius, after.radius, t)});
     }
   }
+  return out;
+}
+
+Strand::Strand(const std::vector<Knot>& knots, double far) : points_(curveThrough(knots, kPiecesPerSpan)), far_(far) {
   for (const Knot& point : points_) {
     box_.extend(point.at - Vector3d::Constant(point.radius));
     box_.extend(point.at + Vector3d::Constant(point.radius));

@@ -35,4 +35,8 @@ class Strand {
   double far_ = 0;
 };
 
+/// Returns the ends of straight pieces of the smooth curve through knots (Catmull-Rom). @param knots  at least two
+/// @param pieces  between two knots
+std::vector<Strand::Knot> curveThrough(const std::vector<Strand::Knot>& knots, int pieces);
+
 }  // namespace viscera

@@ -12,6 +12,7 @@
 #include "model/shape/organ/label_mesh.h"
 #include "model/shape/organ/placing.h"
 #include "model/shape/organ/plain_tissue.h"
+#include "model/shape/organ/tube_tissue.h"
 #include "model/shape/solid/joined_parts.h"
 #include "model/shape/solid/solid_shell.h"
 #include "viscera/math/error.h"
@@ -196,7 +197,7 @@ std::unique_ptr<Tissue> tissueOf(const BodyConfig& config, const std::string& fo
     case TissueSource::kBall:
       return ballTissue(config);
     case TissueSource::kTube:
-      break;
+      return tubeTissue(config);
     case TissueSource::kBox:
       return boxTissue(config);
   }

@@ -10,6 +10,7 @@
 #include "model/body/body_nodes.h"
 #include "model/scene/tool_kinds.h"
 #include "solver/processes/burn/burns.h"
+#include "solver/processes/pressure/pressures.h"
 
 namespace viscera {
 
@@ -141,12 +142,24 @@ bool Bleeding::endTick(TissuePort& port, const ProcessTick& tick, const TissuePr
   const Burns* const burns = findProcess<Burns>(all);
   detectClosed(findProcess<Clips>(all), burns ? &burns->heat() : nullptr);
   if (std::exchange(is_stale_, false)) leaks_ = vessels_.find(is_cut_, is_closed_);
+  if (const Pressures* const pressures = findProcess<Pressures>(all)) flowByPressure(*pressures);
   leak();
   if (film_.wet().empty()) return false;
   film_.step(tick_s_);
   suck(port, tick.motions);
   updateVisuals();
   return false;
+}
+
+/// Lets blood flow out of bodies with pressure as their lumens do, in this tick.
+void Bleeding::flowByPressure(const Pressures& pressures) {
+  if (fluid_ != Fluid::kBlood) return;
+  is_stale_ = true;
+  auto& leaks = leaks_.of_nodes;
+  leaks.erase(std::remove_if(leaks.begin(), leaks.end(), [&](const auto& leak) { return pressures.owns(leak.slot); }),
+              leaks.end());
+  for (const Pressures::Leak& leak : pressures.leaks()) leaks.push_back({leak.slot, leak.m3_per_s, vessels_.groupOf(leak.slot)});
+  leaks_.stumps = pressures.openStations();
 }
 
 void Bleeding::updateVisuals() {

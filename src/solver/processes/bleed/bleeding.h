@@ -18,6 +18,8 @@
 
 namespace viscera {
 
+class Pressures;
+
 /// Blood, or bile, that flows out of cut vessels, down the tissue and off it, until clips or burns stop it
 /// (docs/lessons/instruments.md). It exerts no forces. A scene has one of these for each fluid of its parts.
 class Bleeding : public TissueProcess {
@@ -45,6 +47,7 @@ class Bleeding : public TissueProcess {
   void leak();
   void suck(const TissuePort& port, const ToolMotions& motions);
   void detectClosed(const Clips* clips, const HeatField* heat);
+  void flowByPressure(const Pressures& pressures);
   void updateVisuals();
 
   const Model& model_;

@@ -21,6 +21,9 @@ class Vessels {
   const std::vector<uint32_t>& nodes() const { return nodes_; }          ///< slots in the solver's buffers
   const Vector3d& rest_m(uint32_t slot) const { return rest_m_[slot]; }  ///< tissue frame
 
+  /// Returns the connected component of uncut vessels that a node is in; 0 also outside of vessels.
+  uint32_t groupOf(uint32_t slot) const { return of_slots_[slot].group; }
+
   /// Flow out of a node.
   struct Leak {
     uint32_t slot = 0;

@@ -26,6 +26,7 @@ constexpr double kNearest_m = 1e-7;       // sides that are nearer have no direc
 constexpr double kColumn = 0.5;           // spacings across the jaws' direction: nodes that near hide those behind them
 constexpr double kFacing = 0.75;   // spacings, the same: nodes that near are in one column, also in rotated lattices
 constexpr double kSlab = 0.5001;   // spacings on either side of a clip's middle, wide enough to contain a layer
+constexpr int kLineSamples = 16;   // on a line through a hollow vessel
 constexpr double kLeg_m = 0.0005;  // length by which a clip extends beyond the held tissue, and distance outside it
 
 /// Returns the distance of two positions projected along x.
@@ -35,8 +36,13 @@ double apartAcross_m(const Vector3d& a, const Vector3d& b) {
 
 }  // namespace
 
-Clips::Clips(const std::vector<StylusConfig>& styluses, const Model& model)
-    : styluses_(styluses), model_(model), spacing_m_(longestSpacing(model)), points_(model), blades_(styluses) {}
+Clips::Clips(const std::vector<StylusConfig>& styluses, const Model& model, std::vector<uint8_t> hollow)
+    : styluses_(styluses),
+      model_(model),
+      hollow_(std::move(hollow)),
+      spacing_m_(longestSpacing(model)),
+      points_(model),
+      blades_(styluses) {}
 
 /// Finds the jaws that close in this tick, and records the positions of clips, for blades.
 void Clips::beginTick(const ProcessTick& tick) {
@@ -151,11 +157,27 @@ bool Clips::add(uint32_t stylus, const Pose& jaws, const ClipConfig& config, con
   return true;
 }
 
+/// Returns the length of tissue at rest on the line between two nodes: without the lumen of a vessel.
+double Clips::tissueBetween_m(const Body& body, uint32_t a, uint32_t b) const {
+  const Vector3d from = restPosition(body, a), line = restPosition(body, b) - from;
+  double share = 0;
+  for (int i = 0; i < kLineSamples; ++i) {
+    const Vector3d at = (from + (i + 0.5) / kLineSamples * line - body.lattice.origin_m) / body.lattice.spacing_m;
+    const int64_t cell = body.lattice.slotAt(Vector3i(at.array().floor().cast<int>()));
+    if (cell >= 0 && body.lattice.cell_labels[static_cast<size_t>(cell)] != 0)
+      share += fillOf(body.lattice, static_cast<uint32_t>(cell)).share / kLineSamples;
+  }
+  return share * line.norm();
+}
+
 Clips::Pair Clips::pairOf(const Near& a, const Near& b, const ClipConfig& config) const {
   Pair out{a.body, a.slot, b.body, b.slot, config.gap_m, a.at_m, b.at_m, a.at_m, b.at_m};
   if (a.body != b.body) return out;
   const Body& body = model_.bodies[a.body];
-  out.least_m = std::max(out.least_m, kMostSqueezed * (restPosition(body, a.slot) - restPosition(body, b.slot)).norm());
+  const bool is_hollow = a.body < hollow_.size() && hollow_[a.body] != 0;
+  const double between_m = is_hollow ? tissueBetween_m(body, a.slot, b.slot)
+                                     : (restPosition(body, a.slot) - restPosition(body, b.slot)).norm();
+  out.least_m = std::max(out.least_m, kMostSqueezed * between_m);
   return out;
 }
 

@@ -22,8 +22,9 @@ class Clips : public TissueProcess {
  public:
   static constexpr double kMostSqueezed = 0.4;  ///< least share of the rest distance of two nodes of one body
 
-  /// @param model  must outlive them
-  Clips(const std::vector<StylusConfig>& styluses, const Model& model);
+  /// @param model  must outlive them   @param hollow  [bodies] vessels with a lumen, which clips press flat; empty:
+  /// none
+  Clips(const std::vector<StylusConfig>& styluses, const Model& model, std::vector<uint8_t> hollow = {});
 
   RollBack rollBack() const override { return RollBack::kKeep; }
   void beginTick(const ProcessTick& tick) override;
@@ -66,12 +67,14 @@ class Clips : public TissueProcess {
     Vector3d at_m, in_jaws_m;
   };
   std::vector<Near> nodesIn(const TissuePort& port, const Pose& jaws, const ClipConfig& config) const;
+  double tissueBetween_m(const Body& body, uint32_t a, uint32_t b) const;
   Pair pairOf(const Near& a, const Near& b, const ClipConfig& config) const;
   bool add(uint32_t stylus, const Pose& jaws, const ClipConfig& config, const std::vector<Near>& nodes);
   void findPoints(Clip& clip) const;
 
   const std::vector<StylusConfig> styluses_;
   const Model& model_;
+  const std::vector<uint8_t> hollow_;  ///< [bodies]; empty: none is
   double spacing_m_;
   TissuePoints points_;
   SutureBlades blades_;
