@@ -158,7 +158,8 @@ void Bleeding::flowByPressure(const Pressures& pressures) {
   auto& leaks = leaks_.of_nodes;
   leaks.erase(std::remove_if(leaks.begin(), leaks.end(), [&](const auto& leak) { return pressures.owns(leak.slot); }),
               leaks.end());
-  for (const Pressures::Leak& leak : pressures.leaks()) leaks.push_back({leak.slot, leak.m3_per_s, vessels_.groupOf(leak.slot)});
+  for (const Pressures::Leak& leak : pressures.leaks())
+    leaks.push_back({leak.slot, leak.m3_per_s, vessels_.groupOf(leak.slot)});
   leaks_.stumps = pressures.openStations();
 }
 
