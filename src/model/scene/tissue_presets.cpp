@@ -124,7 +124,7 @@ std::string noteOf(const Config& config, bool of_springs) {
   };
   return std::string("tissue ") + preset.name + ": " +
          value("E", config.young_modulus_pa, preset.young_modulus_pa, " Pa") + " (" + numberOf(preset.low_pa) + " to " +
-         numberOf(preset.high_pa) + (*preset.strain ? std::string(", at a strain of ") + preset.strain : "") + "), " +
+         numberOf(preset.high_pa) + (*preset.strain ? std::string(", strain ") + preset.strain : "") + "), " +
          (of_springs ? "nu of its springs" : value("nu", config.poisson_ratio, preset.poisson_ratio, "")) + ", " +
          value("density", config.density_kg_per_m3, preset.density_kg_per_m3, " kg/m3") + "; " + preset.test + "; " +
          preset.source;
