@@ -23,7 +23,7 @@ FOLDER = os.path.join(roslib.packages.get_pkg_dir("viscera"), "test/nodes")
 TOO_MUCH = "solver.tick_hz=500;solver.substeps=2000;solver.threads=1"
 LIMIT_S = 20
 ROUND_LIMIT_S = 90
-STROKE_S = 0.3      # of short_stroke.yaml
+STROKE_S = 0.15     # of short_stroke.yaml
 SHARE = 0.8         # of the stroke that must pass in simulated time between first and last pose: ticks come after poses
 UNWATCHED_S = 0.5     # without a viewer
 
