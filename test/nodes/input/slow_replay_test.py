@@ -19,8 +19,7 @@ from visualization_msgs.msg import Marker
 from viscera.msg import Tick
 
 FOLDER = os.path.join(roslib.packages.get_pkg_dir("viscera"), "test/nodes")
-# A million substeps per second are more than any machine can run. One thread leaves the others of a small machine to other tests.
-TOO_MUCH = "solver.tick_hz=500;solver.substeps=2000;solver.threads=1"
+TOO_MUCH = "solver.tick_hz=500;solver.substeps=2000"  # a million substeps per second are more than any machine can run
 LIMIT_S = 20
 ROUND_LIMIT_S = 90
 STROKE_S = 0.3      # of short_stroke.yaml
