@@ -43,7 +43,7 @@ struct CameraConfig {
   CameraLight light = CameraLight::kLamp;
   double light_cone_deg = 90;
   double contact_shadows = 0;
-  std::string stylus;         ///< stylus whose pose the camera follows, as an endoscope; empty: none
+  std::string stylus;         ///< stylus that carries the camera, as an endoscope; empty: none
   double lens_angle_deg = 0;  ///< angle between the shaft of the endoscope and its line of sight [deg]
 };
 
