@@ -34,7 +34,7 @@ bodies:
     phantom_wall_scale: 1.02
     box_size_m: [0.031, 0.032, 0.033]
     ball_radius_m: 0.034
-    tube: {path: [{position_m: [0.0341, 0.0342, 0.0343]}, {position_m: [0.0344, 0.0345, 0.0346]}], radius_m: 0.0347, wall_m: 0.0348, branches: [{name: fork, path: [{position_m: [0.0351, 0.0352, 0.0353]}], radius_m: 0.0354, wall_m: 0.0355}]}
+    tube: {path: [{position_m: [0.0344, 0.0345, 0.0346]}], radius_m: 0.0347, wall_m: 0.0348, branches: [{name: fork, path: [{position_m: [0.0351, 0.0352, 0.0353]}], radius_m: 0.0354, wall_m: 0.0355}]}
     pressure: {pulse_pa: 3562, pulse_hz: 3.563}
     thickness_m: 0.0035
     bending_ratio: 0.36
@@ -201,7 +201,7 @@ TEST(SceneKeys, EveryBodyKeyReachesItsField) {
   EXPECT_EQ(body.source, TissueSource::kMesh);
   EXPECT_EQ(body.structure, Structure::kExplicit);
   EXPECT_EQ(body.mesh_file, "organ.obj");
-  EXPECT_EQ(body.tube.path.at(1).position_m, Vector3d(0.0344, 0.0345, 0.0346));
+  EXPECT_EQ(body.tube.path.at(0).position_m, Vector3d(0.0344, 0.0345, 0.0346));
   EXPECT_EQ(body.tube.radius_m, 0.0347);
   EXPECT_EQ(body.tube.wall_m, 0.0348);
   EXPECT_EQ(body.tube.branches.at(0).name, "fork");

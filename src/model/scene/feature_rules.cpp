@@ -65,7 +65,7 @@ constexpr Rule kRules[] = {
      true, "a tube has a wall of tissue"},
     {"pressure.mean_pa above 0", [](const BodyConfig& b) { return b.pressure.mean_pa > 0; }, nullptr,
      in(Structure::kLattice), in(Integrator::kLeapfrog), in(Backend::kAuto, Backend::kCpu), false,
-     "pressure would have to wait for a GPU in every substep"},
+     "it acts on nodes of a lattice in every substep, for which a GPU would have to wait"},
     {"fill: enclosed", [](const BodyConfig& b) { return b.fill == Fill::kEnclosed; }, nullptr, kCells},
     {"parts", [](const BodyConfig& b) { return !b.parts.empty(); }, nullptr, kCells},
     {"layers[].toughness_j_per_m2 above 0",

@@ -33,8 +33,14 @@ bool isSameNode(const layout::NodeBits& a, const layout::NodeBits& b) {
 std::vector<Cavities> surfacesOf(const Scene& scene, const Model& model) {
   std::vector<Cavities> out;
   for (const Body& body : model.bodies) {
-    for (const BodyConfig& config : scene.bodies)
-      if (config.name == body.name && config.pressure.mean_pa > 0) out.push_back(cavitiesOf(body, config));
+    for (const BodyConfig& config : scene.bodies) {
+      if (config.name != body.name || !(config.pressure.mean_pa > 0)) continue;
+      try {
+        out.push_back(cavitiesOf(body, config));
+      } catch (const SceneError& error) {
+        throw SceneError((scene.file.empty() ? "" : scene.file + ": ") + error.what());
+      }
+    }
   }
   return out;
 }
@@ -196,34 +202,37 @@ void Pressures::measure(Vessel& vessel, size_t number) {
   }
 }
 
-/// Closes stations that clips squeeze over their whole width, and holes that burns have sealed.
-void Pressures::close(Vessel& vessel, size_t number, const Clips* clips, const HeatField* heat) {
+/// Closes stations that clips squeeze over their whole width.
+void Pressures::close(Vessel& vessel, size_t number, const Clips* clips) const {
   const LumenNetwork& lumen = surfaces_[number].lumen;
   std::fill(vessel.at.is_closed.begin(), vessel.at.is_closed.end(), uint8_t{0});
-  if (clips) {
-    const auto squeezed_m = clips->squeezed_m();
-    for (size_t i = 0; i < lumen.stations.size(); ++i) {
-      const LumenStation& station = lumen.stations[i];
-      if (station.length_m == 0) continue;
-      const double radius_m = std::sqrt(station.area_m2 / (0.5 * kTau));
-      double low = 0, high = 0;
-      for (const auto& [a, b] : squeezed_m) {
-        const Vector3d line = b - a, middle = 0.5 * (a + b) - station.at_m;
-        if (std::abs(middle.dot(station.along)) > 0.5 * station.length_m || middle.norm() > line.norm()) continue;
-        const double aside = middle.dot(station.along.cross(line).stableNormalized()) / radius_m;
-        low = std::min(low, aside);
-        high = std::max(high, aside);
-      }
-      vessel.at.is_closed[i] = low < -kClosesAcross && high > kClosesAcross;
-    }
-  }
-  if (!heat) return;
+  if (!clips) return;
+  const auto squeezed_m = clips->squeezed_m();
   for (size_t i = 0; i < lumen.stations.size(); ++i) {
+    const LumenStation& station = lumen.stations[i];
+    if (station.length_m == 0) continue;
+    const double radius_m = std::sqrt(station.area_m2 / (0.5 * kTau));
+    double low = 0, high = 0;
+    for (const auto& [a, b] : squeezed_m) {
+      const Vector3d line = b - a, middle = 0.5 * (a + b) - station.at_m;
+      if (std::abs(middle.dot(station.along)) > 0.5 * station.length_m || middle.norm() > line.norm()) continue;
+      const double aside = middle.dot(station.along.cross(line).stableNormalized()) / radius_m;
+      low = std::min(low, aside);
+      high = std::max(high, aside);
+    }
+    vessel.at.is_closed[i] = low < -kClosesAcross && high > kClosesAcross;
+  }
+}
+
+/// Closes the share of holes that burns have coagulated.
+void Pressures::seal(Vessel& vessel, const HeatField& heat) const {
+  for (size_t i = 0; i < vessel.triangles.size(); ++i) {
     size_t cut = 0, sealed = 0;
     for (const uint32_t t : vessel.triangles[i]) {
-      if (!is_cut_[t]) continue;
+      const TissuePoint& cell = cells_[loads_.triangle(t)[0]];
+      if (!is_cut_[t] || cell.count == 0) continue;
       ++cut;
-      sealed += heat->isCoagulated(cells_[loads_.triangle(t)[0]].slots[0]);
+      sealed += heat.isCoagulated(cell.slots[0]);
     }
     if (cut > 0) vessel.at.open_m2[i] *= 1 - static_cast<double>(sealed) / static_cast<double>(cut);
   }
@@ -252,7 +261,7 @@ void Pressures::flow(Vessel& vessel, size_t number) {
 }
 
 /// Adds the flow out of the holes of a vessel, at nodes next to them.
-void Pressures::addLeaks(const Vessel& vessel, size_t, const HeatField*) {
+void Pressures::addLeaks(const Vessel& vessel) {
   for (size_t i = 0; i < vessel.flow.outflow_m3_per_s.size(); ++i) {
     if (!(vessel.flow.outflow_m3_per_s[i] > 0)) continue;
     ++open_;
@@ -302,9 +311,10 @@ bool Pressures::endTick(TissuePort& port, const ProcessTick&, const TissueProces
   open_ = 0;
   for (size_t s = 0; s < vessels_.size(); ++s) {
     measure(vessels_[s], s);
-    close(vessels_[s], s, clips, burns ? &burns->heat() : nullptr);
+    close(vessels_[s], s, clips);
+    if (burns) seal(vessels_[s], burns->heat());
     flow(vessels_[s], s);
-    addLeaks(vessels_[s], s, burns ? &burns->heat() : nullptr);
+    addLeaks(vessels_[s]);
   }
   return false;
 }

@@ -65,9 +65,10 @@ class Pressures : public TissueProcess {
   };
   double sector_m3(const Vessel& vessel, size_t station) const;
   void measure(Vessel& vessel, size_t number);
-  void close(Vessel& vessel, size_t number, const Clips* clips, const HeatField* heat);
+  void close(Vessel& vessel, size_t number, const Clips* clips) const;
+  void seal(Vessel& vessel, const HeatField& heat) const;
   void flow(Vessel& vessel, size_t number);
-  void addLeaks(const Vessel& vessel, size_t number, const HeatField* heat);
+  void addLeaks(const Vessel& vessel);
   bool isCut(const TissuePoint& cell, const CutSprings& cuts) const;
   void setPressures();
 
@@ -79,7 +80,6 @@ class Pressures : public TissueProcess {
   SurfaceLoads loads_;
   std::vector<Vessel> vessels_;
   std::vector<double> rest_area_m2_;             ///< [triangles]
-  std::vector<uint32_t> vertex_of_;              ///< [vertices] slot next to it
   std::vector<uint8_t> vertex_is_cut_, is_cut_;  ///< [vertices], [triangles]
   std::vector<layout::NodeBits> seen_;           ///< [slots] nodes when vertices were carried; empty: whole
   std::vector<Leak> leaks_;
