@@ -46,6 +46,7 @@ class HaplyBridgeTest(unittest.TestCase):
 
     def tearDown(self):
         self.bridge.end()
+        rospy.delete_param("/haply_bridge")  # of the arguments, which the next start would use
         self.service.stop()
 
     def push(self, *force, until, what):
@@ -54,8 +55,12 @@ class HaplyBridgeTest(unittest.TestCase):
         message.wrench.force.x, message.wrench.force.y, message.wrench.force.z = force
 
         def check():
-            self.wrench.publish(message)
-            return until(self.service.force)
+            for _ in range(10):  # as often as a simulator does: the device has a force for 0.05 s
+                self.wrench.publish(message)
+                time.sleep(0.01)
+                if until(self.service.force):
+                    return True
+            return False
         wait_until(check, LIMIT_S, "%s: %s" % (what, self.service.force))
 
     def has(self, *force):
@@ -80,6 +85,7 @@ class HaplyBridgeTest(unittest.TestCase):
         service.buttons[1] = True
         wait_until(lambda: self.joys[-1] == [0, 1, 0], LIMIT_S, "button b")
         self.assertEqual(service.sessions, [{"configure": {"profile": {"name": "viscera:haply_bridge"}}}], "with the first message alone")
+        self.absolute.publish(False)
         self.push(1, 0, 0.5, until=self.has(0, 1, 0.5), what="a force in the frame of the grip, as CRTK has it")
         self.absolute.publish(True)
         self.push(1, 0, 0.5, until=self.has(1, 0, 0.5), what="a force in the frame of the poses")
