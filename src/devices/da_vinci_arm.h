@@ -13,7 +13,7 @@ namespace viscera {
 
 /// Joints of a patient-side arm of the da Vinci, as the dVRK has them: yaw, pitch and insertion about the remote
 /// centre, roll, and for a PSM wrist pitch and wrist yaw [rad, m]. An ECM has no wrist. Poses are those of the tip in
-/// the base frame of the arm, whose origin is the remote centre: z of the tip points out of the instrument. Joints of 0
+/// the base frame of the arm, with the remote centre as origin: z of the tip points out of the instrument. Joints of 0
 /// point down, along -z of the base.
 ///
 /// Lengths are those of the classic arms, modified Denavit-Hartenberg parameters (dVRK user guide;
@@ -30,8 +30,8 @@ class DaVinciArm {
   const std::vector<std::string>& names() const { return names_; }
   /// Returns the pose of the tip. @param joints  count() values
   Pose tip(const Joints& joints) const;
-  /// Returns the joints of a pose. A PSM reaches every orientation within its limits; of an ECM, whose scope has no
-  /// wrist, position and roll count.
+  /// Returns the joints of a pose. A PSM reaches every orientation within its limits. The scope of an ECM has no
+  /// wrist: position and roll count.
   /// @param near  joints from which the roll is continued   @return nothing: out of reach
   std::optional<Joints> reach(const Pose& tip, const Joints& near) const;
   /// Returns whether joints are finite, count() of them, and within the limits of the arm.

@@ -23,7 +23,7 @@ constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
 /// Appends a coordinate: exact to its step, in any locale, and ten times as fast as a stream.
 void putCoordinate(std::string& out, float metres) {
   const double steps = std::round(static_cast<double>(metres) * static_cast<double>(kPerMetre));
-  if (!(std::abs(steps) < 1e18)) {  // NaN and the like would spoil the file
+  if (!(std::abs(steps) < 1e18)) {  // no number of USD, such as NaN
     out += '0';
     return;
   }

@@ -8,7 +8,6 @@
 #include <map>
 
 #include "export/exporter.h"
-#include "support/comma_locale.h"
 #include "support/temporary_folder.h"
 #include "viscera/model/scene/scene.h"
 
@@ -157,7 +156,7 @@ VisibleMesh meshOf(std::vector<uint32_t> triangles, uint64_t revision) {
   return out;
 }
 
-void write(const std::string& path) {
+UsdReader written(const std::string& path) {
   Scene scene;
   scene.name = "a \"scene\"";
   scene.cameras.resize(2);
@@ -177,15 +176,6 @@ void write(const std::string& path) {
   moved.colors.assign(4, 0xff0000ffu);
   series.add(12, moved, tools);
   series.finish();
-}
-
-UsdReader written(const std::string& path, bool commas = false) {
-  if (commas) {
-    const CommaLocale locale;
-    write(path);
-  } else {
-    write(path);
-  }
   std::ifstream file(path, std::ios::binary);
   return UsdReader({std::istreambuf_iterator<char>(file), {}});
 }
@@ -207,7 +197,7 @@ TEST(Usd, HasUnitsAxesAndTime) {
 
 TEST(Usd, HasPositionsColorsAndCutsOverTime) {
   const TemporaryFolder folder;
-  UsdReader usd = written(folder.file("skin.usda"), true);
+  UsdReader usd = written(folder.file("skin.usda"));
   const std::string tissue = "/session/tissue.";
   EXPECT_EQ(usd.types[tissue + "points"], "point3f[]");
   auto& points = usd.attributes[tissue + "points"];

@@ -274,7 +274,7 @@ void CrtkArm::endTick(const StylusMotion& tool, double jaw_moment_nm, const ros:
   if (isReceived(measured_cv_))
     measured_cv_.publish(twist(last_measured_, measured, (stamp - last_sent_).toSec(), frame, stamp));
   if (arm_ && isReceived(measured_joints_js_)) {
-    // Beyond the limits, as by a tool whose speed is limited, the joints of before are sent again.
+    // A tool that lags behind may be beyond the limits: the joints of before are sent again.
     const auto joints = arm_->reach(measured, measured_joints_);
     if (joints) measured_joints_ = *joints;
     measured_joints_js_.publish(toJoints(measured_joints_, stamp));
