@@ -160,7 +160,7 @@ void CrtkArm::onJoints(const sensor_msgs::JointState& message, bool moves) {
   if (!arm_->isWithin(goal)) return refuse(topic, Drop::kOutsideWorkspace, "; its joints are " + arm_->limitsText());
   if (!moves) {
     if (!motion_.servo(arm_->tip(goal))) return;
-    joints_ = goal;
+    joints_ = goal;  // the roll is that of the command, not the nearest one
     return place();
   }
   double turn_rad = 0;
@@ -174,12 +174,9 @@ void CrtkArm::onJoints(const sensor_msgs::JointState& message, bool moves) {
 /// Returns whether the joints reach a pose; refuses the command if not.
 bool CrtkArm::isReached(const Pose& pose, const std::string& topic) {
   if (!arm_) return true;
-  const auto joints = arm_->reach(pose, joints_);
-  if (joints)
-    joints_ = *joints;
-  else
-    refuse(topic, Drop::kOutsideWorkspace, "; its joints are " + arm_->limitsText());
-  return joints.has_value();
+  if (arm_->reach(pose, joints_)) return true;
+  refuse(topic, Drop::kOutsideWorkspace, "; its joints are " + arm_->limitsText());
+  return false;
 }
 
 /// Stops the arm at the end of its reach.
@@ -245,9 +242,14 @@ void CrtkArm::onState(const crtk_msgs::StringStamped& message) {
 
 /// Moves the tool to the arm's setpoint.
 void CrtkArm::place() {
+  Pose setpoint = motion_.setpoint();
+  if (arm_) {
+    if (const auto joints = arm_->reach(setpoint, joints_)) joints_ = *joints;
+    setpoint = arm_->tip(joints_);  // the scope of an ECM has no wrist
+  }
   const ros::Time now = ros::Time::now();
   const std::optional<Drop> reason =
-      mailbox_.put({motion_.setpoint(), frame_, now}, lookup_, {std::chrono::steady_clock::now(), now});
+      mailbox_.put({setpoint, frame_, now}, lookup_, {std::chrono::steady_clock::now(), now});
   if (reason) refuse("servo_cp", *reason);
 }
 
