@@ -20,8 +20,8 @@ struct NodeLoads::Sums {
 };
 
 NodeLoads::NodeLoads(const Model& model) : model_(model) {
-  for (const Body& body : model.bodies)
-    stresses_.push_back(body.hasCells() ? std::make_unique<CellStresses>(body) : nullptr);
+  for (const Body& body : model.bodies)  // an explicit lattice has cells, but its springs carry it
+    stresses_.push_back(body.hasCells() && !body.network ? std::make_unique<CellStresses>(body) : nullptr);
 }
 
 void NodeLoads::addCells(size_t b, const HostState& state, Sums& sums) const {
