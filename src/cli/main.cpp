@@ -64,7 +64,8 @@ void addExports(CLI::App* run, CLI::Option* out, Options& o) {
                                            {"xdmf", Format::kXdmf},
                                            {"ply", Format::kPly},
                                            {"glb", Format::kGlb},
-                                           {"pc2", Format::kPc2}});
+                                           {"pc2", Format::kPc2},
+                                           {"usda", Format::kUsda}});
   const auto frames = cli::oneOf<ExportFrame>({{"ros", ExportFrame::kRos}, {"lps_mm", ExportFrame::kLpsMm}});
   CLI::Option* exported = o.exports =
       run->add_option("--export", o.exported.source,
@@ -74,7 +75,7 @@ void addExports(CLI::App* run, CLI::Option* out, Options& o) {
   run->add_option("--every", o.exported.every_s, "simulated seconds between two exports; default 0.1")
       ->check(CLI::Range(1e-6, 86400.0))
       ->needs(exported);
-  run->add_option("--format", o.exported.format, "format of exports: vtp, xdmf, ply, glb or pc2; default vtp")
+  run->add_option("--format", o.exported.format, "format of exports: vtp, xdmf, ply, glb, pc2 or usda; default vtp")
       ->transform(formats)
       ->type_name("NAME")
       ->needs(exported);

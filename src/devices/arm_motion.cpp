@@ -67,6 +67,7 @@ bool ArmMotion::servo(const Pose& setpoint) {
 
 void ArmMotion::stop() {
   path_ = {};
+  along_ = nullptr;
   velocity_left_s_ = 0;
 }
 
@@ -90,6 +91,15 @@ bool ArmMotion::move(const Pose& goal) {
   const double offset_m = (goal.position_m - start_.position_m).norm();
   const double turn_rad = start_.orientation.angularDistance(goal.orientation);
   path_.begin(std::max(offset_m / config_.speed_m_per_s, turn_rad / (kRadPerDeg * config_.turn_deg_per_s)));
+  return true;
+}
+
+bool ArmMotion::moveAlong(const std::function<Pose(double share)>& path, double turn_rad, double slide_m) {
+  if (state_ != State::kEnabled) return false;
+  stop();
+  along_ = path;
+  goal_ = path(1);
+  path_.begin(std::max(slide_m / config_.speed_m_per_s, turn_rad / (kRadPerDeg * config_.turn_deg_per_s)));
   return true;
 }
 
@@ -127,7 +137,7 @@ bool ArmMotion::hold() {
 void ArmMotion::advance(double span_s) {
   if (path_.duration_s > 0) {
     const double share = path_.advance(span_s);
-    setpoint_ = share == 1 ? goal_ : interpolate(start_, goal_, share);
+    setpoint_ = share == 1 ? goal_ : along_ ? along_(share) : interpolate(start_, goal_, share);
   }
   if (velocity_left_s_ > 0) {
     const double for_s = std::min(span_s, velocity_left_s_);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -26,6 +27,9 @@ class ArmMotion {
   /// Sets the setpoint. @returns false if the arm cannot move because it is disabled or paused
   bool servo(const Pose& setpoint);
   bool move(const Pose& goal);
+  /// Moves along a path of joints.
+  /// @param path  pose at a share of the path, 0 to 1   @param turn_rad, slide_m  longest displacement of its joints
+  bool moveAlong(const std::function<Pose(double share)>& path, double turn_rad, double slide_m);
   /// Sets velocities along and about the axes of the base, for kVelocityHolds_s unless the call is repeated.
   bool servoVelocity(const Vector3d& linear_m_per_s, const Vector3d& angular_rad_per_s);
   bool servoJaw(double angle_rad);
@@ -62,6 +66,7 @@ class ArmMotion {
   double velocity_left_s_ = 0;
   double jaw_rad_, jaw_start_rad_ = 0, jaw_goal_rad_ = 0;
   Path path_, jaw_path_;
+  std::function<Pose(double share)> along_;  ///< path of a move; empty: the straight line
 };
 
 const char* text(ArmMotion::State state);  ///< name in CRTK: DISABLED, ENABLED, PAUSED

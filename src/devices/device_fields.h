@@ -86,6 +86,10 @@ void visitFields(V& v, ForcePort& c) {
 
 template <class V>
 void visitFields(V& v, ArmConfig& c) {
+  v.choice(
+      "joints", c.joints, {{"none", ArmJoints::kNone}, {"psm", ArmJoints::kPsm}, {"ecm", ArmJoints::kEcm}},
+      "joints that the arm has: those of a da Vinci PSM or ECM, with the origin of the base as remote centre; none: "
+      "a tip that goes anywhere");
   v.vector("start_m", c.start_m, kDeviceReach, "m", "initial position of the tip in the arm's base");
   v.vector("start_rotation_deg", c.start_rotation_deg, kAngle, "deg",
            "initial orientation of the tip: turns about x, then y, then z");

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "devices/da_vinci_arm.h"
 #include "devices/device_fields.h"
 #include "devices/registration_file.h"
 #include "math/number_text.h"
@@ -81,6 +82,15 @@ void requireGripper(const DeviceProfile& device, const std::string& where) {
                       numberText(gripper.closed_below) + "; found " + numberText(gripper.open_above));
 }
 
+void requireStart(const ArmConfig& arm, const std::string& where) {
+  if (arm.joints == ArmJoints::kNone) return;
+  const DaVinciArm joints(arm.joints);
+  if (!joints.reach({arm.start_m, rotationFromDegrees(arm.start_rotation_deg)}, DaVinciArm::Joints(joints.count())))
+    throw DeviceError(where +
+                      ": the arm cannot reach 'arm.start_m' with 'arm.start_rotation_deg', of the tip relative " +
+                      "to the remote centre; its joints are " + joints.limitsText());
+}
+
 /// Checks conditions that involve several keys.
 void requireConsistent(const DeviceProfile& device, const std::string& where) {
   axesOf(device.pose.axes, where + ": 'pose.axes'");
@@ -95,6 +105,7 @@ void requireConsistent(const DeviceProfile& device, const std::string& where) {
   if (device.scale != 1 || device.clutch.type != ButtonType::kNone)
     throw DeviceError(
         where + ": an arm (pose.type crtk_arm) has no 'scale' and no 'clutch'; remove them: its driver has its own");
+  requireStart(device.arm, where);
 }
 
 }  // namespace

@@ -64,8 +64,11 @@ inline bool hasTorque(const ForcePort& port) {
   return port.type != ForceType::kOmniFeedback && port.type != ForceType::kGeomagicFeedback;
 }
 
+/// Joints of a tool that is driven as a CRTK arm: DaVinciArm.
+enum class ArmJoints { kNone, kPsm, kEcm };
 /// Parameters of a tool that is driven as a CRTK arm.
 struct ArmConfig {
+  ArmJoints joints = ArmJoints::kNone;
   Vector3d start_m = Vector3d(0, -0.12, 0.05);
   Vector3d start_rotation_deg = Vector3d(90, 0, 0);
   double speed_m_per_s = 0.1, turn_deg_per_s = 90;  ///< speeds of move_cp

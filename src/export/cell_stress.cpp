@@ -58,7 +58,7 @@ Matrix3d gradientAt(const Motion& motion, const Vector3d& centroid, double poiss
 
 CellStress stressOf(const Matrix3d& cauchy, double energy_j_per_m3) {
   const Matrix3d shear = cauchy - cauchy.trace() / 3 * Matrix3d::Identity();
-  return {energy_j_per_m3, std::sqrt(1.5) * shear.norm(), principalValues(cauchy).reverse()};
+  return {energy_j_per_m3, std::sqrt(1.5) * shear.norm(), principalValues(cauchy).reverse(), cauchy};
 }
 
 /// Returns sigma = mu exp(b x) J^(-5/3) (B - tr B / 3) + K/2 (J - 1/J) + F S F^T / J, B = F F^T, x = J^(-2/3) tr B - 3.

@@ -17,6 +17,7 @@ struct CellStress {
   double energy_j_per_m3;  ///< of the volume at rest
   double von_mises_pa;
   Eigen::Vector3d principal_pa;  ///< largest first; tension above 0
+  Eigen::Matrix3d cauchy_pa;
 };
 
 /// Computes the stress of the cells of one body in a state, by its law: neo-Hookean or, for springs, St.

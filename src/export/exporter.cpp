@@ -40,12 +40,16 @@ FieldMesh fieldsOf(const Session& session, const VisibleMesh& skin, const Export
 Exporter::Exporter(const std::string& folder, const ExportOptions& options, double tick_s)
     : options_(options),
       stem_(folder + "/" + nameOf(options.source)),
-      ticks_(std::max<uint64_t>(1, static_cast<uint64_t>(std::llround(options.every_s / tick_s)))) {
+      ticks_(std::max<uint64_t>(1, static_cast<uint64_t>(std::llround(options.every_s / tick_s)))),
+      tick_s_(tick_s) {
   const bool fields = options.format == ExportFormat::kVtp || options.format == ExportFormat::kXdmf;
   if (!fields && options.source != ExportSource::kSkin)
-    throw Error("--format ply, glb and pc2 contain only skins; use vtp or xdmf for a lattice, a network or sutures");
+    throw Error(
+        "--format ply, glb, pc2 and usda contain only skins; use vtp or xdmf for a lattice, a network or sutures");
   if (options.format == ExportFormat::kGlb && options.frame != ExportFrame::kRos)
     throw Error("--format glb is always in metres with y up, as in glTF; use vtp or ply with --export-frame lps_mm");
+  if (options.format == ExportFormat::kUsda && options.frame != ExportFrame::kRos)
+    throw Error("--format usda is always in metres with z up; use vtp or ply with --export-frame lps_mm");
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw Error(folder + ": cannot create this folder for exports: " + error.message());
@@ -55,6 +59,10 @@ Exporter::Exporter(const std::string& folder, const ExportOptions& options, doub
 
 void Exporter::add(const Session& session, const VisibleMesh& skin) {
   if (options_.format == ExportFormat::kPly || options_.format == ExportFormat::kGlb) return addFile(session, skin);
+  if (options_.format == ExportFormat::kUsda) {
+    if (!usd_) usd_.emplace(stem_ + ".usda", session.scene(), 1 / (static_cast<double>(ticks_) * tick_s_));
+    return usd_->add(session.tick() / ticks_, skin, session.motions());
+  }
   const FieldMesh mesh = fieldsOf(session, skin, options_);
   if (xdmf_) return xdmf_->add(mesh);
   if (pc2_) {
@@ -102,6 +110,7 @@ void writeSkin(const Session& session, const VisibleMesh& skin, const std::strin
 void Exporter::finish() {
   if (xdmf_) xdmf_->finish();
   if (pc2_) pc2_->finish();
+  if (usd_) usd_->finish();
 }
 
 }  // namespace viscera

@@ -10,7 +10,7 @@
 
 namespace viscera {
 
-enum class ExportFormat { kVtp, kXdmf, kPly, kGlb, kPc2 };
+enum class ExportFormat { kVtp, kXdmf, kPly, kGlb, kPc2, kUsda };
 
 struct ExportOptions {
   ExportSource source = ExportSource::kSkin;
@@ -41,6 +41,8 @@ class Exporter {
   std::string collection_;
   std::optional<XdmfSeries> xdmf_;
   std::optional<Pc2Series> pc2_;
+  double tick_s_;
+  std::optional<UsdSeries> usd_;  ///< from the first moment on
 };
 
 }  // namespace viscera

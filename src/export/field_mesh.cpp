@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "export/cell_stress.h"
+#include "export/uncut_cells.h"
 #include "math/vec4.h"
 #include "viscera/layout/skin.h"
 #include "viscera/math/error.h"
@@ -23,31 +23,10 @@ void add(std::vector<float>& out, const Vector3d& v) {
   for (int c = 0; c < 3; ++c) out.push_back(static_cast<float>(v[c]));
 }
 
-/// An uncut cell of a body's lattice.
-struct Cell {
-  uint32_t lowest;
-  std::array<uint32_t, 8> corners;  ///< slots of the body, x first
-  CellStress stress;
-};
-
 /// Calls visit(cell) for the uncut cells of a body. @param offset  of its slots in the state
 template <class Visit>
 void forCells(const Body& body, uint32_t offset, const HostState& state, const Visit& visit) {
-  if (!body.hasCells()) return;
-  const CellStresses stresses(body);
-  for (const uint32_t slot : body.lattice.active_slots) {
-    if (!(state.nodes[offset + slot].lo & layout::kCellBit)) continue;
-    Cell cell{slot, {}, {}};
-    std::array<Vector3d, 8> u_m;
-    const Vector3i at = body.lattice.nodeAt(slot);
-    for (uint32_t c = 0; c < 8; ++c) {
-      const Vector3i step(static_cast<int>(c & 1), static_cast<int>(c >> 1 & 1), static_cast<int>(c >> 2 & 1));
-      cell.corners[c] = static_cast<uint32_t>(body.lattice.slotAt(at + step));
-      u_m[c] = xyz(state.displacement_m[offset + cell.corners[c]]);
-    }
-    cell.stress = stresses.at(slot, u_m);
-    visit(cell);
-  }
+  if (body.hasCells()) forUncutCells(body, CellStresses(body), offset, state, visit);
 }
 
 /// [slots] means over the uncut cells around a node; NaN where there is none.
@@ -59,7 +38,7 @@ NodeStrains nodeStrains(const Model& model, const HostState& state) {
   std::vector<float> cells(model.slots());
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const uint32_t offset = model.slotOffset(b);
-    forCells(model.bodies[b], offset, state, [&](const Cell& cell) {
+    forCells(model.bodies[b], offset, state, [&](const UncutCell& cell) {
       for (const uint32_t corner : cell.corners) {
         out.energy[offset + corner] += static_cast<float>(cell.stress.energy_j_per_m3);
         out.von_mises[offset + corner] += static_cast<float>(cell.stress.von_mises_pa);
@@ -171,7 +150,7 @@ FieldMesh latticeFields(const Session& session) {
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
     const uint32_t offset = model.slotOffset(b);
-    forCells(body, offset, state, [&](const Cell& cell) {
+    forCells(body, offset, state, [&](const UncutCell& cell) {
       for (const size_t corner : kAround) mesh.cells.push_back(points.of(body, b, offset, cell.corners[corner], state));
       mesh.of_cells[0].values.push_back(static_cast<float>(b));
       const bool labelled = !body.lattice.cell_labels.empty();

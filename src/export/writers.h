@@ -56,4 +56,35 @@ class Pc2Series {
   int32_t points_ = -1, samples_ = 0;
 };
 
+/// USD as text (.usda): a mesh with time samples of positions and colours, and of triangles where cuts change them;
+/// cameras that do not move, and tools. Metres, z up. Positions are rounded to 1e-7 m.
+class UsdSeries {
+ public:
+  /// @param moments_per_s  time codes per second; a code is a moment
+  UsdSeries(const std::string& path, const Scene& scene, double moments_per_s);
+  void add(uint64_t code, const VisibleMesh& skin, const ToolMotions& tools);
+  void finish();
+
+ private:
+  /// Time samples of an attribute.
+  struct Samples {
+    std::string text, last;
+    void add(uint64_t code, const std::string& value);  ///< only if it differs from the last one
+    std::string written(const std::string& attribute, const std::string& metadata = "") const;
+  };
+  struct Tool {
+    std::string name;
+    double length_m, radius_m;
+    Samples poses, visibility;
+  };
+
+  OutFile file_;
+  uint64_t end_at_, end_ = 0;  ///< offset of the last time code in the file; that code
+  uint64_t revision_ = 0;      ///< of the last triangles
+  bool begun_ = false;
+  Samples counts_, corners_, colors_, extents_;
+  std::string cameras_;
+  std::vector<Tool> tools_;
+};
+
 }  // namespace viscera

@@ -126,6 +126,19 @@ TEST_F(Outputs, OfAnOlderRunGoCompletely) {
                                                   "state", "surface.ply"}));
 }
 
+TEST_F(Outputs, OneUsdFileHasEveryMomentOfARun) {
+  const std::string out = folder_.file("out");
+  const Ending ending = viscera({"run", scene_, "--no-view", "--strokes", strokes_, "--seconds", "0.2", "--out", out,
+                                 "--export", "skin", "--every", "0.05", "--format", "usda"});
+  ASSERT_EQ(ending.status, 0) << ending.err;
+  const std::string usd = readFile(out + "/export/skin.usda");
+  EXPECT_EQ(usd.rfind("#usda 1.0\n", 0), 0U);
+  for (const char* const part : {"timeCodesPerSecond = 20\n", "endTimeCode = 4 ", "            1: [(",
+                                 "            4: [(", "def Xform \"tool_left\"", "\"inherited\""})
+    EXPECT_NE(usd.find(part), std::string::npos) << part;
+  EXPECT_EQ(usd.find("            5: "), std::string::npos);
+}
+
 TEST_F(Outputs, AFullDiskLeavesNothingBehind) {
   const std::set<std::string> before = files();
   const std::string file = folder_.file("x");

@@ -5,7 +5,9 @@
 #include <ros/console.h>
 #include <std_msgs/Empty.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include "nodes/input/device_messages.h"
@@ -51,7 +53,11 @@ CrtkArm::CrtkArm(StylusMailbox& mailbox)
       base_(mailbox.device().pose.topic),
       motion_(mailbox.device().arm),
       frame_(mailbox.device().pose.frame),
-      last_measured_(motion_.setpoint()) {}
+      last_measured_(motion_.setpoint()) {
+  if (mailbox.device().arm.joints == ArmJoints::kNone) return;
+  arm_.emplace(mailbox.device().arm.joints);
+  joints_ = measured_joints_ = arm_->reach(motion_.setpoint(), DaVinciArm::Joints(arm_->count())).value();
+}
 
 void CrtkArm::subscribe(ros::NodeHandle& node, FrameLookup lookup) {
   lookup_ = std::move(lookup);
@@ -77,6 +83,14 @@ void CrtkArm::subscribe(ros::NodeHandle& node, FrameLookup lookup) {
           at + "jaw/move_jp", kNewest, [this](const auto& received) { onJaw(*received, true); }, ros::VoidConstPtr(),
           hints),
       node.subscribe(at + "state_command", kEvents, &CrtkArm::onState, this, hints)};
+  if (arm_) {
+    measured_joints_js_ = node.advertise<sensor_msgs::JointState>(at + "measured_js", kNewest);
+    setpoint_joints_js_ = node.advertise<sensor_msgs::JointState>(at + "setpoint_js", kNewest);
+    for (const bool moves : {false, true})
+      commands_.push_back(node.subscribe<sensor_msgs::JointState>(
+          at + (moves ? "move_jp" : "servo_jp"), kNewest,
+          [this, moves](const auto& received) { onJoints(*received, moves); }, ros::VoidConstPtr(), hints));
+  }
   setpoints_ = node.createSteadyTimer(ros::WallDuration(kSetpoints_s),
                                       [this](const ros::SteadyTimerEvent&) { tellSetpoints(); });
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -126,13 +140,56 @@ void CrtkArm::refuse(const std::string& topic, Drop reason, const std::string& d
 void CrtkArm::onServo(const geometry_msgs::PoseStamped& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const std::optional<Pose> pose = inBase(message, "servo_cp");
-  if (pose && motion_.servo(*pose)) place();
+  if (pose && isReached(*pose, "servo_cp") && motion_.servo(*pose)) place();
 }
 
 void CrtkArm::onMove(const geometry_msgs::PoseStamped& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const std::optional<Pose> pose = inBase(message, "move_cp");
-  if (pose && motion_.move(*pose)) tellState();
+  if (pose && isReached(*pose, "move_cp") && motion_.move(*pose)) tellState();
+}
+
+void CrtkArm::onJoints(const sensor_msgs::JointState& message, bool moves) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const char* const topic = moves ? "move_jp" : "servo_jp";
+  if (message.position.size() < arm_->count()) return refuse(topic, Drop::kNoButtons);
+  const DaVinciArm::Joints goal(message.position.begin(),
+                                message.position.begin() + static_cast<std::ptrdiff_t>(arm_->count()));
+  for (const double joint : goal)
+    if (!std::isfinite(joint)) return refuse(topic, Drop::kNotFinite);
+  if (!arm_->isWithin(goal)) return refuse(topic, Drop::kOutsideWorkspace, "; its joints are " + arm_->limitsText());
+  if (!moves) {
+    if (!motion_.servo(arm_->tip(goal))) return;
+    joints_ = goal;  // the roll is that of the command, not the nearest one
+    return place();
+  }
+  double turn_rad = 0;
+  for (size_t i = 0; i < goal.size(); ++i)
+    if (i != DaVinciArm::kInsertion) turn_rad = std::max(turn_rad, std::abs(goal[i] - joints_[i]));
+  const double slide_m = std::abs(goal[DaVinciArm::kInsertion] - joints_[DaVinciArm::kInsertion]);
+  const auto path = [this, from = joints_, goal](double share) { return arm_->tip(between(from, goal, share)); };
+  if (motion_.moveAlong(path, turn_rad, slide_m)) tellState();
+}
+
+/// Returns whether the joints reach a pose; refuses the command if not.
+bool CrtkArm::isReached(const Pose& pose, const std::string& topic) {
+  if (!arm_) return true;
+  if (arm_->reach(pose, joints_)) return true;
+  refuse(topic, Drop::kOutsideWorkspace, "; its joints are " + arm_->limitsText());
+  return false;
+}
+
+/// Stops the arm at the end of its reach.
+void CrtkArm::stayWithinReach() {
+  if (arm_ && !isReached(motion_.setpoint(), "a move or velocity")) motion_.servo(arm_->tip(joints_));
+}
+
+sensor_msgs::JointState CrtkArm::toJoints(const DaVinciArm::Joints& joints, const ros::Time& stamp) const {
+  sensor_msgs::JointState message;
+  message.header.stamp = stamp;
+  message.name = arm_->names();
+  message.position = joints;
+  return message;
 }
 
 void CrtkArm::onVelocity(const geometry_msgs::TwistStamped& message) {
@@ -185,9 +242,14 @@ void CrtkArm::onState(const crtk_msgs::StringStamped& message) {
 
 /// Moves the tool to the arm's setpoint.
 void CrtkArm::place() {
+  Pose setpoint = motion_.setpoint();
+  if (arm_) {
+    if (const auto joints = arm_->reach(setpoint, joints_)) joints_ = *joints;
+    setpoint = arm_->tip(joints_);  // the scope of an ECM has no wrist
+  }
   const ros::Time now = ros::Time::now();
   const std::optional<Drop> reason =
-      mailbox_.put({motion_.setpoint(), frame_, now}, lookup_, {std::chrono::steady_clock::now(), now});
+      mailbox_.put({setpoint, frame_, now}, lookup_, {std::chrono::steady_clock::now(), now});
   if (reason) refuse("servo_cp", *reason);
 }
 
@@ -199,6 +261,7 @@ void CrtkArm::beginTick() {
   if (!motion_.moves()) return;
   const double jaw_rad = motion_.jaw_rad();
   motion_.advance(span_s);
+  stayWithinReach();
   if (motion_.jaw_rad() != jaw_rad) mailbox_.grip({motion_.jaw_rad()}, 0, now);
   place();
 }
@@ -212,6 +275,12 @@ void CrtkArm::endTick(const StylusMotion& tool, double jaw_moment_nm, const ros:
   if (isReceived(measured_cp_)) measured_cp_.publish(stamped(measured, frame, stamp));
   if (isReceived(measured_cv_))
     measured_cv_.publish(twist(last_measured_, measured, (stamp - last_sent_).toSec(), frame, stamp));
+  if (arm_ && isReceived(measured_joints_js_)) {
+    // A tool that lags behind may be beyond the limits: the joints of before are sent again.
+    const auto joints = arm_->reach(measured, measured_joints_);
+    if (joints) measured_joints_ = *joints;
+    measured_joints_js_.publish(toJoints(measured_joints_, stamp));
+  }
   last_measured_ = measured;
   last_sent_ = stamp;
   if (motion_.busy() != sent_busy_) tellState();
@@ -224,6 +293,7 @@ void CrtkArm::tellSetpoints() {
   const std::string frame = mailbox_.deviceFrame().name;
   if (isReceived(setpoint_cp_)) setpoint_cp_.publish(stamped(motion_.setpoint(), frame, stamp));
   if (isReceived(goal_cp_)) goal_cp_.publish(stamped(motion_.goal(), frame, stamp));
+  if (arm_ && isReceived(setpoint_joints_js_)) setpoint_joints_js_.publish(toJoints(joints_, stamp));
   if (!isReceived(measured_js_) && !isReceived(setpoint_js_)) return;
   sensor_msgs::JointState jaw;
   jaw.header.stamp = stamp;

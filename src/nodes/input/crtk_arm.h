@@ -17,14 +17,16 @@
 #include <vector>
 
 #include "devices/arm_motion.h"
+#include "devices/da_vinci_arm.h"
 #include "nodes/input/stylus_mailbox.h"
 
 namespace viscera::nodes {
 
 /// A tool that acts as a CRTK arm (docs/devices.md). It subscribes to servo_cp, servo_cv, move_cp, hold, jaw/servo_jp,
 /// jaw/move_jp and state_command. It publishes measured_cp, setpoint_cp, goal_cp, measured_cv, operating_state and the
-/// state of its jaws. Forces go through its ForceSink. Setpoints are published faster than ticks come, since clients
-/// wait for such messages.
+/// state of its jaws. With the joints of a da Vinci it also takes servo_jp and move_jp, publishes measured_js and
+/// setpoint_js, and goes only where they reach. Forces go through its ForceSink. Setpoints are published faster than
+/// ticks come, since clients wait for such messages.
 class CrtkArm {
  public:
   /// @param mailbox  mailbox of its stylus; must outlive this object
@@ -43,6 +45,7 @@ class CrtkArm {
   void onServo(const geometry_msgs::PoseStamped& message);
   void onMove(const geometry_msgs::PoseStamped& message);
   void onVelocity(const geometry_msgs::TwistStamped& message);
+  void onJoints(const sensor_msgs::JointState& message, bool moves);
   void onHold();
   void onJaw(const sensor_msgs::JointState& message, bool moves);
   void onState(const crtk_msgs::StringStamped& message);
@@ -50,6 +53,9 @@ class CrtkArm {
   bool isOfBase(const std::string& frame) const;
   std::optional<Pose> poseOfFrame(const std::string& frame, const std::string& topic);
   void refuse(const std::string& topic, Drop reason, const std::string& detail = "");
+  bool isReached(const Pose& pose, const std::string& topic);
+  void stayWithinReach();
+  sensor_msgs::JointState toJoints(const DaVinciArm::Joints& joints, const ros::Time& stamp) const;
   void place();
   void tellSetpoints();
   void tellState();
@@ -59,6 +65,8 @@ class CrtkArm {
   std::string base_;  ///< prefix of its topics
   mutable std::mutex mutex_;
   ArmMotion motion_;
+  std::optional<DaVinciArm> arm_;                ///< joints, if it has some
+  DaVinciArm::Joints joints_, measured_joints_;  ///< of the setpoint and of the tool
   bool sent_busy_ = false, warned_ = false;
   const std::string frame_;  ///< frame of the arm's base in the profile; empty: the tissue frame
   SteadyTime ticked_{};
@@ -69,6 +77,7 @@ class CrtkArm {
   std::vector<ros::Subscriber> commands_;
   ros::SteadyTimer setpoints_;
   ros::Publisher measured_cp_, setpoint_cp_, goal_cp_, measured_cv_, operating_state_, measured_js_, setpoint_js_;
+  ros::Publisher measured_joints_js_, setpoint_joints_js_;
 };
 
 }  // namespace viscera::nodes

@@ -31,6 +31,7 @@ FramePublisher::FramePublisher(ros::NodeHandle node, const Scene& scene, const P
       scene_markers_(node, scene, options),
       sutures_(node, scene),
       needles_(node, scene),
+      cloud_(node, scene.environment.tissue_frame),
       failed_(std::move(failed)),
       has_marks_(!scene.marks.empty()),
       image_viewers_(kPictureKinds * scene.cameras.size(), 0) {
@@ -126,6 +127,14 @@ FrameRequest FramePublisher::stills(bool changed, bool aimed) {
 
 void FramePublisher::addTo(const Session& session, Frame& frame) {
   if (scene_markers_.isWanted()) held_.addTo(frame, session);
+  if (!cloud_.isDue()) return;
+  sensor_msgs::PointCloud2 cloud = cloud_.messageOf(session, tick_stamp_);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    slots_.cloud = std::move(cloud);
+    any_ = true;
+  }
+  filled_.notify_one();
 }
 
 void FramePublisher::deliver(Frame&& frame, const StylusSamples& samples) {
@@ -215,6 +224,7 @@ void FramePublisher::send(Slots&& slots) {
   }
   if (slots.sutures) sutures_.publish(*slots.sutures);
   if (slots.needles) needles_.publish(*slots.needles);
+  if (slots.cloud) cloud_.publish(*slots.cloud);
   for (size_t i = 0; i < slots.images.size(); ++i) {
     if (!slots.images[i]) continue;
     const SteadyTime pose_received = slots.images[i]->value.pose_received;
@@ -228,7 +238,7 @@ void FramePublisher::send(Slots&& slots) {
 bool FramePublisher::isViewed() const {
   const auto watched = [](const auto& camera) { return camera->isWanted(); };
   return surface_.isWanted() || scene_markers_.isWanted() || sutures_.isWanted() || needles_.isWanted() ||
-         std::any_of(cameras_.begin(), cameras_.end(), watched);
+         cloud_.isWanted() || std::any_of(cameras_.begin(), cameras_.end(), watched);
 }
 
 void FramePublisher::recordSent(RateMeter& rate, LatencyMeter& latency, SteadyTime pose_received) {

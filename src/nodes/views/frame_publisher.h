@@ -28,6 +28,7 @@
 #include "nodes/views/scene_marker_publisher.h"
 #include "nodes/views/surface_publisher.h"
 #include "nodes/views/suture_publisher.h"
+#include "nodes/views/tissue_cloud.h"
 
 namespace viscera::nodes {
 
@@ -89,6 +90,7 @@ class FramePublisher {
     std::optional<Stamped<SceneStyle>> scene;
     std::optional<Sutures> sutures;
     std::optional<Needles> needles;
+    std::optional<sensor_msgs::PointCloud2> cloud;
     std::shared_ptr<const VisibleMarks> marks;  ///< marks on `surface`
   };
 
@@ -116,6 +118,7 @@ class FramePublisher {
   SceneMarkerPublisher scene_markers_;
   SuturePublisher sutures_;
   NeedlePublisher needles_;
+  TissueCloud cloud_;
   std::vector<std::unique_ptr<CameraPublisher>> cameras_;
   const std::function<void(std::exception_ptr)> failed_;
 

@@ -26,6 +26,7 @@ START = (-0.03, 0, 0.05)  # of crtk_arm.test
 DEEP_M = 0.012            # centre of the probe, 6 mm in the block
 PLACE_M = 1e-6            # rounding
 TURN = 1e-6               # rounding of a rotation's nine components
+JOINTS = 1e-5             # rounding of positions, over the 9 mm of a wrist
 SPEED = 0.05              # relative tolerance for a mean of a few ticks
 FELT_N = 0.05
 HOLDS_S = 0.1             # time for which a velocity is followed without a new command
@@ -278,6 +279,43 @@ class CrtkArmTest(unittest.TestCase):
             counts[name] = (latest.count - before) / 2
         if min(counts.values()) <= FRESH_HZ:
             raise Late("%s Hz, wanted %g" % (counts, FRESH_HZ))
+
+    def test_a_psm_has_joints_about_a_remote_centre(self):
+        sent = {name: rospy.Publisher("PSM2/" + name, JointState, queue_size=1) for name in ("servo_jp", "move_jp")}
+        poses = rospy.Publisher("PSM2/servo_cp", PoseStamped, queue_size=1)
+        joints, setpoint = Latest("PSM2/measured_js", JointState), Latest("PSM2/setpoint_js", JointState, queue_size=100)
+        states = []
+        state = Latest("PSM2/operating_state", OperatingState, states.append, queue_size=10)
+        pose = Latest("PSM2/measured_cp", PoseStamped)
+        wait_until(lambda: all(p.get_num_connections() for p in (poses, *sent.values())), LIMIT_S, "PSM2")
+
+        def has(latest, goal):
+            return lambda: latest.message and length(plus(latest.message.position, goal, -1)) < JOINTS
+        wait_until(has(joints, (0, 0, 0.1, 0, 0, 0)), LIMIT_S, "joints of the start")
+        self.assertEqual(joints.message.name, ["yaw", "pitch", "insertion", "roll", "wrist_pitch", "wrist_yaw"])
+        goal = (0.3, -0.2, 0.12, 0.5, -0.4, 0.2)
+        sent["servo_jp"].publish(JointState(position=goal))
+        wait_until(has(joints, goal), LIMIT_S, "joints that were servoed")
+        wait_until(has(setpoint, goal), LIMIT_S, "setpoint_js")
+        there = pose.message.pose
+        goal = (-0.2, 0.1, 0.1, 0, 0, 0)
+        del states[:]
+        sent["move_jp"].publish(JointState(position=goal))
+        wait_until(lambda: any(s.is_busy for s in states) and not states[-1].is_busy, LIMIT_S, "a move and its end")
+        wait_until(has(joints, goal), LIMIT_S, "joints that were moved")
+        for publisher, command in ((sent["servo_jp"], JointState(position=(0, 0, 0.3, 0, 0, 0))), (poses, PoseStamped())):
+            if publisher is poses:
+                fill(command.pose, (0, 0, 0.1), JAWS)  # above the remote centre
+            before = self.watch.value("right", "dropped_outside_workspace") or 0
+            publisher.publish(command)
+            wait_until(lambda: self.watch.value("right", "dropped_outside_workspace") == before + 1, LIMIT_S, "a refused command")
+        self.assertTrue(has(joints, goal)())
+        command = PoseStamped()
+        command.pose = there
+        poses.publish(command)
+        wait_until(has(joints, (0.3, -0.2, 0.12, 0.5, -0.4, 0.2)), LIMIT_S, "joints of a pose")
+        for latest in (joints, setpoint, state, pose):
+            latest.stop()
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@ import sys
 import time
 import unittest
 
+import roslib.packages
 import rospkg
 import rospy
 import rostest
@@ -115,6 +116,10 @@ class DevicesTest(unittest.TestCase):
 
     def test_bare_poses_and_a_dvrk_master(self):
         self.drive("bare", [drivers.BarePose, drivers.DvrkMaster])
+
+    @unittest.skipUnless(roslib.packages.find_node("viscera", "haply_bridge"), "a build without Boost.Beast")
+    def test_a_haply_inverse3(self):
+        self.drive("haply", [drivers.HaplyInverse3])
 
     def test_what_a_clutch_a_moved_base_and_millimetres_do(self):
         self.tools.clear()

@@ -110,6 +110,8 @@ class LaunchingTest(unittest.TestCase):
         self.assertEqual(set(self.nodes_of("fleet.launch", n=2)), {"/sim1/simulator", "/sim2/simulator"})
         self.assertNotIn("/page_server", self.nodes_of("training.launch"))
         self.assertEqual(self.nodes_of("lesson.launch", page="true", page_port=9000, page_control="true")["/page_server"], "_port:=9000 _control:=true")
+        haply = self.nodes_of("training.launch", device_left="haply_inverse3:left", device_right="haply_inverse3")
+        self.assertEqual((haply["/haply_left"], haply["/haply_right"]), ("_name:=left _device:=left", ""))
         self.assertIn("/cloth.rviz", self.nodes_of("training.launch", rviz="true", view="cloth")["/rviz"])
 
     def test_a_watchdog_stands_before_each_driver_that_takes_forces(self):

@@ -8,6 +8,8 @@ import time
 import genpy.dynamic
 import rospy
 from geometry_msgs.msg import Pose, PoseStamped, TransformStamped, Wrench, WrenchStamped
+from haply_service import HaplyService
+from program import Program, node
 from sensor_msgs.msg import JointState, Joy
 from tf2_msgs.msg import TFMessage
 from turns import IDENTITY, plus, quaternion, times, transposed
@@ -310,5 +312,28 @@ class BarePose(Driver):
         self.joys.publish(Joy(buttons=self.down))
 
 
-KINDS = [Crtk, Crtk2021, DvrkMaster, PhantomOmni, Geomagic, Polhemus, TfTracker, Vicon, OptiTrack, BarePose]
+class HaplyInverse3(Driver):
+    """haply_bridge with a simulated service. y of the grip points away from the user, as -z of a tool does."""
+    profile, base = "haply_inverse3", (0, 0.03, -0.15)
+    to_grip = transposed(UP)
+
+    def open(self):
+        self.service = HaplyService()
+        self.bridge = Program([node("haply_bridge"), "_port:=%d" % self.service.port])
+
+    def tell(self, position, rotation):
+        self.service.at, self.service.grip = position, quaternion(times(rotation, self.to_grip))
+        if self.service.force is not None:
+            self.feel(self.service.force)
+
+    def press(self, button, down):
+        self.service.buttons[button - 1] = bool(down)
+
+    def end(self):
+        super().end()
+        self.bridge.end()
+        self.service.stop()
+
+
+KINDS = [Crtk, Crtk2021, DvrkMaster, PhantomOmni, Geomagic, Polhemus, TfTracker, Vicon, OptiTrack, BarePose, HaplyInverse3]
 

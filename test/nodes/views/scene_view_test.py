@@ -4,6 +4,7 @@
 """The topics for viewers: a camera_info that is accurate to a fraction of a pixel, topologies, and markers of
 everything except tissue."""
 import math
+import struct
 import sys
 import threading
 import time
@@ -12,7 +13,7 @@ import unittest
 import rospy
 import rostest
 from geometry_msgs.msg import PoseStamped
-from sensor_msgs.msg import CameraInfo, Image
+from sensor_msgs.msg import CameraInfo, Image, PointCloud2, PointField
 from simulator_watch import Latest, SimulatorWatch, wait_until
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
@@ -172,6 +173,22 @@ class SceneViewTest(unittest.TestCase):
         self.left.position = None
         plain.stop()
         strain.stop()
+
+    def test_strain_and_force_are_sent_as_a_cloud(self):
+        surface, clouds = Latest("surface", SurfaceVertices), []
+        cloud = Latest("tissue_cloud", PointCloud2, lambda m: clouds.append(time.monotonic()))
+        wait_until(lambda: surface.count and len(clouds) > 3, LIMIT_S, "clouds")
+        message = cloud.message
+        self.assertEqual([(f.name, f.offset, f.datatype) for f in message.fields],
+                         [(name, 4 * i, PointField.FLOAT32) for i, name in enumerate(("x", "y", "z", "strain", "force"))])
+        self.assertEqual((message.header.frame_id, message.point_step, len(message.data)), ("tissue", 20, 20 * message.width))
+        points = list(struct.iter_unpack("<5f", message.data))
+        self.assertGreater(len(points), 100)
+        self.assertTrue(all(math.isfinite(value) for point in points for value in point))
+        self.assertTrue(all(strain >= 0 and force >= 0 for _, _, _, strain, force in points))
+        self.assertGreater((clouds[-1] - clouds[0]) / (len(clouds) - 1), 0.1, "five times a second at most")
+        surface.stop()
+        cloud.stop()
 
     def test_sutures_are_published_node_by_node(self):
         sutures = Latest("sutures", Sutures)
