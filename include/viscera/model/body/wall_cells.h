@@ -20,8 +20,8 @@ struct WallCell {
   double variation;  ///< share of their variation within the cell that is used, 0..kRowVariation
 };
 
-/// Largest share of the variation of second derivatives within a cell. With all of it motions are continuous, but
-/// moderately thick walls become too stiff. With half of it, walls of half a cell under tension are within 6 %.
+/// Largest share of the variation of second derivatives within a cell: that of walls of half a cell, which are within 6
+/// % under tension with it. With all of it motions would be continuous, but walls too stiff.
 constexpr double kRowVariation = 0.5;
 
 /// Returns the cells of a body in thin walls, ascending by cell. Only lattices of the neo-Hookean law with `walls:
