@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "cli/png_writer.h"
+#include "export/png_writer.h"
 #include "viscera/math/error.h"
 
 namespace viscera::bench {

@@ -65,13 +65,14 @@ vec3 lit(vec2 pixel, float depth, vec3 rest, vec3 rest_x, vec3 rest_y, bool rest
   vec3 albedo = linearFromSrgb(appearance.rgb);
   float roughness = kRoughness, shade = 1.0;
   uint beside = finish.x & 0xffffffu;
+  bool painted = !wall && beside == kSeenPaint;
 #ifdef GRAIN
   vec4 grain = grainAt(rest, 2.0 * appearance.a - 1.0);
   roughness = body_finish[bodyOf(alpha)].x;
 #endif
 #ifdef DETAIL
   // Half the derivatives of a pixel, as for a sample: coarser texels would mix in neighbouring charts.
-  addDetail(wall || beside == kNoSeenChart ? kNoTextureChart : beside, rest, 0.5 * rest_x, 0.5 * rest_y, position_x, position_y, albedo, outward, roughness);
+  addDetail(wall || painted || beside == kNoSeenChart ? kNoTextureChart : beside, rest, 0.5 * rest_x, 0.5 * rest_y, position_x, position_y, albedo, outward, roughness);
   n = front ? outward : -outward;
 #endif
 #ifdef GRAIN
@@ -83,7 +84,7 @@ vec3 lit(vec2 pixel, float depth, vec3 rest, vec3 rest_x, vec3 rest_y, bool rest
   n = onRelief(n, dot(slopes, rest_x), dot(slopes, rest_y), position_x, position_y);
 #endif
 #ifdef MARKS
-  addMarks(rest, rest_x, rest_y, alpha, wall, albedo, roughness);
+  addMarks(rest, rest_x, rest_y, alpha, wall || painted, albedo, roughness);
 #endif
   return tissueLight(position_m, n, albedo, roughness, shade, front || alpha < 0.5);
 }

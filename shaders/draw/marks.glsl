@@ -27,9 +27,10 @@ float patternAt(float pattern, float along, float off) {
 }
 
 /// Paints the marks at a place of the surface. @param rest_x, rest_y  its change from pixel to pixel [m]
-void addMarks(vec3 rest, vec3 rest_x, vec3 rest_y, float alpha, bool wall, inout vec3 albedo, inout float roughness) {
+/// @param bare  a place that has none: a wall, a burn or the line of a cut
+void addMarks(vec3 rest, vec3 rest_x, vec3 rest_y, float alpha, bool bare, inout vec3 albedo, inout float roughness) {
   vec3 cell = floor((rest - mark_space.xyz) * mark_space.w);
-  if (wall || any(lessThan(cell, vec3(0.0))) || any(greaterThanEqual(cell, mark_counts))) return;
+  if (bare || any(lessThan(cell, vec3(0.0))) || any(greaterThanEqual(cell, mark_counts))) return;
   uint list = texelFetch(mark_cells, int(cell.x + mark_counts.x * (cell.y + mark_counts.y * cell.z))).r;
   int first = int(list >> 8), last = first + int(list & 255u);
   float body = float(bodyOf(alpha)), nearest = 1e9, off = 0.0, along = 0.0, half_width = 1.0, pattern = 0.0;

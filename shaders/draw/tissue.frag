@@ -43,6 +43,7 @@ layout(location = 0) out vec4 image;
 
 void main() {
   bool wall = isWall(color.a);  // of a wound: few, large triangles, with smooth normals that may face away
+  bool bare = wall;             // no marks
   vec3 albedo = color.rgb, outward = normal;
   float roughness = kRoughness, shade = 1.0;
 #ifdef REST
@@ -61,6 +62,7 @@ void main() {
   vec3 painted = pow(color.rgb, vec3(1.0 / 2.2));  // near sRGB; its stops replace it where paint covers
   float paint = paintSkin(painted, rest, dFdx(rest), dFdy(rest), wall);
   albedo = mix(albedo, linearFromSrgb(painted), paint);
+  bare = wall || paint > 0.5;
 #endif
   vec3 n = seenNormal(outward, position_m, gl_FrontFacing);
   vec3 to_eye = -normalize(position_m);
@@ -72,7 +74,7 @@ void main() {
   n = onRelief(n, dFdx(relief_m), dFdy(relief_m), position_x, position_y);
 #endif
 #if defined(MARKS) && defined(REST)
-  addMarks(rest.xyz, rest_x, rest_y, color.a, wall, albedo, roughness);
+  addMarks(rest.xyz, rest_x, rest_y, color.a, bare, albedo, roughness);
 #endif
   image = vec4(tissueLight(position_m, n, albedo, roughness, shade, gl_FrontFacing || color.a < 0.5), 1.0);
 }

@@ -41,7 +41,7 @@ void main() {
 #endif
   vec3 own = color.rgb;
 #ifdef PAINT
-  if (paintSkin(own, rest, dFdx(rest), dFdy(rest), wall) > 0.5) beside = kNoSeenChart;
+  if (paintSkin(own, rest, dFdx(rest), dFdy(rest), wall) > 0.5) beside = kSeenPaint;
 #endif
   finish.x = uint(color.a * 255.0 + 0.5) << 24 | beside;
   float of_patches = 0.0;

@@ -26,6 +26,7 @@ const uint kUnitMarkSegments = 32u;  // rgba32f: MarkGrid::segments
 const uint kUnitMarkStyles = 33u;    // rgba32f: linear colour, MarkPattern
 
 const uint kNoSeenChart = 0xffffffu;
+const uint kSeenPaint = 0xfffffeu;  // in place of a chart: paint hides textures and marks
 const float kDeepestSeen_m = 0.25f;  // largest depth of a wall that is stored [m]
 
 #ifdef __cplusplus

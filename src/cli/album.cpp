@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "cli/npy_writer.h"
-#include "cli/png_writer.h"
+#include "export/png_writer.h"
 #include "viscera/math/error.h"
 
 namespace viscera::cli {

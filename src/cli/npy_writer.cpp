@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "cli/png_writer.h"
+#include "export/png_writer.h"
 
 namespace viscera {
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "cli/commands.h"
-#include "cli/png_writer.h"
 #include "cli/scene_lookup.h"
+#include "export/png_writer.h"
 #include "math/one_line.h"
 #include "tasks/task_notes.h"
 #include "tasks/verdict.h"

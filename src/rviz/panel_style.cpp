@@ -17,6 +17,7 @@ namespace viscera::rviz_plugin {
 namespace {
 
 constexpr int kIcon_px = 16;
+constexpr int kPerMille = 1000;
 
 bool isUsed(const QComboBox* box) {
   return box->view()->isVisible() || (box->lineEdit() && box->lineEdit()->hasFocus());
@@ -130,6 +131,28 @@ void keepWidthOf(QPushButton* button, const QStringList& texts) {
   }
   button->setText(now);
   button->setMinimumWidth(width);
+}
+
+PassBar::PassBar() {
+  setRange(0, kPerMille);
+}
+
+void PassBar::show(double share, double pass_share, bool passes, const QString& text) {
+  pass_share_ = pass_share;
+  setValue(static_cast<int>(kPerMille * share));
+  setFormat(text);
+  setStyleSheet(QString("QProgressBar {border: 1px solid gray; text-align: center; color: black; background: #f0f0f0}"
+                        "QProgressBar::chunk {background: %1}")
+                    .arg(passes ? "#4fc3a1" : "#f0a070"));  // light enough for the text on them
+  show();
+}
+
+void PassBar::paintEvent(QPaintEvent* event) {
+  QProgressBar::paintEvent(event);
+  QPainter painter(this);
+  const int x = 1 + static_cast<int>(pass_share_ * (width() - 2));
+  painter.setPen(QPen(Qt::black, 2));
+  painter.drawLine(x, 0, x, height());
 }
 
 QString rounded(const std::string& number, int digits) {

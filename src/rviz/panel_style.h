@@ -5,6 +5,7 @@
 #include <QComboBox>
 #include <QIcon>
 #include <QLabel>
+#include <QProgressBar>
 #include <QPushButton>
 #include <QSpinBox>
 
@@ -34,6 +35,21 @@ class CountBox : public QSpinBox {
 
  protected:
   void wheelEvent(QWheelEvent* event) override;
+};
+
+/// Bar of a share with a line where it passes; green from there on, orange below.
+class PassBar : public QProgressBar {
+ public:
+  PassBar();
+  using QProgressBar::show;
+  /// Shows a share and the least one that passes, both 0..1, with a text in the bar.
+  void show(double share, double pass_share, bool passes, const QString& text);
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  double pass_share_ = 0;
 };
 
 /// Creates a label of several lines of selectable plain text. A long word is clipped and does not widen the panel.

@@ -42,8 +42,7 @@ QString verdictStyle(uint8_t state) {
 QString scoreText(const TaskState& state) {
   QString out = number(state.time_s, 1) + " of " + number(state.time_limit_s, 0) + " s";
   if (state.proficiency_s > 0) out += " (proficient: " + number(state.proficiency_s, 0) + " s)";
-  out += ", penalties " + number(state.penalties_s, 1) + " s\nscore " + number(state.score, 1) + ", passes from " +
-         number(state.pass_score, 1);
+  out += ", penalties " + number(state.penalties_s, 1) + " s";
   if (state.state == TaskState::PASSED) out += ": PASSED";
   if (state.state == TaskState::FAILED) out += ": FAILED";
   return out;
@@ -121,6 +120,7 @@ struct TaskBox::Inside {
   QLabel *text = wrappedLabel(), *score = wrappedLabel(), *measures = wrappedLabel(), *tools = wrappedLabel(),
          *report = new QLabel;
   QProgressBar* progress = new QProgressBar;
+  PassBar* score_bar = new PassBar;
   std::shared_ptr<Topics> topics = std::make_shared<Topics>();
 
   void clear();
@@ -138,6 +138,7 @@ TaskBox::TaskBox(received::RosWorker& worker) : QGroupBox("Task"), inside_(new I
   in.tasks->setMinimumContentsLength(kLeastLetters);
   in.tasks->setToolTip("Name of a task, or path of one");
   in.progress->setRange(0, kPercent);
+  in.progress->setFormat("%p % of the goal");
   in.report->setOpenExternalLinks(true);
   auto* grid = new QGridLayout(in.choices);
   grid->setContentsMargins(0, 0, 0, 0);
@@ -146,8 +147,9 @@ TaskBox::TaskBox(received::RosWorker& worker) : QGroupBox("Task"), inside_(new I
   grid->addWidget(in.end, 1, 1);
   auto* rows = new QVBoxLayout(this);
   for (QWidget* widget :
-       {static_cast<QWidget*>(in.text), static_cast<QWidget*>(in.progress), static_cast<QWidget*>(in.score),
-        static_cast<QWidget*>(in.measures), static_cast<QWidget*>(in.tools), static_cast<QWidget*>(in.report)})
+       {static_cast<QWidget*>(in.text), static_cast<QWidget*>(in.progress), static_cast<QWidget*>(in.score_bar),
+        static_cast<QWidget*>(in.score), static_cast<QWidget*>(in.measures), static_cast<QWidget*>(in.tools),
+        static_cast<QWidget*>(in.report)})
     rows->addWidget(widget);
   connect(in.start, &QPushButton::clicked, this, [&in] {
     const QString task = in.tasks->currentText().trimmed();
@@ -196,6 +198,7 @@ void TaskBox::setRuns(bool runs) {
 void TaskBox::Inside::clear() {
   for (QLabel* label : {text, score, measures, tools, report}) label->hide();
   progress->hide();
+  score_bar->hide();
   busy = false;
   enable();
 }
@@ -211,6 +214,8 @@ void TaskBox::Inside::show(const TaskState& state) {
   score->setStyleSheet(verdictStyle(state.state));
   progress->setValue(static_cast<int>(kPercent * std::clamp(state.progress, 0.0, 1.0)));
   progress->show();
+  const ScoreBar bar = scoreBar(state.score, state.pass_score, state.time_limit_s);
+  score_bar->show(bar.share, bar.pass_share, bar.passes, bar.text);
   writeOrHide(measures, measuresText(state));
   const QString page = QUrl::fromLocalFile(QString::fromStdString(state.report) + "/report.html").toString();
   writeOrHide(report, state.report.empty() ? QString() : "<a href=\"" + page.toHtmlEscaped() + "\">Report</a>");

@@ -68,4 +68,10 @@ QString measuresText(const std::string& kind, const std::vector<SentMeasure>& me
   return out.trimmed();
 }
 
+ScoreBar scoreBar(double score, double pass_score, double most) {
+  const auto share = [most](double of) { return most > 0 ? std::clamp(of / most, 0.0, 1.0) : 0.0; };
+  return {share(score), share(pass_score), score > 0 && score >= pass_score,
+          "score " + QString::number(score, 'f', 1) + ", passes from " + QString::number(pass_score, 'f', 1)};
+}
+
 }  // namespace viscera::rviz_plugin

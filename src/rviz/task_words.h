@@ -18,6 +18,15 @@ struct SentMeasure {
 /// @param kind  kind of the task, as in viscera/TaskState
 QString measuresText(const std::string& kind, const std::vector<SentMeasure>& measures);
 
+/// A task's score as a bar.
+struct ScoreBar {
+  double share = 0, pass_share = 0;  ///< of the bar: the score, and the lowest one that passes; 0..1
+  bool passes = false;
+  QString text;
+};
+/// @param most  score of a task that takes no time: its time limit
+ScoreBar scoreBar(double score, double pass_score, double most);
+
 /// Returns whether the measure has a description of its own.
 bool hasWords(const std::string& measure);
 

@@ -3,9 +3,9 @@
 #include "tools/anchor_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 namespace viscera {
 namespace {
@@ -15,17 +15,32 @@ constexpr double kNone = -std::numeric_limits<double>::infinity();
 /// Surface point that a viewer along -z sees.
 struct Skinned {
   double height_m = kNone;  ///< kNone: no surface
+  double back_m = kNone;    ///< of the far side of the tissue there; kNone: not known
   bool is_held = false;
+  double thickness_m() const { return back_m == kNone ? 0 : std::max(0.0, height_m - back_m); }
 };
 
-/// Number of positions with the surface below them.
-struct Met {
-  size_t free = 0, all = 0;  ///< where it can move; anywhere
-  bool operator<(const Met& other) const { return std::tie(free, all) < std::tie(other.free, other.all); }
+/// How well a place suits strokes, by their positions with the surface below them.
+class Met {
+ public:
+  /// @param deepest_m  of the strokes: tissue below it does not matter
+  explicit Met(double deepest_m) : deepest_m_(deepest_m) {}
+  bool operator<(const Met& other) const { return key() < other.key(); }
   void add(const Skinned& skin) {
-    free += skin.is_held ? 0 : 1;
-    ++all;
+    free_ += skin.is_held ? 0 : 1;
+    ++all_;
+    thickness_m_ += std::min(skin.thickness_m(), deepest_m_);
   }
+
+ private:
+  /// Returns the number of positions where tissue can move, of all, and the mean thickness in tenths of the depth.
+  std::array<size_t, 3> key() const {
+    constexpr double kTenths = 10, kRounding = 1e-6;
+    const double most_m = deepest_m_ * static_cast<double>(all_);
+    return {free_, all_, most_m > 0 ? static_cast<size_t>(kTenths * thickness_m_ / most_m + kRounding) : 0};
+  }
+  size_t free_ = 0, all_ = 0;
+  double thickness_m_ = 0, deepest_m_;
 };
 
 /// Heights of the surfaces for a viewer along -z, on a grid of points across.
@@ -70,7 +85,10 @@ class HeightMap {
         if (u < 0 || v < 0 || u + v > 1) continue;
         const double height_m = a.z() + u * ab.z() + v * ac.z();
         Skinned& skin = skins_[static_cast<size_t>(row * kPoints + column)];
-        if (height_m > skin.height_m) skin = {height_m, is_held};
+        if (area < 0) skin.back_m = std::max(skin.back_m, height_m);
+        if (height_m <= skin.height_m) continue;
+        skin.height_m = height_m;
+        skin.is_held = is_held;
       }
     }
   }
@@ -103,11 +121,14 @@ Vector3d shiftOntoSkin(const Model& model, const Anchor& anchor, const std::vect
   const HeightMap map(model, frame.conjugate());
   if (map.step_m() <= 0) return Vector3d::Zero();
   const Vector3d origin = frame.conjugate() * anchor.from_m;
-  double reach_m = 0;
-  for (const Vector3d& spot : spots_m) reach_m = std::max(reach_m, spot.head<2>().norm());
+  double reach_m = 0, deepest_m = 0;
+  for (const Vector3d& spot : spots_m) {
+    reach_m = std::max(reach_m, spot.head<2>().norm());
+    deepest_m = std::max(deepest_m, -spot.z());
+  }
   const auto met = [&](double x_m, double y_m) {
     const Skinned middle = map.at(x_m, y_m);
-    Met count;
+    Met count(deepest_m);
     if (middle.height_m != kNone) count.add(middle);
     for (const Vector3d& spot : spots_m) {
       const Skinned skin = map.at(x_m + spot.x(), y_m + spot.y());

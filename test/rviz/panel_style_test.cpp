@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QImage>
 #include <QWheelEvent>
+#include <array>
 #include <string>
 
 #include "rviz/tool_table.h"
@@ -32,6 +34,23 @@ bool turnsWheelPast(QWidget& widget, int notch) {
                     Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
   QApplication::sendEvent(&widget, &event);
   return !event.isAccepted();
+}
+
+TEST(PanelStyle, BarHasALineWhereItPasses) {
+  application();
+  PassBar bar;
+  bar.resize(202, 20);
+  const auto colors = [&bar](double share) {
+    bar.show(share, 0.5, share >= 0.5, QString());
+    const QImage image = bar.grab().toImage();
+    return std::array<QColor, 3>{image.pixelColor(30, 10), image.pixelColor(101, 10), image.pixelColor(170, 10)};
+  };
+  const auto low = colors(0.25), high = colors(0.75);
+  EXPECT_EQ(low[1], QColor(Qt::black));
+  EXPECT_EQ(high[1], QColor(Qt::black));
+  EXPECT_GT(low[0].red(), low[0].green());    // orange
+  EXPECT_GT(high[0].green(), high[0].red());  // green
+  EXPECT_EQ(low[2], high[2]);                 // beyond both
 }
 
 TEST(PanelStyle, WheelOverAClosedBoxScrollsPast) {

@@ -41,6 +41,17 @@ TEST(TaskWords, OperationsShowWhatTheyHaveCounted) {
   EXPECT_EQ(measuresText("operation", {{"drops", 1, 0}, {"gap_mm", 0, 0}}), "Drops: 1");
 }
 
+TEST(TaskWords, BarOfTheScoreSaysFromWhereItPasses) {
+  const ScoreBar passes = scoreBar(90, 60, 120), fails = scoreBar(30, 60, 120), lost = scoreBar(0, 0, 120);
+  EXPECT_DOUBLE_EQ(passes.share, 0.75);
+  EXPECT_DOUBLE_EQ(passes.pass_share, 0.5);
+  EXPECT_TRUE(passes.passes);
+  EXPECT_EQ(passes.text, "score 90.0, passes from 60.0");
+  EXPECT_FALSE(fails.passes);
+  EXPECT_FALSE(lost.passes);
+  EXPECT_DOUBLE_EQ(scoreBar(5, 1, 0).share, 0);  // of a sender without a time limit
+}
+
 TEST(TaskWords, MeasureOfANewerSimulatorKeepsItsName) {
   EXPECT_EQ(measuresText("lift", {{"new_one", 1.5, 0}}), "new_one: 1.5");
 }

@@ -152,6 +152,23 @@ TEST(Anchor, OfAnotherOrganMovesToWhereTheTissueIsFree) {
   EXPECT_GT(strokes.strokes[0].keys[0].pose.position_m.z(), -2 * kCellM) << "no farther than it must";
 }
 
+TEST(Anchor, OfAnotherOrganMovesToWhereTheTissueIsThick) {
+  Scene scene;
+  scene.bodies = {box("wall"), box("block")};  // side by side, with one front
+  for (const double side : {-1.0, 1.0}) {
+    BodyConfig& body = scene.bodies[side < 0 ? 0 : 1];
+    body.box_size_m.y() = side < 0 ? 0.01 : 0.04;
+    body.position_m = {side * (kHalfM + 0.001), side < 0 ? -0.015 : 0, 0};
+  }
+  const Model model = buildModel(scene);
+  Strokes strokes = anchored({-0.005, -0.3, 0}, {-0.005, 0, 0}, {Vector3d(0, 0, -0.018), {}});
+  resolveAnchors(strokes, model, fitFrom(1));
+  const Vector3d key = strokes.strokes[0].keys[0].pose.position_m;
+  EXPECT_GT(key.x(), 0) << "over the block";
+  EXPECT_LT(key.x(), 0.006) << "no farther than it must";
+  EXPECT_NEAR(key.y(), -kHalfM + 0.018, kRoundingM);
+}
+
 TEST(Anchor, StrokeThatMeetsOnlyHeldTissueIsNamed) {
   const Model model = halfHeldBox();
   Strokes strokes = anchored({0.001, -0.3, 0.015}, {0.001, 0, 0.015});

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cli/png_writer.h"
+#include "export/png_writer.h"
 
 namespace viscera::cli {
 namespace {

@@ -85,7 +85,7 @@ void SimulationLoop::run() {
     status_.backend = session.solver().backend();
     status_.stepped_by = session.backendNote();
   }
-  ports_.ready(session);
+  ports_.ready(session, made_->context != nullptr);
   showSkin(session);
   while (!stop_) {
     while (std::optional<Command> command = commands_.take()) command->answer.set_value(execute(*command, session));

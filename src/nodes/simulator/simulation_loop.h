@@ -52,8 +52,9 @@ struct LoopPorts {
   std::function<StylusSamples()> samples;             ///< returns the samples for that tick
   std::function<FrameRequest()> outputs;              ///< returns the outputs of that tick
   std::function<void(const Session&, Frame&)> addTo;  ///< adds to a frame before it is delivered; may be null
-  std::function<void(Session&)> ready;                ///< called once, before the first tick
-  std::function<void(const Session&)> leave;          ///< called once, after the last tick, if there is a session
+  /// Runs once, before the first tick. @param pictures  whether there is OpenGL to draw images
+  std::function<void(Session&, bool pictures)> ready;
+  std::function<void(const Session&)> leave;  ///< called once, after the last tick, if there is a session
   /// Receives every tick. @param input_reset  whether input was discarded before the tick
   std::function<void(uint64_t tick, const StylusSamples&, const ToolMotions&, bool input_reset)> stepped;
   /// Receives the results of a tick with these samples.

@@ -130,12 +130,12 @@ LoopPorts Simulator::ports() {
     return samples;
   };
   if (!camera_frames_.empty()) ports.aim = [this](Session& session) { return camera_frames_.apply(session); };
-  ports.outputs = [this] { return placed(publisher_.beginTick()); };
+  ports.outputs = [this] { return placed(tasks_.with(publisher_.beginTick())); };
   ports.stills = [this](bool changed, bool aimed) { return placed(publisher_.stills(changed, aimed)); };
-  ports.ready = [this](Session& session) {
+  ports.ready = [this](Session& session, bool pictures) {
     scenes_.begin(session);
     recordings_.follow(session);
-    tasks_.follow(session);
+    tasks_.follow(session, pictures);
     ROS_INFO("ready: %zu nodes, %zu springs, %zu triangles, substep %.3g ms", session.model().activeNodes(),
              session.model().springs(), session.model().skinTriangles(), 1e3 * session.solver().dt_s());
     ROS_INFO("stepped by: %s", session.backendNote().c_str());
@@ -190,7 +190,7 @@ void Simulator::deliver(Frame&& frame, const StylusSamples& samples, bool live) 
     inputs_[s]->endTick(frame.tools[s], frame.jaw_moments_nm[s], publisher_.tickStamp());
   tool_frames_.put(samples, publisher_.tickStamp());
   ticks_.publish(frame.tick);
-  tasks_.notice();
+  tasks_.notice(frame);
   obstacle_forces_.publish(frame, publisher_.tickStamp());
   publisher_.deliver(std::move(frame), samples);
 }

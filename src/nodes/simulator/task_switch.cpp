@@ -23,6 +23,7 @@ namespace viscera::nodes {
 namespace {
 
 constexpr double kTaskPeriod_s = 0.2, kMetricsPeriod_s = 0.5;
+constexpr const char *kAtStart = "at the start", *kAtEnd = "at the end";
 using TaskClock = std::chrono::steady_clock;
 
 bool isPast(TaskClock::time_point since, double period_s) {
@@ -117,22 +118,29 @@ TaskConfig TaskSwitch::find(const std::string& name) const {
   return task;
 }
 
-void TaskSwitch::follow(Session& session) {
+void TaskSwitch::follow(Session& session, bool pictures) {
   session_ = &session;
+  pictures_.setCanDraw(pictures && !session.scene().cameras.empty());
   session.addLog(*this);
   watch_ = std::make_unique<TaskWatch>(session, [this](TaskResult&& result) { report(std::move(result)); });
-  if (last_) session.recordTask(last_->name, last_->yaml);
+  if (!last_) return;
+  session.recordTask(last_->name, last_->yaml);
+  pictures_.ask(kAtStart, "start", session.tick());
 }
 
 void TaskSwitch::leave() {
   watch_.reset();
+  writeReport();
   if (session_) std::exchange(session_, nullptr)->removeLog(*this);
 }
 
 std::string TaskSwitch::start(Session& session, const TaskConfig& task, const std::string& trainee) {
+  writeReport();  // of the task before, which may wait for an image
   session.reset();
+  pictures_.clear();
   for (const std::string& note : taskNotes(task)) ROS_WARN("task %s: %s", task.name.c_str(), note.c_str());
   session.recordTask(task.name, task.yaml);
+  pictures_.ask(kAtStart, "start", session.tick());
   const std::lock_guard<std::mutex> lock(mutex_);
   last_ = task;
   if (!trainee.empty()) trainee_ = trainee;
@@ -168,8 +176,15 @@ void TaskSwitch::measured(const Session&, uint64_t tick, const layout::TickStats
   springs_cut_ = stats.springs_cut;
 }
 
-void TaskSwitch::notice() {
+FrameRequest TaskSwitch::with(FrameRequest outputs) const {
+  pictures_.addTo(outputs);
+  return outputs;
+}
+
+void TaskSwitch::notice(const Frame& frame) {
   if (!watch_) return;
+  pictures_.take(frame.images, frame.tick);
+  if (ended_ && !pictures_.waits()) writeReport();
   const bool turned =
       std::exchange(has_started_, false) || (watch_->task() && state_.state != messageState(watch_->status().state));
   if (!turned && !isPast(noticed_, kTaskPeriod_s)) return;
@@ -200,13 +215,22 @@ Metrics TaskSwitch::metricsOf(const TaskResult& result) const {
   return out;
 }
 
-/// Writes the report on a thread of its own, since smoothness, plots and files take time.
 void TaskSwitch::report(TaskResult&& result) {
+  writeReport();
+  Ended ended{std::move(result), {}, attemptAt(std::time(nullptr), trainee_)};
+  ended.folder = reportFolder(saved_folder_.path(), ended.result.task.name);
+  ended.attempt.state_hash = StateHash::text(session_->stateHash());
+  ended_ = std::move(ended);
+  pictures_.ask(kAtEnd, "end", session_->tick());
+}
+
+/// Writes the report of the task that has ended, if any, on a thread of its own, since smoothness, plots and files take
+/// time.
+void TaskSwitch::writeReport() {
+  if (!ended_) return;
   if (reporting_.valid()) reporting_.wait();
-  const std::string folder = reportFolder(saved_folder_.path(), result.task.name);
-  Attempt attempt = attemptAt(std::time(nullptr), trainee_);
-  attempt.state_hash = StateHash::text(session_->stateHash());
-  reporting_ = std::async(std::launch::async, [this, folder, attempt, done = std::move(result)] {
+  reporting_ = std::async(std::launch::async, [this, folder = ended_->folder, attempt = ended_->attempt,
+                                               done = std::move(ended_->result), pictures = pictures_.release()] {
     Metrics metrics = metricsOf(done);
     metrics.header.stamp = ros::Time::now();
     metrics_publisher_.publish(metrics);
@@ -214,7 +238,7 @@ void TaskSwitch::report(TaskResult&& result) {
              mistakesText(done.task, done.status).c_str());
     try {
       saved_folder_.room();
-      writeReport(folder, done, attempt);
+      viscera::writeReport(folder, done, attempt, TaskPictures::write(folder, pictures));
       ROS_INFO("report: %s/report.html", folder.c_str());
       const std::lock_guard<std::mutex> lock(mutex_);
       state_.report = folder;
@@ -223,6 +247,7 @@ void TaskSwitch::report(TaskResult&& result) {
       ROS_WARN("no report: %s", oneLine(error.what()).c_str());
     }
   });
+  ended_.reset();
 }
 
 void TaskSwitch::onTimer() {

@@ -15,6 +15,7 @@
 
 #include "nodes/ros/saved_folder.h"
 #include "nodes/ros/scene_choice.h"
+#include "nodes/views/task_pictures.h"
 #include "tasks/task_watch.h"
 #include "tools/tool_metrics.h"
 #include "viscera/Metrics.h"
@@ -41,15 +42,18 @@ class TaskSwitch : public SessionLog {
   TaskConfig find(const std::string& name) const;
 
   // Called on the session thread:
-  void follow(Session& session);
+  /// @param pictures  whether images can be drawn, for reports
+  void follow(Session& session, bool pictures);
   void leave();
   /// Resets the session and starts a task. @returns the task's title
   /// @param trainee  name in its report; empty: that of the last start
   std::string start(Session& session, const TaskConfig& task, const std::string& trainee);
   /// Ends the task. @throws Error  no task runs
   std::string end(Session& session);
-  /// Updates the published state between ticks.
-  void notice();
+  /// Adds what reports show to a tick's outputs.
+  FrameRequest with(FrameRequest outputs) const;
+  /// Updates the published state between ticks. @param frame  of the last tick, for reports
+  void notice(const Frame& frame);
 
   void stepped(Session& session, const StylusSamples& samples) override;
   void measured(const Session& session, uint64_t tick, const layout::TickStats& stats) override;
@@ -59,7 +63,13 @@ class TaskSwitch : public SessionLog {
 
  private:
   void clear();
+  struct Ended {
+    TaskResult result;
+    std::string folder;
+    Attempt attempt;
+  };
   void report(TaskResult&& result);
+  void writeReport();
   void onTimer();
   Metrics metricsOf(const TaskResult& result) const;
 
@@ -71,7 +81,9 @@ class TaskSwitch : public SessionLog {
   std::vector<ToolTally> tallies_;
   std::vector<std::string> styluses_;
   std::string trainee_;
-  bool has_started_ = false;  ///< a task was started that is not published yet
+  TaskPictures pictures_;       ///< of the running task
+  std::optional<Ended> ended_;  ///< waits for its last image
+  bool has_started_ = false;    ///< a task was started that is not published yet
   double tick_s_, peak_strain_ = 0;
   uint64_t measured_tick_ = 0;
   uint32_t springs_cut_ = 0;

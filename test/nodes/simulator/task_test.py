@@ -5,6 +5,7 @@
 the same score. Tasks are restarted and given up; a task that cannot start is refused with the accepted names."""
 import json
 import os
+import struct
 import subprocess
 import unittest
 
@@ -60,7 +61,12 @@ class TaskTest(unittest.TestCase):
     def test_2_the_recording_comes_to_the_same_score(self):
         with open(os.path.join(self.states[-1].report, "report.json")) as file:
             live = json.load(file)
-        self.assertTrue(os.path.exists(os.path.join(self.states[-1].report, "report.html")))
+        with open(os.path.join(self.states[-1].report, "report.html")) as file:
+            page = file.read()
+        for name, caption in (("start", "at the start"), ("end", "at the end")):  # as `viscera task` has them
+            with open(os.path.join(self.states[-1].report, name + ".png"), "rb") as file:
+                self.assertEqual(file.read(24)[16:], struct.pack(">II", 64, 48))
+            self.assertIn("<figcaption>" + caption, page)
         answer = self.call["stop_recording"]()
         self.assertTrue(answer.success, answer.message)
         if "VISCERA_COMMAND" not in os.environ:

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cli/png_writer.h"
+#include "export/png_writer.h"
 
 #include <png.h>
 
