@@ -16,7 +16,8 @@ LIMIT_COARSE, LIMIT_FINE = 0.05, 0.03  # of the mean at the spacings above 3 mm,
 FINE_M = 0.0031
 REASONS = {  # of misses
     "bowl": "a third of its strain energy is within 4 mm of the clamp (calculated), which a cell or two do not resolve",
-    "bladder": "as the bowl; besides, a wall of half a cell is 6 to 9 % too stiff in waves of twelve cells (calculated)",
+    "bladder": "its wall leaves the clamp obliquely, and the clamp ends at nodes "
+               "([verification.md](verification.md#organs-that-hang-under-their-weight))",
     "heart": "walls of 0.7 to 2 cells that meet at edges, where a wall has no single normal (supposed)",
 }
 
