@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/session/tissue_processes.h"
 
+#include "solver/processes/attach/attachments.h"
 #include "solver/processes/bleed/bleeding.h"
 #include "solver/processes/burn/burns.h"
 #include "solver/processes/clip/clips.h"
@@ -75,6 +76,11 @@ BurnReport seenBurns(const Session& session) {
 BloodReport seenBlood(const Session& session) {
   const Bleeding* const bleeding = findProcess<Bleeding>(session.solver());
   return bleeding ? bleeding->seen() : BloodReport();
+}
+
+std::vector<FibreState> seenFibres(const Session& session) {
+  const Attachments* const attachments = findProcess<Attachments>(session.solver());
+  return attachments ? attachments->seen() : std::vector<FibreState>();
 }
 
 FactGroups Session::facts() const {

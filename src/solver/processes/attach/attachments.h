@@ -11,6 +11,7 @@
 #include "solver/processes/suture/suture_blades.h"
 #include "viscera/model/model.h"
 #include "viscera/model/scene/attachment_config.h"
+#include "viscera/solver/fibre_state.h"
 
 namespace viscera {
 
@@ -37,6 +38,7 @@ class Attachments : public TissueProcess {
   void undone(bool at_rest) override;
   bool addTo(StateHash& hash) const override;
   FactGroup facts() const override;
+  std::vector<FibreState> seen() const;
 
  private:
   void updateSecant(size_t fibre);
