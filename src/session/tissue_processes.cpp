@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "viscera/session/tissue_processes.h"
 
+#include "solver/processes/attach/attachments.h"
 #include "solver/processes/bleed/bleeding.h"
 #include "solver/processes/burn/burns.h"
 #include "solver/processes/clip/clips.h"
@@ -86,6 +87,11 @@ BloodReport seenBlood(const Session& session) {
 
 BloodReport seenBile(const Session& session) {
   return seenFluid(session, Fluid::kBile);
+}
+
+std::vector<FibreState> seenFibres(const Session& session) {
+  const Attachments* const attachments = findProcess<Attachments>(session.solver());
+  return attachments ? attachments->seen() : std::vector<FibreState>();
 }
 
 FactGroups Session::facts() const {

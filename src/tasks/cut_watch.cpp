@@ -143,7 +143,7 @@ HeldPiece::HeldPiece(const Model& model, const Vector3d& position_m) : model_(mo
         body.name);
 }
 
-bool HeldPiece::isApart(const CutState& cuts) const {
+bool HeldPiece::isApart(const CutState& cuts, const std::vector<FibreState>& fibres) const {
   const Lattice& lattice = model_.bodies[body_].lattice;
   UnionFind pieces = piecesOf(model_, body_, cuts);
   const uint32_t piece = pieces.find(node_);
@@ -155,7 +155,13 @@ bool HeldPiece::isApart(const CutState& cuts) const {
     ++alike;
     within += is_within;
   }
-  return 2 * within >= alike;
+  const uint32_t first = model_.slotOffset(body_);
+  const auto holds = [&](const FibreState& fibre) {
+    return fibre.whole && std::any_of(fibre.nodes.begin(), fibre.nodes.end(), [&](uint32_t slot) {
+             return slot >= first && slot - first < lattice.nodes.size() && pieces.find(slot - first) == piece;
+           });
+  };
+  return 2 * within >= alike && std::none_of(fibres.begin(), fibres.end(), holds);
 }
 
 DiscPiece::DiscPiece(const Model& model, const Vector3d& center_m, const Vector3d& normal, double radius_m,

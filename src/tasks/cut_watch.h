@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "viscera/model/model.h"
+#include "viscera/solver/fibre_state.h"
 #include "viscera/solver/state.h"
 
 namespace viscera {
@@ -51,9 +52,9 @@ class HeldPiece {
  public:
   /// Uses the node nearest to the position. @throws TaskError  its body is no lattice, or nothing of it is held
   HeldPiece(const Model& model, const Vector3d& position_m);
-  /// Returns whether no path of intact springs leads from the node to a held one, and the piece has at least half of
-  /// the nodes of the node's part: a crumb around the node is none.
-  bool isApart(const CutState& cuts) const;
+  /// Returns whether no path of intact springs leads from the node to a held one, no fibre holds the piece, and it has
+  /// at least half of the nodes of the node's part: a crumb around the node is none.
+  bool isApart(const CutState& cuts, const std::vector<FibreState>& fibres) const;
 
  private:
   const Model& model_;

@@ -7,17 +7,32 @@
 
 #include "viscera/math/error.h"
 #include "viscera/math/types.h"
+#include "viscera/model/part_position.h"
 
 namespace viscera {
+
+struct Model;
 
 // A task: what a trainee has to achieve in a scene, and how it is scored (docs/lessons/tasks.md). Every field of these
 // structs has one entry in task_fields.h. Positions are in the rest shape of the tissue, in the tissue frame.
 
 /// Goal of a task: the rows of kTaskKinds (task_kinds.h), each with a group of keys of its own below.
-enum class TaskGoal { kFollowLine, kCutDisc, kTouchTargets, kLift, kCloseWound, kClipDivide, kDetach, kOperation };
+enum class TaskGoal {
+  kFollowLine,
+  kCutDisc,
+  kTouchTargets,
+  kLift,
+  kCloseWound,
+  kClipDivide,
+  kDetach,
+  kExpose,
+  kOperation
+};
 
+/// Position in the tissue at rest.
 struct TaskPosition {
   Vector3d position_m = Vector3d::Zero();
+  PartPosition at;  ///< position relative to a part instead, until placeTask()
 };
 
 /// Cut along a line, with the blade within a corridor.
@@ -49,6 +64,7 @@ struct TouchGoal {
 struct LiftGoal {
   bool given = false;
   Vector3d center_m = Vector3d::Zero();
+  PartPosition at;  ///< as TaskPosition::at
   double radius_m = 0.008;
   Vector3d up = Vector3d::UnitZ();
   double height_m = 0.02;
@@ -80,6 +96,15 @@ struct ClipGoal {
 struct DetachGoal {
   bool given = false;
   Vector3d position_m = Vector3d::Zero();
+  PartPosition at;  ///< as TaskPosition::at
+};
+
+/// Free tissue from what attachments join it to.
+struct ExposeGoal {
+  bool given = false;
+  std::vector<TaskPosition> places;
+  double radius_m = 0.006;
+  double share = 0.9;
 };
 
 /// Kind of a goal with the keys of all kinds.
@@ -92,6 +117,7 @@ struct TaskGoals {
   CloseGoal close;
   ClipGoal clip;
   DetachGoal detach;
+  ExposeGoal expose;
 };
 
 /// One stage of an operation: a goal of any other kind.
@@ -141,6 +167,8 @@ struct TaskError : Error {
 TaskConfig loadTask(const std::string& path);
 /// Reads a task from text. @param where  its name, for errors and as the task's name
 TaskConfig parseTask(const std::string& yaml, const std::string& where);
+/// Gives positions relative to parts their places in a model. @throws TaskError  the model has no such part
+void placeTask(TaskConfig& task, const Model& model);
 /// Returns the path or name of a task's scene: its name, or a file in the folder of the task's file.
 std::string sceneOfTask(const TaskConfig& task, const std::string& task_file);
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "model/part_position_fields.h"
 #include "model/scene/scene_fields.h"
 #include "tasks/task.h"
 #include "tasks/task_kinds.h"
@@ -16,9 +17,12 @@ constexpr Range kTaskSeconds{0, 86400};
 constexpr Range kTaskWidth{1e-5, 1};         // m
 constexpr double kMostTaskPositions = 1000;  // positions of a path, or targets
 
+constexpr const char* kInstead = "position relative to a part of the tissue instead (docs/user_guide.md, Strokes)";
+
 template <class V>
 void visitFields(V& v, TaskPosition& c) {
   v.vector("position_m", c.position_m, kCoordinate, "m", "position in the tissue at rest, in the tissue frame");
+  v.listedGroup("at", c.at, kInstead);
 }
 
 template <class V>
@@ -50,6 +54,7 @@ template <class V>
 void visitFields(V& v, LiftGoal& c) {
   v.given(c.given);
   v.vector("center_m", c.center_m, kCoordinate, "m", "position at which to grasp, in the tissue at rest");
+  v.listedGroup("at", c.at, kInstead);
   v.number("radius_m", c.radius_m, kTaskWidth, "m", "radius around this position");
   v.vector("up", c.up, kDirection, "", "direction in which to lift");
   v.number("height_m", c.height_m, kTaskWidth, "m", "height to lift it to, from where it was grasped");
@@ -87,6 +92,15 @@ void visitFields(V& v, DetachGoal& c) {
   v.given(c.given);
   v.vector("position_m", c.position_m, kCoordinate, "m",
            "position in the tissue to be cut free, at rest, in the tissue frame");
+  v.listedGroup("at", c.at, kInstead);
+}
+
+template <class V>
+void visitFields(V& v, ExposeGoal& c) {
+  v.given(c.given);
+  v.list("places", c.places, kMostTaskPositions, "places at which the tissue has to be freed");
+  v.number("radius_m", c.radius_m, kTaskWidth, "m", "radius around each place, at rest");
+  v.number("share", c.share, {0.01, 1}, "1", "share of the area of attachments there that has to be parted");
 }
 
 /// Returns the choices of kinds. @param of_stages  without operation
@@ -109,6 +123,7 @@ void visitFields(V& v, TaskStage& c) {
   v.listedGroup("close_wound", c.close, kAsAbove);
   v.listedGroup("clip_and_divide", c.clip, kAsAbove);
   v.listedGroup("detach", c.detach, kAsAbove);
+  v.listedGroup("expose", c.expose, kAsAbove);
 }
 
 template <class V>
@@ -152,6 +167,7 @@ void visitFields(V& v, TaskConfig& c) {
   v.group("close_wound", c.close, "goal: open tissue along a line, tie the scene's sutures, and let go");
   v.group("clip_and_divide", c.clip, "goal: set clips at positions of the tissue, and divide it between them");
   v.group("detach", c.detach, "goal: cut until nothing connects the tissue at a position to tissue that is held");
+  v.group("expose", c.expose, "goal: part the attachments (`attachments[]`) around places");
   v.group("operation", c.operation, "goal: reach the goals of stages, one after another");
   v.texts("spared_parts", c.spared_parts, 64,
           "names of parts or bodies that must not be cut; the measure spared_cuts counts their cuts");

@@ -11,6 +11,7 @@
 #include "viscera/layout/tick_stats.h"
 #include "viscera/math/types.h"
 #include "viscera/solver/clip_state.h"
+#include "viscera/solver/fibre_state.h"
 #include "viscera/solver/state.h"
 #include "viscera/solver/suture_state.h"
 #include "viscera/tools/stylus.h"
@@ -26,6 +27,7 @@ struct TaskTick {
   size_t spared_cuts = 0;            ///< springs cut in TaskConfig::spared_parts
   std::vector<SutureState> sutures;  ///< where the task needs them
   ClipStates clips;                  ///< where the task needs them
+  std::vector<FibreState> fibres;    ///< of attachments, where the task needs them
   double blood_ml = 0, bile_ml = 0;  ///< lost since the last reset
   std::optional<double> gap_m;       ///< TaskJudge::gapOf() after the tick, where requested
   layout::TickStats stats{};
@@ -57,8 +59,8 @@ class TaskJudge {
   /// Returns whether it needs the positions of cut springs. Then ticks that may have cut are waited for.
   virtual bool usesCuts() const { return false; }
   /// Returns whether the piece to be cut off is separate: 1 or 0, for an operation one bit per stage. Called on the
-  /// session's thread.
-  virtual uint32_t piecesApart(const CutState&) const { return 0; }
+  /// session's thread. @param fibres  of attachments
+  virtual uint32_t piecesApart(const CutState&, const std::vector<FibreState>& /*fibres*/) const { return 0; }
   /// Returns whether it has to see ticks before and after its own stage of an operation.
   virtual bool judgesAlways() const { return false; }
   /// Returns whether a clip at this position at rest [m] is one of its own.
@@ -67,6 +69,8 @@ class TaskJudge {
   virtual bool usesSutures() const { return false; }
   /// Returns whether it needs clips.
   virtual bool usesClips() const { return false; }
+  /// Returns whether it needs the fibres of attachments.
+  virtual bool usesFibres() const { return false; }
   /// Returns whether it needs the gap of a wound. Then the tissue is waited for.
   virtual bool asksForGap(const std::vector<SutureState>&) const { return false; }
   /// Returns how much farther apart the sides of a wound are than at rest [m]; called on the session's thread.

@@ -48,6 +48,10 @@ std::string detachFault(const TaskConfig&);
 std::unique_ptr<TaskJudge> detachJudge(const TaskConfig&, const Session&);
 TaskShapes detachShapes(const TaskConfig&);
 
+std::string exposeFault(const TaskConfig&);
+std::unique_ptr<TaskJudge> exposeJudge(const TaskConfig&, const Session&);
+TaskShapes exposeShapes(const TaskConfig&);
+
 std::string operationFault(const TaskConfig&);
 std::unique_ptr<TaskJudge> operationJudge(const TaskConfig&, const Session&);
 TaskShapes operationShapes(const TaskConfig&);
@@ -68,6 +72,7 @@ inline constexpr TaskKind kTaskKinds[] = {
     {TaskGoal::kCloseWound, "close_wound", closeFault, closeJudge, closeShapes},
     {TaskGoal::kClipDivide, "clip_and_divide", clipFault, clipJudge, clipShapes},
     {TaskGoal::kDetach, "detach", detachFault, detachJudge, detachShapes},
+    {TaskGoal::kExpose, "expose", exposeFault, exposeJudge, exposeShapes},
     {TaskGoal::kOperation, "operation", operationFault, operationJudge, operationShapes},
 };
 constexpr const TaskKind& kindOf(TaskGoal goal) {

@@ -51,6 +51,7 @@ void TaskWatch::begin(std::unique_ptr<TaskJudge> judge) {
     session_.solver().readCuts(cuts_);
     cut_watch_->fresh(cuts_);  // earlier cuts do not belong to this task
   }
+  whole_fibres_ = 0;
   mark_states_.clear();
   showMarks();
   base_tick_ = session_.tick();
@@ -66,6 +67,7 @@ void TaskWatch::taskRecorded(Session&, const std::string& name, const std::strin
   if (yaml.empty()) return giveUp("the task was given up");
   TaskConfig task = parseTask(yaml, name);
   // If these throw, the present task continues.
+  placeTask(task, session_.model());
   std::unique_ptr<TaskJudge> judge = kindOf(task.kind).judge(task, session_);
   spared_.emplace(sparedParts(task));
   task_ = std::move(task);
@@ -94,11 +96,14 @@ void TaskWatch::stepped(Session& session, const StylusSamples& samples) {
   TaskTick tick;
   tick.motions = session.motions();
   tick.tick_s = session.tick_s();
-  if (needsCuts() && session.solver().readCuts(cuts_)) {  // any cause: blades, heat, sutures, tears
+  if (judge_->usesFibres()) tick.fibres = seenFibres(session);
+  const bool parted = partsFibres(tick.fibres);
+  const bool cut = needsCuts() && session.solver().readCuts(cuts_);
+  if (cut || (parted && needsCuts())) {  // any cause: blades, heat, sutures, tears
     const std::vector<FreshCut> cuts = cut_watch_->fresh(cuts_);
-    for (const FreshCut& cut : cuts) tick.cuts_m.push_back(cut.at_m);
+    for (const FreshCut& fresh : cuts) tick.cuts_m.push_back(fresh.at_m);
     tick.spared_cuts = spared_->count(cuts);
-    tick.apart = judge_->piecesApart(cuts_);
+    tick.apart = judge_->piecesApart(cuts_, tick.fibres);
   }
   if (judge_->usesSutures()) {
     tick.sutures = sutureStates(session);
@@ -109,6 +114,15 @@ void TaskWatch::stepped(Session& session, const StylusSamples& samples) {
   tick.bile_ml = seenBile(session).bled_ml;
   stepped_.push_back(std::move(tick));
   judgeNoted();
+}
+
+/// Returns whether the number of whole fibres has changed.
+bool TaskWatch::partsFibres(const std::vector<FibreState>& fibres) {
+  const auto whole = static_cast<size_t>(
+      std::count_if(fibres.begin(), fibres.end(), [](const FibreState& fibre) { return fibre.whole; }));
+  const bool changed = whole != whole_fibres_;
+  whole_fibres_ = whole;
+  return changed;
 }
 
 void TaskWatch::measured(const Session& session, uint64_t tick, const layout::TickStats& stats) {

@@ -77,6 +77,7 @@ class TaskWatch : public SessionLog {
   bool isOpen() const { return task_ && status_.state <= TaskPhase::kRunning; }
   void begin(std::unique_ptr<TaskJudge> judge);
   void showMarks();
+  bool partsFibres(const std::vector<FibreState>& fibres);
   void judgeNoted();
   void judge(const TaskTick& tick);
   void count(const TaskTick& tick);
@@ -92,6 +93,7 @@ class TaskWatch : public SessionLog {
   std::optional<SparedParts> spared_;
   std::vector<MarkState> mark_states_;  ///< of the marks that are shown
   CutState cuts_;
+  size_t whole_fibres_ = 0;  ///< number after the last tick
   TaskStatus status_;
   uint64_t base_tick_ = 0;                       ///< measurements up to this tick belong to earlier ticks
   double base_blood_ml_ = 0, base_bile_ml_ = 0;  ///< lost before the task

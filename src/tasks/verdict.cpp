@@ -93,6 +93,8 @@ std::string goalText(const TaskConfig& task) {
       return "set " + counted(task.clip.clips.size(), "clip") + " and divide the tissue between them";
     case TaskGoal::kDetach:
       return "cut the marked tissue free";
+    case TaskGoal::kExpose:
+      return "free " + counted(task.expose.places.size(), "marked place");
     case TaskGoal::kOperation: {
       std::string out;
       for (const TaskStage& stage : task.operation.stages)

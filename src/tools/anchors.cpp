@@ -110,11 +110,29 @@ void follow(const OrganFit& fit, const Model& model, std::vector<Stroke>& stroke
   }
 }
 
+/// Gives keys relative to parts their positions.
+void placeKeys(Strokes& strokes, const Model& model) {
+  for (Stroke& stroke : strokes.strokes) {
+    for (size_t k = 0; k < stroke.keys.size(); ++k) {
+      Stroke::Key& key = stroke.keys[k];
+      if (!key.at) continue;
+      try {
+        key.pose.position_m = positionOf(model, *key.at);
+      } catch (const Error& error) {
+        throw StrokesError((strokes.file.empty() ? "" : strokes.file + ": ") + "stylus '" + stroke.stylus + "', keys[" +
+                           std::to_string(k) + "].at: " + error.what());
+      }
+      key.at.reset();
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> resolveAnchors(Strokes& strokes, const Model& model, const std::optional<OrganFit>& fit) {
   std::vector<std::string> notes;
   if (fit) follow(*fit, model, strokes.strokes);
+  placeKeys(strokes, model);
   for (Stroke& stroke : strokes.strokes) {
     if (!stroke.anchor) continue;
     const Vector3d direction = (stroke.anchor->towards_m - stroke.anchor->from_m).normalized();

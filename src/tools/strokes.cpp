@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "math/memory_for.h"
+#include "model/part_position_fields.h"
 #include "model/scene/yaml/yaml_reader.h"
 #include "tools/stroke_samples.h"
 #include "viscera/math/error.h"
@@ -25,6 +26,8 @@ struct FileKey {
   int line = 0;
   double t_s = 0;
   Vector3d position_m = Vector3d::Zero();
+  PartPosition at;
+  bool has_position = false, has_at = false;
   Vector3d rotation_deg = Vector3d::Zero();
   bool button1 = false, button2 = false;
   double jaw_rad = kNoJaw;
@@ -58,7 +61,10 @@ struct FileStrokes {
 void visitFields(YamlReader& v, FileKey& c) {
   c.line = v.line();
   v.number("t_s", c.t_s, {0, kLongestStrokeS}, "s", "time from the start");
+  c.has_position = v.has("position_m");
   v.vector("position_m", c.position_m, {-100, 100}, "m", "position of the stylus tip in the tissue frame");
+  c.has_at = v.has("at");
+  v.group("at", c.at, "position of the stylus tip relative to a part at rest, instead of position_m");
   v.vector("rotation_deg", c.rotation_deg, {-360, 360}, "deg",
            "rotation of the stylus: turns about the fixed x, then y, then z axis");
   v.boolean("button1", c.button1, "");
@@ -129,8 +135,12 @@ Stroke checked(const FileStroke& file, size_t index, const std::string& name) {
                          "]: 't_s' must be greater than that of the key before, " + numberText(file.keys[k - 1].t_s) +
                          " s; found " + numberText(key.t_s));
     }
+    if (key.has_at && (key.has_position || file.anchored || key.at.part.empty()))
+      throw StrokesError(lineOf(name, key.line) + item + ": keys[" + std::to_string(k) +
+                         "]: 'at' needs 'part', and replaces 'position_m' and the stroke's 'anchor'");
     stroke.keys.push_back(
         {key.t_s, {key.position_m, rotationFromDegrees(key.rotation_deg)}, key.button1, key.button2, key.jaw_rad});
+    if (key.has_at) stroke.keys.back().at = key.at;
   }
   return stroke;
 }
@@ -178,7 +188,10 @@ void Strokes::requireTickRate(double scene_tick_hz) const {
 }
 
 bool Strokes::anchored() const {
-  return std::any_of(strokes.begin(), strokes.end(), [](const Stroke& s) { return s.anchor.has_value(); });
+  const auto relative = [](const Stroke::Key& key) { return key.at.has_value(); };
+  return std::any_of(strokes.begin(), strokes.end(), [&](const Stroke& stroke) {
+    return stroke.anchor.has_value() || std::any_of(stroke.keys.begin(), stroke.keys.end(), relative);
+  });
 }
 
 StylusSamples Strokes::at(double time_s, const std::vector<StylusConfig>& configs) const {

@@ -190,6 +190,72 @@ TEST(TaskCommand, OperationEndsWithItsLastStage) {
   EXPECT_FALSE(result["measures"].contains("spared_cuts"));
 }
 
+/// Returns the result of a task of two glued blocks, the upper one of which is grabbed and pulled up.
+Ending pulledApart(const std::string& goal) {
+  const TemporaryFolder folder;
+  const std::string block =
+      "source: box, box_size_m: [0.018, 0.018, 0.009], spacing_m: 0.003, material: "
+      "{young_modulus_pa: 20000}, ";
+  folder.write("glued.yaml",
+               "bodies: [{name: low, " + block +
+                   "fixed: [{shape: plane, point_m: [0, 0, -0.002], normal: [0, 0, 1]}]}, {name: high, "
+                   "position_m: [0, 0, 0.009], " +
+                   block +
+                   "fixed: [{shape: plane, point_m: [-0.0085, 0, 0], normal: [1, 0, 0]}]}]\n"
+                   "attachments: [{body_a: low, body_b: high, toughness_j_per_m2: 5, strength_pa: 3000}]\n"
+                   "styluses: [{name: right, idle: none, button1: grab, grab: {radius_m: 0.008}}]\n"
+                   "environment: {gravity_m_per_s2: [0, 0, 0]}\nsolver: {backend: cpu}\n");
+  const std::string task = folder.write("part.yaml", "scene: glued.yaml\n" + goal);
+  const std::string strokes = folder.write(
+      "strokes.yaml",
+      "strokes: [{stylus: right, keys: [{t_s: 0.1, at: {part: high}}, {t_s: 0.2, at: {part: high}, button1: true}, "
+      "{t_s: 0.9, at: {part: high, offset_m: [0, 0, 0.02]}, button1: true}, {t_s: 1, at: {part: high, offset_m: [0, 0, "
+      "0.02]}, button1: true}]}]\n");
+  return viscera({"task", task, "--strokes", strokes, "--no-view", "--set", "solver.threads=1"});
+}
+
+TEST(TaskCommand, PlacesAreFreedAsTheirFibresPart) {
+  const std::string near = "kind: expose\nexpose: {radius_m: 0.004, share: 0.6, places: ";
+  const Ending freed = pulledApart(near + "[{at: {part: high, offset_m: [0.005, 0, -0.0045]}}]}\n");
+  ASSERT_EQ(freed.status, 0) << freed.err;
+  const nlohmann::json result = lastLine(freed)["tasks"][0];
+  EXPECT_EQ(result["state"], "passed") << result["why"];
+  EXPECT_GT(result["time_s"], 0.1);
+  const Ending nothing = pulledApart(near + "[{position_m: [0.005, 0, 0.02]}]}\n");
+  EXPECT_EQ(nothing.status, 1);
+  EXPECT_NE(nothing.err.find("'expose.places[0]' must be within 'expose.radius_m'"), std::string::npos) << nothing.err;
+  const Ending unknown = pulledApart(near + "[{at: {part: middle}}]}\n");
+  EXPECT_EQ(unknown.status, 1);
+  EXPECT_NE(unknown.err.find("'expose.places[0].at': 'part' and 'from' must be bodies or parts"), std::string::npos)
+      << unknown.err;
+}
+
+/// Returns the result of a task to free the upper one of two blocks, which a blade divides from where it is held.
+nlohmann::json cutFree(const std::string& attachments) {
+  const TemporaryFolder folder;
+  const std::string block = "source: box, box_size_m: [0.018, 0.018, 0.009], spacing_m: 0.003, ";
+  folder.write("glued.yaml",
+               "bodies: [{name: low, " + block +
+                   "fixed: [{shape: plane, point_m: [0, 0, -0.002], normal: [0, 0, 1]}]}, {name: high, position_m: [0, "
+                   "0, 0.009], " +
+                   block + "fixed: [{shape: plane, point_m: [-0.0085, 0, 0], normal: [1, 0, 0]}]}]\n" + attachments +
+                   "styluses: [{name: right, idle: none, button1: cut, cut: {blade_length_m: 0.03}}]\n"
+                   "environment: {gravity_m_per_s2: [0, 0, 0]}\nsolver: {backend: cpu}\n");
+  const std::string task = folder.write("free.yaml", "scene: glued.yaml\nkind: detach\ndetach: {at: {part: high}}\n");
+  const std::string strokes = folder.write(
+      "strokes.yaml",
+      "strokes: [{stylus: right, keys: [{t_s: 0.1, position_m: [-0.0075, -0.03, 0.003]}, {t_s: 0.2, position_m: "
+      "[-0.0075, -0.03, 0.003], button1: true}, {t_s: 0.6, position_m: [-0.0075, 0.03, 0.003], button1: true}]}]\n");
+  const Ending ending = viscera({"task", task, "--strokes", strokes, "--no-view", "--set", "solver.threads=1"});
+  EXPECT_EQ(ending.status, 0) << ending.err;
+  return lastLine(ending)["tasks"][0];
+}
+
+TEST(TaskCommand, TissueThatFibresHoldIsNotCutFree) {
+  EXPECT_EQ(cutFree("")["state"], "passed");
+  EXPECT_EQ(cutFree("attachments: [{body_a: low, body_b: high}]\n")["state"], "failed");
+}
+
 TEST(TaskCommand, CutsInSparedPartsFailATask) {
   const Ending ending = operationOnPad("spared_parts: [pad]\nmeasures: [{measure: spared_cuts, most: 0}]\n");
   ASSERT_EQ(ending.status, 0) << ending.err;

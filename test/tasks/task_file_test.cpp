@@ -61,6 +61,8 @@ TEST(TaskFile, ErrorsNameFileLineKeyAndWhatIsAccepted) {
   EXPECT_TRUE(names(errorOf("a: [\n"), {"task.yaml:2"}));
   EXPECT_TRUE(names(errorOf("7\n"), {"task.yaml: a task must be a map"}));
   EXPECT_TRUE(names(errorOf("scene: a\nkind: detach\n"), {"'detach' is missing"}));
+  EXPECT_TRUE(names(errorOf("scene: a\nkind: expose\n"), {"'expose' is missing"}));
+  EXPECT_TRUE(names(errorOf("scene: a\nkind: expose\nexpose: {}\n"), {"'expose.places' must be"}));
   EXPECT_TRUE(names(errorOf("scene: a\nkind: operation\n"), {"'operation' is missing"}));
   EXPECT_TRUE(names(errorOf("scene: a\nkind: operation\noperation: {stages: []}\n"), {"'operation.stages' must be"}));
   EXPECT_TRUE(names(errorOf("scene: a\nkind: operation\noperation: {stages: [{kind: lift}]}\n"),

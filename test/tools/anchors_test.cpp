@@ -54,6 +54,17 @@ TEST(Anchor, FrameHasItsOriginAtTheHitAndZBackAlongTheRay) {
   EXPECT_LT((frame.orientation * Vector3d::UnitZ() - Vector3d(0, -1, 0)).norm(), kRounding);
 }
 
+TEST(Anchor, KeysRelativeToPartsGetTheirPositions) {
+  Strokes strokes =
+      parseStrokes("strokes: [{stylus: left, keys: [{at: {part: box, offset_m: [0.01, 0, 0]}}]}]", "f.yaml");
+  resolveAnchors(strokes, boxModel());
+  EXPECT_FALSE(strokes.anchored());
+  EXPECT_LT((strokes.strokes[0].keys[0].pose.position_m - Vector3d(0.01, 0, 0)).norm(), kRounding);
+  Strokes unknown = parseStrokes("strokes: [{stylus: left, keys: [{at: {part: ball}}]}]", "f.yaml");
+  EXPECT_TRUE(test::says(test::messageOf<StrokesError>([&] { resolveAnchors(unknown, boxModel()); }),
+                         {"f.yaml", "'left'", "keys[0].at", "found 'ball'"}));
+}
+
 TEST(Anchor, KeysAreTakenFromTheirFrameIntoTheTissues) {
   const Pose key{Vector3d(0.1, 0.2, 0.3), rotationFromDegrees({0, 90, 0})};
   const Pose pose = resolved({0, -0.3, 0.004}, {0, 0, 0.004}, key);

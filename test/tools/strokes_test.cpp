@@ -36,13 +36,24 @@ StylusSample sample(const std::string& yaml, double time_s, size_t stylus = 0) {
 
 TEST(StrokesFile, BadKeyIsRefusedWithFileLineKeyAndRange) {
   EXPECT_TRUE(says(keysRefusal("      - {t_s: 0}\n      - {time: 1}\n"),
-                   {"f.yaml:5: ", "unknown key 'strokes[0].keys[1].time'", "t_s, button1, button2, position_m"}));
+                   {"f.yaml:5: ", "unknown key 'strokes[0].keys[1].time'", "t_s, at, button1, position_m"}));
   EXPECT_TRUE(says(keysRefusal("      - {t_s: -1}\n"), {"f.yaml:4: ", "'strokes[0].keys[0].t_s'", "0 .. 3600 s"}));
   EXPECT_TRUE(says(keysRefusal("      - {t_s: .nan}\n"), {"f.yaml:4: ", "'strokes[0].keys[0].t_s'", "0 .. 3600 s"}));
   EXPECT_TRUE(
       says(keysRefusal("      - {position_m: [0, .inf, 0]}\n"), {"f.yaml:4: ", "position_m'", "-100 .. 100 m"}));
   EXPECT_TRUE(says(keysRefusal("      - {rotation_deg: [0, 0]}\n"), {"f.yaml:4: ", "rotation_deg'", "3 numbers"}));
   EXPECT_TRUE(says(keysRefusal("      - {button1: pressed}\n"), {"f.yaml:4: ", "button1'", "true or false"}));
+}
+
+TEST(StrokesFile, KeysRelativeToPartsNeedAPartAndNoPosition) {
+  const Strokes strokes = parseStrokes(
+      "strokes: [{stylus: left, keys: [{at: {part: duct, from: neck, along: 0.3, offset_m: [1, 2, 3]}}]}]", "f.yaml");
+  ASSERT_TRUE(strokes.strokes[0].keys[0].at);
+  EXPECT_EQ(strokes.strokes[0].keys[0].at->from, "neck");
+  EXPECT_TRUE(strokes.anchored());
+  EXPECT_TRUE(says(keysRefusal("      - {at: {along: 0.3}}\n"), {"f.yaml:4: ", "keys[0]", "'at' needs 'part'"}));
+  EXPECT_TRUE(says(keysRefusal("      - {at: {part: duct}, position_m: [0, 0, 0]}\n"), {"keys[0]", "'position_m'"}));
+  EXPECT_TRUE(says(keysRefusal("      - {at: {part: duct, along: 2}}\n"), {"keys[0].at.along'", "0 .. 1"}));
 }
 
 TEST(StrokesFile, TimesThatDoNotIncreaseAreRefusedWithTheLine) {

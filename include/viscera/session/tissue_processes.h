@@ -10,6 +10,7 @@
 #include "viscera/solver/blood_report.h"
 #include "viscera/solver/burn_report.h"
 #include "viscera/solver/clip_state.h"
+#include "viscera/solver/fibre_state.h"
 #include "viscera/solver/needle_state.h"
 #include "viscera/solver/suture_state.h"
 
@@ -42,5 +43,7 @@ ClipStates seenClips(const Session& session);
 BurnReport seenBurns(const Session& session);
 BloodReport seenBlood(const Session& session);
 BloodReport seenBile(const Session& session);
+/// Returns the fibres of all attachments, always in the same order.
+std::vector<FibreState> seenFibres(const Session& session);
 
 }  // namespace viscera

@@ -8,6 +8,7 @@
 
 #include "viscera/api.h"
 #include "viscera/model/model.h"
+#include "viscera/model/part_position.h"
 #include "viscera/model/scene/organ_fit.h"
 #include "viscera/tools/stylus.h"
 
@@ -28,7 +29,8 @@ struct Stroke {
     double time_s;
     Pose pose;
     bool button1, button2;
-    double jaw_rad = kNoJaw;  ///< as StylusSample::jaw_rad; interpolated between keys that both have one
+    double jaw_rad = kNoJaw;              ///< as StylusSample::jaw_rad; interpolated between keys that both have one
+    std::optional<PartPosition> at = {};  ///< position of the tip relative to a part, until resolveAnchors()
   };
   /// Input of a simulation from a stylus in a tick, as recorded: replayed to the bit.
   struct Sample {
@@ -85,10 +87,10 @@ struct Strokes {
 Strokes loadStrokes(const std::string& path);
 Strokes parseStrokes(const std::string& yaml, const std::string& name);
 
-/// Transforms anchored strokes into the tissue frame.
+/// Transforms anchored strokes, and keys relative to parts, into the tissue frame.
 /// @param fit  of a scene to an organ that neither it nor the strokes were made for: their anchors and keys follow it
 /// @returns a line for a person for each stroke that meets only fixed tissue
-/// @throws StrokesError if a ray misses every surface
+/// @throws StrokesError if a ray misses every surface, or the tissue has no part of a name
 std::vector<std::string> resolveAnchors(Strokes& strokes, const Model& model,
                                         const std::optional<OrganFit>& fit = std::nullopt);
 

@@ -148,7 +148,10 @@ void visitFields(V& v, ScanConfig& c) {
   v.text(
       "file", c.file,
       "label map: NIfTI, NRRD or MetaImage file, or DICOM file or folder (docs/scans.md); relative to the scene file");
-  v.texts("labels", c.labels, kMostLabels, "numbers or names of the labels that make up the body; empty: all");
+  v.texts(
+      "labels", c.labels, kMostLabels,
+      "numbers or names of the labels that make up the body; phantom gallbladder: its parts, where the liver with its "
+      "capsule, the fat with its peritoneum, and all others can be bodies of their own; empty: all");
   v.text("names_file", c.names_file,
          "table of label names, of ITK-SNAP or YAML, relative to the scene file; empty: one next to the scan, if any");
   v.text("axes", c.axes, "directions of the axes i, j, k, as in LPS; only for a file that does not state them");
@@ -225,7 +228,8 @@ void visitFields(V& v, BodyConfig& c) {
          "mesh: path of an OBJ, STL, PLY, glTF or GLB file, or of a Gmsh .msh file of volumes, with its physical "
          "groups as parts; relative to the scene file");
   v.group("scan", c.scan,
-          "labels: the scan and which of its labels; each label is a part of the body, under its own name");
+          "labels: the scan and which of its labels; each label is a part of the body, under its own name. phantom: "
+          "`labels` alone");
   v.number("unit_scale_m", c.unit_scale_m, {1e-9, 1e3}, "m", "mesh: metres per unit of the file");
   v.group("import_limits", c.import_limits,
           "mesh: limits on the contents of the file; a file beyond them is refused before it is read");

@@ -24,7 +24,9 @@ class ClipJudge : public TaskJudge {
   bool usesClips() const override { return true; }
   bool judgesAlways() const override { return true; }
   bool claims(const Vector3d& clip_m) const override { return nearest(clip_m).second <= goal_.radius_m; }
-  uint32_t piecesApart(const CutState& cuts) const override { return joint_.isApart(cuts) ? 1 : 0; }
+  uint32_t piecesApart(const CutState& cuts, const std::vector<FibreState>&) const override {
+    return joint_.isApart(cuts) ? 1 : 0;
+  }
   void judge(const TaskTick& tick, TaskTally& tally) override {
     std::fill(at_.begin(), at_.end(), false);
     size_t bad = tick.clips.empty + tick.clips.taken_off;

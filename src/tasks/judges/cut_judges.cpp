@@ -125,7 +125,9 @@ class DiscJudge : public TaskJudge {
         covered_(kTurn * disc.radius_m, spacing_m, disc.corridor_m),
         piece_(model, disc.center_m, normal_, disc.radius_m, disc.radius_m + disc.corridor_m + spacing_m) {}
   bool usesCuts() const override { return true; }
-  uint32_t piecesApart(const CutState& cuts) const override { return piece_.isApart(cuts) ? 1 : 0; }
+  uint32_t piecesApart(const CutState& cuts, const std::vector<FibreState>&) const override {
+    return piece_.isApart(cuts) ? 1 : 0;
+  }
   void judge(const TaskTick& tick, TaskTally& tally) override {
     std::vector<std::pair<double, double>> points;
     for (const Vector3d& cut : tick.cuts_m) {

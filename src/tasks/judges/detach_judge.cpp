@@ -15,7 +15,10 @@ class DetachJudge : public TaskJudge {
   DetachJudge(const DetachGoal& goal, const Model& model) : goal_(goal), piece_(model, goal.position_m) {}
   bool usesCuts() const override { return true; }
   bool judgesAlways() const override { return true; }
-  uint32_t piecesApart(const CutState& cuts) const override { return piece_.isApart(cuts) ? 1 : 0; }
+  bool usesFibres() const override { return true; }
+  uint32_t piecesApart(const CutState& cuts, const std::vector<FibreState>& fibres) const override {
+    return piece_.isApart(cuts, fibres) ? 1 : 0;
+  }
   void judge(const TaskTick& tick, TaskTally&) override { apart_ = apart_ || tick.apart != 0; }
   double progress() const override { return apart_ ? 1 : 0; }
   bool reached() const override { return apart_; }

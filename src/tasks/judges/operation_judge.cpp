@@ -28,9 +28,12 @@ class OperationJudge : public TaskJudge {
     return any([](const TaskJudge& judge) { return judge.usesSutures(); });
   }
   bool usesClips() const override { return clip_stage_ < stages_.size(); }
-  uint32_t piecesApart(const CutState& cuts) const override {
+  bool usesFibres() const override {
+    return any([](const TaskJudge& judge) { return judge.usesFibres(); });
+  }
+  uint32_t piecesApart(const CutState& cuts, const std::vector<FibreState>& fibres) const override {
     uint32_t out = 0;
-    for (size_t i = 0; i < stages_.size(); ++i) out |= (stages_[i].judge->piecesApart(cuts) & 1) << i;
+    for (size_t i = 0; i < stages_.size(); ++i) out |= (stages_[i].judge->piecesApart(cuts, fibres) & 1) << i;
     return out;
   }
   bool asksForGap(const std::vector<SutureState>& sutures) const override {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -228,6 +230,43 @@ TEST(GallbladderPhantom, StrandsThinnerThanACellAreOnePieceOfCells) {
       EXPECT_EQ(countPieces(only), 1u) << phantom.part_names[label - 1] << " at " << spacing_m;
     }
   }
+}
+
+TEST(GallbladderPhantom, ItsSectionsFillItWithoutOverlap) {
+  const std::vector<std::string> liver = {"liver", "liver_capsule"}, fat = {"peritoneum", "fat"};
+  for (const int seed : {0, 2, 4}) {
+    SCOPED_TRACE(seed);
+    const Phantom whole = natural(seed);
+    std::vector<std::string> rest;
+    for (const std::string& part : whole.part_names)
+      if (std::count(liver.begin(), liver.end(), part) + std::count(fat.begin(), fat.end(), part) == 0)
+        rest.push_back(part);
+    std::vector<Phantom> sections;
+    for (const auto& parts : {liver, fat, rest}) sections.push_back(gallbladderPhantom(kNatural, 1, seed, parts));
+    std::array<size_t, 3> within{};
+    constexpr double kCoarse = 2 * kStep;
+    for (double x = -0.02; x < 0.045; x += kCoarse)
+      for (double y = -0.03; y < 0.012; y += kCoarse)
+        for (double z = -0.06; z < 0.02; z += kCoarse) {
+          const Vector3d at(x, y, z);
+          size_t count = 0;
+          for (size_t s = 0; s < sections.size(); ++s) {
+            const LabelledDistance in = sections[s].field(at);
+            if (in.distance_m >= 0) continue;
+            ++count;
+            ++within[s];
+            const std::vector<std::string>& own = s == 0 ? liver : s == 1 ? fat : rest;
+            EXPECT_EQ(std::count(own.begin(), own.end(), whole.part_names[in.part]), 1);
+          }
+          EXPECT_EQ(count, whole.field(at).distance_m < 0 ? 1u : 0u) << at.transpose();
+        }
+    for (const size_t count : within) EXPECT_GT(count, 100u);
+  }
+}
+
+TEST(GallbladderPhantom, RefusesPartsOfASection) {
+  EXPECT_THROW(gallbladderPhantom(kNatural, 1, 0, {"liver"}), SceneError);
+  EXPECT_THROW(gallbladderPhantom(kNatural, 1, 0, {"spleen"}), SceneError);
 }
 
 TEST(GallbladderPhantom, StaysWithinItsBox) {

@@ -4,6 +4,7 @@
 // Seen from the front, with the liver lifted: +x is the patient's left, -y faces the viewer, the fundus is at +z. The
 // gallbladder hangs in front of the liver. Its neck leads to the cystic duct, which joins the common duct on its way
 // down. Solids are added with small fillets, then the hollows of the gallbladder and of the common duct are subtracted.
+// Bodies of their own may have the liver, the fat, and the rest: they meet without gaps.
 // Lengths are millimetres of a gallbladder of 80 mm.
 #include <algorithm>
 #include <array>
@@ -15,6 +16,7 @@
 #include "model/shape/organ/phantom.h"
 #include "model/shape/organ/phantom_shapes.h"
 #include "model/shape/organ/strand.h"
+#include "viscera/math/error.h"
 
 namespace viscera {
 namespace {
@@ -74,10 +76,45 @@ double waves(const Vector3d& p) {
          3;
 }
 
+/// Sections into which bodies divide the anatomy.
+enum Section : uint16_t { kOrgan, kFatSection, kLiverSection, kSectionCount };
+constexpr Section sectionOf(uint16_t part) {
+  return part == kLiver || part == kLiverCapsule   ? kLiverSection
+         : part == kFatPart || part == kPeritoneum ? kFatSection
+                                                   : kOrgan;
+}
+using Sections = std::array<bool, kSectionCount>;
+
+/// Returns the sections that consist of some parts. @param parts  names; none: all
+/// @throws SceneError  a name is unknown, or a section lacks a part
+Sections sectionsOf(const std::vector<std::string>& parts) {
+  if (parts.empty()) return {true, true, true};
+  std::array<bool, kPartCount> wanted{};
+  std::string known;
+  for (const PartLook& part : kGallbladderParts) known += (known.empty() ? "" : ", ") + std::string(part.name);
+  for (const std::string& name : parts) {
+    const auto is = [&](const PartLook& part) { return part.name == name; };
+    const auto found = std::find_if(kGallbladderParts.begin(), kGallbladderParts.end(), is);
+    if (found == kGallbladderParts.end())
+      throw SceneError("scan.labels must be parts of the gallbladder, of " + known + "; found '" + name + "'");
+    wanted[static_cast<size_t>(found - kGallbladderParts.begin())] = true;
+  }
+  Sections out{};
+  for (uint16_t part = 0; part < kPartCount; ++part) out[sectionOf(part)] |= wanted[part];
+  for (uint16_t part = 0; part < kPartCount; ++part) {
+    if (out[sectionOf(part)] && !wanted[part])
+      throw SceneError(
+          "scan.labels of a gallbladder must have liver and liver_capsule together, fat and peritoneum "
+          "together, and all other parts together; '" +
+          std::string(kGallbladderParts[part].name) + "' is missing");
+  }
+  return out;
+}
+
 /// Gallbladder and the tissue around it, for one variant.
 class Gallbladder {
  public:
-  Gallbladder(const GallbladderVariant& variant, double wall_scale);
+  Gallbladder(const GallbladderVariant& variant, double wall_scale, const Sections& sections);
 
   /// @param cell  edge of the cells that strands are to own, see kOwnCells; 0: strands own what they consist of
   LabelledDistance at(const Vector3d& p, double cell) const;
@@ -97,9 +134,11 @@ class Gallbladder {
   double triangle(const Vector3d& p) const;
   double fat(const Vector3d& p) const;
   uint16_t partOf(const Vector3d& p, const Nearby& near) const;
+  double border(const Nearby& near) const;
 
   GallbladderVariant variant_;
   double wall_scale_;
+  Sections sections_;
   Strand body_, pouch_, cystic_duct_, hepatic_duct_, bile_duct_, hepatic_artery_, second_artery_, cystic_artery_,
       ligament_;
 };
@@ -111,8 +150,8 @@ struct Gallbladder::Nearby {
   double cell;
 };
 
-Gallbladder::Gallbladder(const GallbladderVariant& variant, double wall_scale)
-    : variant_(variant), wall_scale_(wall_scale) {
+Gallbladder::Gallbladder(const GallbladderVariant& variant, double wall_scale, const Sections& sections)
+    : variant_(variant), wall_scale_(wall_scale), sections_(sections) {
   addGallbladder();
   addDucts();
   addArteries();
@@ -225,20 +264,37 @@ uint16_t Gallbladder::partOf(const Vector3d& p, const Nearby& near) const {
   for (const auto& strand : near.strands) {
     const auto& [at, part] = strand;
     const bool owns = at.distance + at.radius < std::max(at.radius + kSheath, kOwnCells * near.cell);
-    if (owns && (owner == nullptr || at.distance < owner->first.distance)) owner = &strand;
+    if (owns && sections_[kOrgan] && (owner == nullptr || at.distance < owner->first.distance)) owner = &strand;
   }
   if (owner != nullptr) return owner->second;
-  const std::array<std::pair<double, GallbladderPart>, 4> all = {
+  std::array<std::pair<double, GallbladderPart>, 4> all = {
       {{near.gallbladder, pouch_.distance(p) < body_.distance(p) ? kInfundibulum : kGallbladder},
        {near.liver, kLiver},
        {near.bed, kGallbladderBed},
        {near.fat, kFatPart}}};
+  for (auto& [distance, part] : all)
+    if (!sections_[sectionOf(part)]) distance = std::numeric_limits<double>::infinity();
   const auto* best = std::find_if(all.begin(), all.end(), [](const auto& solid) { return solid.first < 0; });
   if (best == all.end())
     best = std::min_element(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   if (best->second == kLiver && liver(p) > -kCapsuleDepth) return kLiverCapsule;
   if (best->second == kFatPart && fat(p - kPeritoneumDepth * Vector3d::UnitY()) > 0) return kPeritoneum;
   return best->second;
+}
+
+/// Returns the distance to the sections that are built, as far as others are next to them. In this order strands and
+/// gallbladder, liver, bed and fat own what they share; fillets belong to what is nearest.
+double Gallbladder::border(const Nearby& near) const {
+  double first = near.gallbladder;
+  for (const auto& strand : near.strands) first = std::min(first, strand.first.distance - kSheath);
+  const double outside_liver = std::max(0.0, near.liver), outside_fat = std::max(0.0, near.fat);
+  const double to_liver = std::max(outside_liver - first, near.liver - std::max(0.0, std::min(near.bed, near.fat)));
+  const double to_fat = outside_fat - std::min({first, near.liver, near.bed});
+  double out = std::numeric_limits<double>::infinity();
+  if (sections_[kOrgan]) out = std::max(-to_liver, -to_fat);
+  if (sections_[kFatSection]) out = std::min(out, to_fat);
+  if (sections_[kLiverSection]) out = std::min(out, to_liver);
+  return out;
 }
 
 LabelledDistance Gallbladder::at(const Vector3d& p, double cell) const {
@@ -262,17 +318,20 @@ LabelledDistance Gallbladder::at(const Vector3d& p, double cell) const {
   const double lumen =
       std::min(near.strands[3].first.distance, near.strands[4].first.distance) + wall_scale_ * kDuctWall;
   const double hollow = std::min(near.gallbladder + wall(), std::max(lumen, kFloor + 5 - p.z()));
-  return {std::max(std::max(tissue, -hollow), kFloor - p.z()), partOf(p, near)};
+  double distance = std::max(std::max(tissue, -hollow), kFloor - p.z());
+  if (sections_ != Sections{true, true, true}) distance = std::max(distance, border(near));
+  return {distance, partOf(p, near)};
 }
 
 }  // namespace
 
-Phantom gallbladderPhantom(double length_m, double wall_scale, int seed) {
+Phantom gallbladderPhantom(double length_m, double wall_scale, int seed, const std::vector<std::string>& parts) {
   requirePhantomRange("phantom_length_m", length_m, 0.01, 1);
   requirePhantomRange("phantom_wall_scale", wall_scale, 0.1, 2);
   requirePhantomRange("phantom_seed", seed, 0, kMostPhantomSeed);
   const double unit_m = length_m / kLength;
-  const auto shape = std::make_shared<const Gallbladder>(gallbladderVariant(seed), wall_scale);
+  const Sections sections = sectionsOf(parts);
+  const auto shape = std::make_shared<const Gallbladder>(gallbladderVariant(seed), wall_scale, sections);
   Phantom phantom;
   for (const PartLook& part : kGallbladderParts) {
     phantom.part_names.emplace_back(part.name);
@@ -281,8 +340,9 @@ Phantom gallbladderPhantom(double length_m, double wall_scale, int seed) {
   phantom.min_m = unit_m * kLow;
   phantom.max_m = unit_m * kHigh;
   const double gallbladder_wall = kWall * (gallbladderVariant(seed).inflamed ? kInflamedWall : 1);
-  phantom.walls = {{kGallbladderParts[kCommonBileDuct].name, unit_m * wall_scale * kDuctWall},
-                   {kGallbladderParts[kGallbladder].name, unit_m * wall_scale * gallbladder_wall}};
+  if (sections[kOrgan])
+    phantom.walls = {{kGallbladderParts[kCommonBileDuct].name, unit_m * wall_scale * kDuctWall},
+                     {kGallbladderParts[kGallbladder].name, unit_m * wall_scale * gallbladder_wall}};
   phantom.field_for_cells = [shape, unit_m](double spacing_m) -> DistanceField {
     return [shape, unit_m, cell = spacing_m / unit_m](const Vector3d& point_m) {
       LabelledDistance at = shape->at(point_m / unit_m, cell);

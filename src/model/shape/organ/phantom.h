@@ -55,8 +55,10 @@ constexpr int kMostPhantomSeed = 1000000;
 ///                    it. docs/user_guide.md has those at 0.08
 /// @param wall_scale  multiplies the walls of the gallbladder and the common duct, 0.1..2
 /// @param seed        variant (gallbladder_variant.h), 0..kMostPhantomSeed
-/// @throws SceneError  a parameter out of its range
-Phantom gallbladderPhantom(double length_m, double wall_scale, int seed);
+/// @param parts       names of the parts that are built; none: all. The liver with its capsule, the fat with its
+///                    peritoneum, and all else can be built without each other
+/// @throws SceneError  a parameter out of its range, or other parts
+Phantom gallbladderPhantom(double length_m, double wall_scale, int seed, const std::vector<std::string>& parts = {});
 
 /// @throws SceneError  a value of a scene key that is out of its range or not a number
 void requirePhantomRange(const char* key, double value, double low, double high);

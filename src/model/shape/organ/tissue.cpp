@@ -109,9 +109,11 @@ std::shared_ptr<const SurfaceDetail> partDetail(const std::vector<Vector3d>& par
 Phantom phantomOf(const BodyConfig& config) {
   switch (config.phantom) {
     case Anatomy::kHeart:
+      if (!config.scan.labels.empty()) throw SceneError("scan.labels must be empty: the heart is one piece");
       return heartPhantom(config.phantom_length_m, config.phantom_wall_scale);
     case Anatomy::kGallbladder:
-      return gallbladderPhantom(config.phantom_length_m, config.phantom_wall_scale, config.phantom_seed);
+      return gallbladderPhantom(config.phantom_length_m, config.phantom_wall_scale, config.phantom_seed,
+                                config.scan.labels);
   }
   throw SceneError("body '" + config.name + "': unknown phantom");
 }

@@ -256,6 +256,20 @@ void Attachments::draw(ProcessVisuals& visuals) const {
   }
 }
 
+std::vector<FibreState> Attachments::seen() const {
+  std::vector<FibreState> out;
+  for (size_t f = 0; f < grown_.size(); ++f) {
+    FibreState fibre{{}, grown_[f].rest_m, grown_[f].area_m2, isWhole(f)};
+    for (size_t e = 0; e < 2; ++e) {
+      const TissuePoint& end = grown_[f].ends[e];
+      const auto most = std::max_element(end.weights.begin(), end.weights.begin() + end.count);
+      fibre.nodes[e] = end.slots[static_cast<size_t>(most - end.weights.begin())];
+    }
+    out.push_back(fibre);
+  }
+  return out;
+}
+
 FactGroup Attachments::facts() const {
   std::vector<double> area_m2(configs_.size(), 0), attached_m2(configs_.size(), 0), stiffness(configs_.size(), 0);
   std::vector<uint64_t> count(configs_.size(), 0);

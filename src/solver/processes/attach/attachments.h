@@ -11,6 +11,7 @@
 #include "solver/processes/suture/suture_blades.h"
 #include "viscera/model/model.h"
 #include "viscera/model/scene/attachment_config.h"
+#include "viscera/solver/fibre_state.h"
 
 namespace viscera {
 
@@ -39,6 +40,7 @@ class Attachments : public TissueProcess {
   FactGroup facts() const override;
   /// Adds strands, where fibres are open by more than half of their thickness.
   void draw(ProcessVisuals& visuals) const override;
+  std::vector<FibreState> seen() const;
 
  private:
   void orderStrands();
