@@ -17,7 +17,7 @@
 
 #include "devices/organ_skin.h"
 #include "nodes/simulated_devices/steering.h"
-#include "nodes/views/marker_style.h"
+#include "nodes/views/markers/marker_style.h"
 
 namespace viscera::nodes {
 

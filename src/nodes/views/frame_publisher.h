@@ -24,10 +24,10 @@
 #include "nodes/ros/throttle.h"
 #include "nodes/views/camera_publisher.h"
 #include "nodes/views/held_nodes.h"
-#include "nodes/views/needle_publisher.h"
-#include "nodes/views/scene_marker_publisher.h"
+#include "nodes/views/markers/needle_publisher.h"
+#include "nodes/views/markers/scene_marker_publisher.h"
+#include "nodes/views/markers/suture_publisher.h"
 #include "nodes/views/surface_publisher.h"
-#include "nodes/views/suture_publisher.h"
 #include "nodes/views/tissue_cloud.h"
 
 namespace viscera::nodes {

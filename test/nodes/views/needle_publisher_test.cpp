@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/views/needle_publisher.h"
+#include "nodes/views/markers/needle_publisher.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/views/scene_markers.h"
+#include "nodes/views/markers/scene_markers.h"
 
 #include <gtest/gtest.h>
 
-#include "nodes/views/scene_marker_publisher.h"
+#include "nodes/views/markers/scene_marker_publisher.h"
 #include "viscera/model/scene/scene.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/views/marker_style.h"
+#include "nodes/views/markers/marker_style.h"
 
 #include <cctype>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "nodes/views/scene_markers.h"
+#include "nodes/views/markers/scene_markers.h"
 
 namespace viscera {
 struct Scene;

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/views/scene_marker_publisher.h"
+#include "nodes/views/markers/scene_marker_publisher.h"
 
 #include <ros/single_subscriber_publisher.h>
 

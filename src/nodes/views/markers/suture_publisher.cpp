@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the viscera authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "nodes/views/suture_publisher.h"
+#include "nodes/views/markers/suture_publisher.h"
 
 #include "model/scene/tool_kinds.h"
 #include "viscera/model/scene/scene.h"
