@@ -101,7 +101,7 @@ StylusSamples drag(int tick) {
 }
 
 constexpr int kTouchTicks = 6;  ///< of press(): the probe is then 1 mm deep
-constexpr int kSwingTicks = 3;   ///< after the other stroke: the tissue swings
+constexpr int kSwingTicks = 3;  ///< after the other stroke: the tissue swings
 
 using Setting = std::tuple<Backend, Mapping>;
 class Hidden : public GpuTest, public ::testing::WithParamInterface<Setting> {
