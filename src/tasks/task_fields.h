@@ -17,7 +17,7 @@ constexpr Range kTaskSeconds{0, 86400};
 constexpr Range kTaskWidth{1e-5, 1};         // m
 constexpr double kMostTaskPositions = 1000;  // positions of a path, or targets
 
-constexpr const char* kInstead = "position relative to a part of the tissue instead (docs/user_guide.md, Strokes)";
+constexpr const char* kInstead = "position relative to a part (docs/user_guide.md#strokes)";
 
 template <class V>
 void visitFields(V& v, TaskPosition& c) {

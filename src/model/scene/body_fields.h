@@ -68,12 +68,10 @@ void visitFields(V& v, BleedingConfig& c) {
   v.number("calibre_m", c.calibre_m, {0, 1}, "m",
            "diameter of a vessel with that flow; 0: from the volume of the part over the distance between its ends, "
            "which is wrong for a part that bends or branches");
-  v.choice(
-      "fluid", c.fluid, {{"blood", Fluid::kBlood}, {"bile", Fluid::kBile}},
-      "fluid that leaves a cut: parts with different fluids are separate vessels, and tasks score them separately");
+  v.choice("fluid", c.fluid, {{"blood", Fluid::kBlood}, {"bile", Fluid::kBile}},
+           "fluid that leaves a cut: parts with different fluids are separate vessels");
   v.number("volume_ml", c.volume_ml, {0, 1e5}, "ml",
-           "fluid in the part: flows fall in proportion to what is left of the sum over connected parts; 0: adds "
-           "nothing, and flows do not fall where no part adds anything");
+           "fluid in the part: flows fall in proportion to what is left in connected parts; 0 in all of them: no end");
 }
 
 template <class V>
@@ -198,10 +196,8 @@ void visitFields(V& v, TubeConfig& c) {
 template <class V>
 void visitFields(V& v, PressureConfig& c) {
   v.number("mean_pa", c.mean_pa, kCavityPressure, "Pa",
-           "mean pressure of the fluid in the cavities of the body over that outside, reached 0.2 s after the start; "
-           "the open ends of a tube are closed by caps that load their rims (docs/physics.md#18-pressure); 0: none. "
-           "Above 0: needs structure lattice, solver.integrator leapfrog, solver.backend cpu or auto, solver.start "
-           "rest");
+           "mean pressure in the cavities of the body over that outside, reached after 0.2 s; 0: none. Above 0: needs "
+           "structure lattice, solver.integrator leapfrog, solver.backend cpu or auto, solver.start rest");
   v.number("pulse_pa", c.pulse_pa, kCavityPressure, "Pa", "amplitude of the pulse, added as a sine");
   v.number("pulse_hz", c.pulse_hz, {0, 20}, "Hz", "frequency of the pulse");
 }

@@ -14,7 +14,7 @@ constexpr double kMostMarks = 1000, kMostMarkPoints = 1000;
 template <class V>
 void visitFields(V& v, MarkPoint& c) {
   v.vector("position_m", c.position_m, kCoordinate, "m",
-           "position of the point in the tissue at rest: in the tissue frame, or for a tube in the body's coordinates");
+           "position of the point at rest: tissue frame; of a tube: body's coordinates");
 }
 
 template <class V>
