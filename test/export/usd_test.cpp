@@ -9,6 +9,7 @@
 
 #include "export/exporter.h"
 #include "support/temporary_folder.h"
+#include "viscera/math/error.h"
 #include "viscera/model/scene/scene.h"
 
 namespace viscera {
