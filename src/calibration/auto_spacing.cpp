@@ -78,7 +78,7 @@ class SubstepRule {
   double limitOf(const Model& model, Scene scene, const gpu::Context* context) const {
     scene.solver = config_;
     scene.solver.start = SolverStart::kRest;
-    scene.attachments.clear();  // the model has not all of their bodies
+    scene.attachments.clear();                                 // the model has not all of their bodies
     for (BodyConfig& body : scene.bodies) body.pressure = {};  // nor the surfaces of cavities
     return makeSolver(model, scene, context)->dtLimit_s();
   }

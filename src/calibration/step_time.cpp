@@ -41,7 +41,7 @@ Scene measuredScene(Scene scene, const Model& model) {
   fitTick(solver, model, substepsPerTick(solver));
   solver.sleep_speed_m_per_s = 0;
   scene.environment.gravity_m_per_s2.setZero();
-  scene.attachments.clear();  // the model may lack one of their bodies
+  scene.attachments.clear();                                 // the model may lack one of their bodies
   for (BodyConfig& body : scene.bodies) body.pressure = {};  // and the surfaces of cavities
   return scene;
 }

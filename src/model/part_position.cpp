@@ -50,8 +50,8 @@ NodesOfPart partNodes(const Model& model, const std::string& part) {
     if (here.slots.size() > out.slots.size()) out = std::move(here);
   }
   if (out.slots.empty())
-    throw Error("'part' and 'from' must be bodies or parts of the tissue, of " + (known.empty() ? "none" : known) + "; found '" +
-                part + "'");
+    throw Error("'part' and 'from' must be bodies or parts of the tissue, of " + (known.empty() ? "none" : known) +
+                "; found '" + part + "'");
   return out;
 }
 

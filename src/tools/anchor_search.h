@@ -16,8 +16,8 @@ bool isHeld(const Body& body, uint32_t vertex);
 
 /// Returns the shift [m] across its ray that moves an anchor, made for another organ, onto this one, which may be
 /// narrower, hollow, fixed or absent there. The shift maximises the number of stroke spots above tissue that can move,
-/// then above any tissue, then the thickness of the tissue below them, as far as the strokes go; of equal shifts it is the
-/// smallest. @param spots_m  where the strokes touch, in the anchor's frame
+/// then above any tissue, then the thickness of the tissue below them, as far as the strokes go; of equal shifts it is
+/// the smallest. @param spots_m  where the strokes touch, in the anchor's frame
 Vector3d shiftOntoSkin(const Model& model, const Anchor& anchor, const std::vector<Vector3d>& spots_m);
 
 }  // namespace viscera
