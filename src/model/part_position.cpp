@@ -40,12 +40,17 @@ NodesOfPart partNodes(const Body& body, const std::string& part) {
 /// Returns the nodes of a part, of the body that has most of them. @throws Error  there are none
 NodesOfPart partNodes(const Model& model, const std::string& part) {
   NodesOfPart out;
+  std::vector<std::string> names;
   std::string known;
+  const auto add = [&](const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) return;
+    names.push_back(name);
+    known += (known.empty() ? "" : ", ") + name;
+  };
   for (const Body& body : model.bodies) {
     if (!body.hasCells()) continue;
-    if (known.find(body.name) == std::string::npos) known += (known.empty() ? "" : ", ") + body.name;
-    for (const std::string& name : body.lattice.part_names)
-      if (known.find(name) == std::string::npos) known += (known.empty() ? "" : ", ") + name;
+    add(body.name);
+    for (const std::string& name : body.lattice.part_names) add(name);
     NodesOfPart here = partNodes(body, part);
     if (here.slots.size() > out.slots.size()) out = std::move(here);
   }

@@ -11,6 +11,7 @@ namespace viscera {
 
 template <class V>
 void visitFields(V& v, PartPosition& c) {
+  v.given(c.given);
   v.text("part", c.part, "name of a part of the tissue, or of a body; of several pieces the largest counts");
   v.text("from", c.from, "name of the part at which `along` is 0; empty: the middle of the part, whatever `along` is");
   v.number("along", c.along, {0, 1}, "1", "share of the part's length, measured within the part");

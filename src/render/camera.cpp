@@ -117,7 +117,9 @@ Pose endoscopePose(const CameraConfig& camera, const Pose& tip) {
   const double angle_rad = camera.lens_angle_deg * M_PI / 180;
   const Vector3d forward = tip.orientation * Vector3d(0, -std::sin(angle_rad), -std::cos(angle_rad));
   const std::optional<Quaterniond> orientation = upright(forward, camera.up);
-  return {tip.position_m, orientation ? *orientation : *upright(forward, tip.orientation * Vector3d::UnitY())};
+  if (orientation) return {tip.position_m, *orientation};
+  const Vector3d upwards = tip.orientation * Vector3d(0, std::cos(angle_rad), -std::sin(angle_rad));
+  return {tip.position_m, *upright(forward, upwards)};
 }
 
 void placeEndoscopes(const std::vector<CameraConfig>& cameras, const std::vector<StylusConfig>& styluses,

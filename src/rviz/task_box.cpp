@@ -215,7 +215,7 @@ void TaskBox::Inside::show(const TaskState& state) {
   progress->setValue(static_cast<int>(kPercent * std::clamp(state.progress, 0.0, 1.0)));
   progress->show();
   const ScoreBar bar = scoreBar(state.score, state.pass_score, state.time_limit_s);
-  score_bar->show(bar.share, bar.pass_share, bar.passes, bar.text);
+  score_bar->show(bar.share, bar.pass_share, bar.passes && state.state != TaskState::FAILED, bar.text);
   writeOrHide(measures, measuresText(state));
   const QString page = QUrl::fromLocalFile(QString::fromStdString(state.report) + "/report.html").toString();
   writeOrHide(report, state.report.empty() ? QString() : "<a href=\"" + page.toHtmlEscaped() + "\">Report</a>");

@@ -344,6 +344,8 @@ void Session::reset() {
   tools_.reset();
   obstacles_.reset();
   request_.motions = {};
+  for (size_t c = 0; c < scene_.cameras.size(); ++c)
+    if (!scene_.cameras[c].stylus.empty()) request_.cameras[c] = opticalPose(scene_.cameras[c]);
   updateObstacles();
   updateProcesses();
   for (ForceLimiter& limiter : limiters_) limiter.reset();

@@ -11,7 +11,8 @@ class Places {
   Places(const Model& model, const std::string& task) : model_(model), task_(task) {}
 
   void place(PartPosition& at, Vector3d& position_m, const std::string& key) const {
-    if (at.part.empty()) return;
+    if (!at.given) return;
+    if (at.part.empty()) throw TaskError(task_ + ": '" + key + ".at' needs 'part', the name of a part of the tissue");
     try {
       position_m = positionOf(model_, at);
     } catch (const Error& error) {

@@ -17,6 +17,7 @@ struct PartPosition {
   std::string from;                      ///< name of the part at which `along` is 0; empty: the middle of the part
   double along = 0.5;                    ///< share of the part's length, measured within the part, 0 to 1
   Vector3d offset_m = Vector3d::Zero();  ///< added to the position, tissue frame [m]
+  bool given = false;                    ///< a file has these keys
 };
 
 /// Returns the position in the tissue at rest [m, tissue frame]: the mean of the part's nodes at that length. Of a part

@@ -48,7 +48,7 @@ Pose carriedOpticalPose(const CameraConfig& camera, const Pose& frame);
 /// Returns the pose of the optical frame of a camera in an endoscope (CameraConfig::stylus), in the tissue frame. The
 /// lens is at the tip and looks along -z of the stylus, tilted by lens_angle_deg towards its -y. CameraConfig::up is up
 /// in the image, as the head of the camera does not turn with the shaft; where the camera looks along it, y of the
-/// stylus is. @param tip  pose of the stylus in the tissue frame
+/// stylus is, tilted like the sight. @param tip  pose of the stylus in the tissue frame
 Pose endoscopePose(const CameraConfig& camera, const Pose& tip);
 /// Moves the cameras in styluses that are present. @param poses  [cameras] of optical frames
 void placeEndoscopes(const std::vector<CameraConfig>& cameras, const std::vector<StylusConfig>& styluses,

@@ -84,6 +84,25 @@ std::vector<PlacedShape> placedShapes(const Session& session, const Frame& now) 
   return out;
 }
 
+namespace {
+
+/// Returns the name of a kind of tubes in a page.
+const char* nameOf(TubeKind kind) {
+  switch (kind) {
+    case TubeKind::kSuture:
+      return "suture";
+    case TubeKind::kNeedle:
+      return "needle";
+    case TubeKind::kClip:
+      return "clip";
+    case TubeKind::kStrand:
+      return "strand";
+  }
+  return "";
+}
+
+}  // namespace
+
 Json sceneJson(const Session& session, const std::vector<TubeStyle>& styles) {
   const Scene& scene = session.scene();
   Json out = {{"name", scene.name}};
@@ -92,10 +111,9 @@ Json sceneJson(const Session& session, const std::vector<TubeStyle>& styles) {
     out["bodies"].push_back({{"name", body.name}, {"color", jsonOf(body.color)}});
   for (const StylusConfig& stylus : scene.styluses) out["styluses"].push_back(stylus.name);
   for (const CameraConfig& camera : scene.cameras)
-    if (camera.frame.empty()) out["cameras"].push_back(jsonOf(camera));
+    if (camera.frame.empty() && camera.stylus.empty()) out["cameras"].push_back(jsonOf(camera));
   for (const TubeStyle& style : styles) {
-    constexpr const char* kNames[] = {"suture", "needle", "clip"};
-    out["tubes"].push_back({{"part", kNames[static_cast<size_t>(style.part)]},
+    out["tubes"].push_back({{"part", nameOf(style.part)},
                             {"radius", style.radius_m},
                             {"color", {style.color[0], style.color[1], style.color[2]}}});
   }

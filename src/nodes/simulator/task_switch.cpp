@@ -101,6 +101,7 @@ TaskSwitch::TaskSwitch(ros::NodeHandle node, const Scene& scene, const SceneChoi
 
 TaskSwitch::~TaskSwitch() {
   timer_.stop();
+  writeReport();
   if (reporting_.valid()) reporting_.wait();
 }
 

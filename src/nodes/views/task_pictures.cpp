@@ -13,8 +13,8 @@ namespace viscera::nodes {
 
 namespace {
 
-constexpr std::chrono::seconds kLongest{
-    5};  // wait for an image: a paused or overloaded simulator writes its report without
+// Longest wait for an image: a paused or overloaded simulator writes its report without one.
+constexpr std::chrono::seconds kLongest{5};
 
 }  // namespace
 
@@ -38,7 +38,10 @@ void TaskPictures::addTo(FrameRequest& outputs) const {
 }
 
 void TaskPictures::take(const std::vector<ImageFrame>& images, uint64_t tick) {
-  if (!asked_) return;
+  if (!waits()) {
+    asked_.reset();
+    return;
+  }
   for (const ImageFrame& image : images) {  // those of before a reset have later ticks
     if (image.camera != 0 || image.kind != PictureKind::kColor || image.tick <= asked_->tick || image.tick > tick)
       continue;

@@ -111,7 +111,8 @@ SceneMarkers::SceneMarkers(const Scene& scene, const PublishOptions& options)
     const ToolShape shape = obstacleShape(obstacle);
     obstacles_.push_back({obstacle.name, partsOf(shape), pointsOf(shape)});
   }
-  for (const CameraConfig& camera : scene.cameras) cameras_.push_back({camera.name, camera.position_m});
+  for (const CameraConfig& camera : scene.cameras)
+    if (camera.stylus.empty()) cameras_.push_back({camera.name, camera.position_m});
   if (!scene.cameras.empty()) middle_m_ = scene.cameras[0].target_m;
 }
 
