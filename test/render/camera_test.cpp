@@ -57,6 +57,10 @@ TEST(Camera, OfAnEndoscopeShowsAPointWhereItsLensAngleAndTheTurnOfItsHandlePutIt
     EXPECT_LT((shown(turn_rad) - Eigen::Vector2d(k.cx, k.cy)).norm(), 1e-9) << "along the shaft";
   camera.up = Vector3d::UnitY();  // along the line of sight: y of the stylus is up
   EXPECT_LT((endoscopePose(camera, ahead).orientation * Vector3d::UnitY() + Vector3d::UnitZ()).norm(), kTight);
+  camera.lens_angle_deg = 90;  // a level shaft that looks straight down: the way it points is up
+  camera.up = Vector3d::UnitZ();
+  EXPECT_LT((endoscopePose(camera, ahead).orientation * Vector3d::UnitZ() + Vector3d::UnitZ()).norm(), kTight);
+  EXPECT_LT((endoscopePose(camera, ahead).orientation * Vector3d::UnitY() + Vector3d::UnitY()).norm(), kTight);
 }
 
 TEST(Camera, TargetIsSeenAtThePrincipalPoint) {

@@ -152,7 +152,7 @@ class LaunchingTest(unittest.TestCase):
                 profile = yaml.safe_load(text)
             name = os.path.splitext(file)[0]
             nodes = self.nodes_of("training.launch", watchdog="true", device_left=name, device_right=name + ":other")
-            if profile["force"]["type"] == "none" or name == "crtk_arm":  # others read its forces
+            if profile["force"]["type"] == "none" or name in ("crtk_arm", "dvrk_psm", "dvrk_ecm"):  # others read their forces
                 self.assertEqual(set(nodes), {"/simulator"}, name)
                 continue
             for stylus, device in (("left", name), ("right", name + ":other")):
@@ -160,7 +160,7 @@ class LaunchingTest(unittest.TestCase):
                     self.assertIn(argument, nodes["/watchdog_" + stylus])
                 self.assertIn("%s.force.topic=%s/unwatched" % (stylus, stylus), nodes["/simulator"])
             watched += 1
-        self.assertEqual(watched, 6)
+        self.assertEqual(watched, 7)
 
     def test_the_licence_is_named_as_spdx_names_it(self):
         package = roslib.packages.get_pkg_dir("viscera")
