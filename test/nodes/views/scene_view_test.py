@@ -271,7 +271,8 @@ class SceneViewTest(unittest.TestCase):
         markers.stop()
 
     def test_marks_on_the_cloth_are_lines_that_move_with_it(self):
-        rospy.ServiceProxy("reset", Trigger)()
+        for service in ("pause", "reset"):  # the cloth is at rest until it is resumed
+            self.assertTrue(rospy.ServiceProxy(service, Trigger)().success)
         seen = {}
         markers = Latest("scene_markers", MarkerArray, lambda message: self.note(message, seen))
         line = list(wait_until(lambda: seen.get("marks"), LIMIT_S, "mark").values())[0]
@@ -282,6 +283,7 @@ class SceneViewTest(unittest.TestCase):
             places = [getattr(point, axis) for point in line.points]
             self.assertAlmostEqual(min(places), low, delta=1e-4)
             self.assertAlmostEqual(max(places), high, delta=1e-4)
+        self.assertTrue(rospy.ServiceProxy("resume", Trigger)().success)
         self.left.move((-0.04, 0.05, ABOVE_M), (-0.04, 0.05, CLOTH_M), 1)
         wait_until(lambda: min(point.z for point in list(seen["marks"].values())[0].points) < CLOTH_M - 0.01, LIMIT_S,
                    "mark on a cloth that is pushed")
