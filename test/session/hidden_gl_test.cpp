@@ -41,7 +41,7 @@ Scene hiddenScene(bool draw_hidden, Mapping mapping = Mapping::kAuto, bool can_c
   cloth.structure = Structure::kSurface;
   cloth.mapping = Mapping::kAuto;
   cloth.box_size_m = Vector3d(0.2, 0.2, 0.001);
-  cloth.spacing_m = 0.02;  // it is only looked at: a fine one has short substeps
+  cloth.spacing_m = 0.01;
   cloth.position_m = Vector3d(0, 0.1, -0.02);
   scene.bodies.push_back(ball);
   scene.bodies.push_back(cloth);
@@ -100,9 +100,6 @@ StylusSamples drag(int tick) {
   return leftAt({share * kHalfM / 2, 0.001, kHalfM + 0.001}, false, true);
 }
 
-constexpr int kTouchTicks = 6;  ///< of press(): the probe is then 1 mm deep
-constexpr int kSwingTicks = 3;  ///< after the other stroke: the tissue swings
-
 using Setting = std::tuple<Backend, Mapping>;
 class Hidden : public GpuTest, public ::testing::WithParamInterface<Setting> {
  protected:
@@ -112,8 +109,8 @@ class Hidden : public GpuTest, public ::testing::WithParamInterface<Setting> {
     scene.solver.backend = std::get<0>(GetParam());
     Session session(scene, context_);
     Shown out;
-    for (int tick = 1; tick <= kTouchTicks + kCutTicks + kSwingTicks; ++tick) {
-      const int stroke = tick - kTouchTicks;
+    for (int tick = 1; tick <= kPressTicks + 2 * kCutTicks; ++tick) {
+      const int stroke = tick - kPressTicks;
       const StylusSamples samples = stroke <= 0 ? press(tick) : can_cut ? cut(stroke) : drag(stroke);
       add(session.step(samples, outputsOf(tick)), out);
       add(session.drain(), out);
@@ -173,8 +170,8 @@ class HiddenView : public GpuTest {
  protected:
   /// Returns the position of tissue that leaves every image and comes back on another path.
   static Vector3f positionAt(int tick) {
-    const float offset = 0.08F * static_cast<float>(tick % 10 < 5 ? tick % 10 : 10 - tick % 10);
-    return tick < 10 ? Vector3f(offset, 0, 0) : Vector3f(0, 0, -offset);
+    const float offset = 0.04F * static_cast<float>(tick % 20 < 10 ? tick % 20 : 20 - tick % 20);
+    return tick < 20 ? Vector3f(offset, 0, 0) : Vector3f(0, 0, -offset);
   }
   Shown shown(bool draw_hidden, Mapping mapping) {
     const Scene scene = hiddenScene(draw_hidden, mapping, false);
@@ -182,7 +179,7 @@ class HiddenView : public GpuTest {
     PlacedTissue tissue(model);
     Shown out;
     ThreadedView view(model, scene, context_);
-    for (int tick = 1; tick <= 22; ++tick) {
+    for (int tick = 1; tick <= 40; ++tick) {
       tissue.put(positionAt(tick), tick);
       RenderRequest request;
       request.tick = static_cast<uint64_t>(tick);
