@@ -155,9 +155,14 @@ bool resistsBlades(const std::filesystem::path& scene) {
                      [](const BodyConfig& body) { return body.material.cut.toughness_j_per_m2 > 0; });
 }
 
+bool hasPressure(const std::filesystem::path& scene) {
+  const std::vector<BodyConfig> bodies = loadScene(scene.string()).bodies;
+  return std::any_of(bodies.begin(), bodies.end(), [](const BodyConfig& body) { return body.pressure.mean_pa > 0; });
+}
+
 /// Shipped scenes are used as they are, with two exceptions. Organs are coarser than for viewing. Blades that tissue
-/// resists, sutures, needles and clips are removed, since the reference reports that it does not support them; it
-/// accepts the scenes without them.
+/// resists, sutures, needles, clips and pressure are removed, since the reference reports that it does not support
+/// them; it accepts the scenes without them.
 TEST_F(BenchReference, RefusesNoSceneThatComesWithIt) {
   size_t scenes = 0;
   for (const auto& file : std::filesystem::directory_iterator(sourceFolder() + "/config/scenes")) {
@@ -172,6 +177,7 @@ TEST_F(BenchReference, RefusesNoSceneThatComesWithIt) {
     }
     if (usesProcesses(file.path())) options.insert(options.end(), {"--set", "sutures=[]", "--set", "styluses=[]"});
     if (resistsBlades(file.path())) options.insert(options.end(), {"--set", "bodies[0].material.cut={}"});
+    if (hasPressure(file.path())) options.insert(options.end(), {"--set", "bodies[0].pressure={}"});
     const Json metrics = lastLine(viscera(options, {kNoDevice}));
     EXPECT_GT(metrics["nodes"], 0);
     EXPECT_EQ(metrics["nonfinite"], 0);
