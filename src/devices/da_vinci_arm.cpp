@@ -15,6 +15,10 @@ constexpr double kTurn = 2 * 3.14159265358979323846;
 // Lengths [m]: the remote centre is behind the end of the shaft by insertion + shaft - rcc.
 constexpr double kPsmRcc = 0.4318, kPsmShaft = 0.4162, kEcmRcc = 0.3822, kEcmShaft = 0.385495;
 constexpr double kPitchToYaw = 0.0091, kYawToTip = 0.0102;
+// The end of the PSM's shaft is 1 mm or more beyond the remote centre: closer, yaw and pitch turn about that end, and
+// behind the centre two sets of joints have the same pose.
+constexpr double kPsmLeastInsertion = 0.0166;
+static_assert(kPsmLeastInsertion > kPsmRcc - kPsmShaft);
 constexpr double kLimitRounding = 1e-9;  // rad or m: of joints that were computed from a pose
 constexpr double kLeastSine = 1e-6;      // of the angle between the wrist's yaw axis and the line to the remote centre
 
@@ -47,7 +51,7 @@ DaVinciArm::DaVinciArm(ArmJoints joints)
   names_ = {"yaw", "pitch", "insertion", "roll"};
   if (has_wrist_) {
     names_.insert(names_.end(), {"wrist_pitch", "wrist_yaw"});
-    limits_ = {{-91.96 * kRad, 91.96 * kRad}, {-53 * kRad, 53 * kRad}, {0, 0.24},
+    limits_ = {{-91.96 * kRad, 91.96 * kRad}, {-53 * kRad, 53 * kRad}, {kPsmLeastInsertion, 0.24},
                {-260 * kRad, 260 * kRad},     {-80 * kRad, 80 * kRad}, {-80 * kRad, 80 * kRad}};
   } else {
     limits_ = {{-91.96 * kRad, 91.96 * kRad}, {-45 * kRad, 66.4 * kRad}, {0, 0.254}, {-89 * kRad, 89 * kRad}};

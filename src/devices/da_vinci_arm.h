@@ -14,7 +14,7 @@ namespace viscera {
 /// Joints of a patient-side arm of the da Vinci, as the dVRK has them: yaw, pitch and insertion about the remote
 /// centre, roll, and for a PSM wrist pitch and wrist yaw [rad, m]. An ECM has no wrist. Poses are those of the tip in
 /// the base frame of the arm, with the remote centre as origin: z of the tip points out of the instrument. Joints of 0
-/// point down, along -z of the base.
+/// point down, along -z of the base. The end of a PSM's shaft stays beyond the remote centre (kPsmLeastInsertion).
 ///
 /// Lengths are those of the classic arms, modified Denavit-Hartenberg parameters (dVRK user guide;
 /// sawIntuitiveResearchKit, psm-large-needle-driver and ecm): the PSM has a Large Needle Driver 400006.

@@ -43,7 +43,9 @@ std::pair<Eigen::Isometry3d, Eigen::Isometry3d> psmByTable(const Joints& q) {
 
 Joints drawn(std::mt19937& dice, bool has_wrist) {
   const auto within = [&](double most) { return std::uniform_real_distribution<double>(-most, most)(dice); };
-  Joints q = {within(1.5), within(0.75), 0.12 + within(0.1), within(has_wrist ? 4.5 : 1.5)};
+  const double slide_m = has_wrist ? std::uniform_real_distribution<double>(0.0166, 0.24)(dice)
+                                   : std::uniform_real_distribution<double>(0, 0.254)(dice);
+  Joints q = {within(1.5), within(0.75), slide_m, within(has_wrist ? 4.5 : 1.5)};
   if (has_wrist) q.insert(q.end(), {within(1.39), within(1.39)});
   return q;
 }
@@ -102,6 +104,8 @@ TEST(DaVinciArm, RefusesWhatIsBeyondItsLimits) {
   EXPECT_FALSE(arm.reach({Vector3d::Constant(NAN), Quaterniond::Identity()}, start));
   EXPECT_FALSE(arm.isWithin({0, 0, 0.1, 0, 0}));
   EXPECT_FALSE(arm.isWithin({0, 0, 0.3, 0, 0, 0}));
+  EXPECT_FALSE(arm.isWithin({0, 0, 0.0165, 0, 0, 0}));  // the end of the shaft at the remote centre, or behind it
+  EXPECT_NE(arm.limitsText().find("insertion 0.0166 .. 0.24 m"), std::string::npos) << arm.limitsText();
   EXPECT_FALSE(arm.isWithin({0, NAN, 0.1, 0, 0, 0}));
   EXPECT_EQ(DaVinciArm(ArmJoints::kEcm).limitsText().substr(0, 44), "yaw -91.96 .. 91.96 deg, pitch -45 .. 66.4 d");
 }

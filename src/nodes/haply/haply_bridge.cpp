@@ -26,6 +26,7 @@ constexpr std::chrono::milliseconds kReleasePoll{1};
 constexpr uint64_t kZerosAtEnd = 2;  // one may have been computed before the release
 constexpr std::chrono::seconds kReportEvery{1}, kDroppedEvery{10};
 constexpr size_t kMostNotes = 100;
+constexpr std::chrono::seconds kPosesLimit{1};  // without a pose until the diagnostics warn
 
 /// Orientation without a grip: one that points down, as an upright pen does.
 const Quaterniond kNoGrip(Eigen::AngleAxisd(-M_PI / 2, Vector3d::UnitX()));
@@ -35,8 +36,8 @@ const Quaterniond kNoGrip(Eigen::AngleAxisd(-M_PI / 2, Vector3d::UnitX()));
 HaplyOptions haplyOptions(Parameters& parameters) {
   HaplyOptions options;
   options.name = parameters.text("name", options.name);
-  options.device = parameters.text("device", options.device);
-  options.grip = parameters.text("grip", options.grip);
+  options.device = parameters.identifier("device", options.device);
+  options.grip = parameters.identifier("grip", options.grip);
   options.service.host = parameters.text("host", options.service.host);
   options.service.port = static_cast<uint16_t>(parameters.number("port", options.service.port, 1, 65535));
   options.service.period = std::chrono::duration<double>(1 / parameters.number("rate_hz", 1000, 50, 4000));
@@ -93,8 +94,13 @@ void HaplyBridge::run() {
 
 std::string HaplyBridge::take(const std::string& message, bool first) try {
   if (first) choose(message);
-  const InverseState state = readState(message, devices_);
-  if (state.grip_came) return "a grip has come";
+  InverseState state = readState(message, devices_);
+  if (!state.grip_came.empty()) {
+    // Without a new connection, which would leave the last force on the motors meanwhile.
+    devices_.grip = state.grip_came;
+    tell("a grip has come: ");
+    state = readState(message, devices_);
+  }
   ++states_;
   publish(state);
   return {};
@@ -111,10 +117,15 @@ void HaplyBridge::choose(const std::string& inventory) {
   devices_ = chooseDevices(inventory, options_.device, options_.grip);
   first_command_ = true;
   ++connections_;
+  tell("connected: ");
+}
+
+/// Notes the devices of the connection.
+void HaplyBridge::tell(const std::string& event) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  connected_ = true;
-  state_ = devices_.description;
-  notes_.push_back({"connected: " + state_, false});
+  if (!std::exchange(connected_, true)) posed_ = Clock::now();
+  state_ = devices_.description + (devices_.grip.empty() ? ", without a grip" : ", grip " + devices_.grip);
+  if (notes_.size() < kMostNotes) notes_.push_back({event + state_, false});
 }
 
 void HaplyBridge::publish(const InverseState& state) {
@@ -142,6 +153,7 @@ void HaplyBridge::publish(const InverseState& state) {
   const std::lock_guard<std::mutex> lock(mutex_);
   grip_ = grip;
   calibrated_ = state.calibrated;
+  posed_ = Clock::now();
 }
 
 std::string HaplyBridge::command() {
@@ -216,6 +228,9 @@ void HaplyBridge::report(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const std::lock_guard<std::mutex> lock(mutex_);
   status.summary(connected_ ? HaplyLevel::OK : HaplyLevel::ERROR, connected_ ? state_ : "no connection: " + state_);
   if (connected_ && !calibrated_) status.summary(HaplyLevel::WARN, "not calibrated; put the grip on its inkwell");
+  if (connected_ && now - posed_ > kPosesLimit)
+    status.summary(HaplyLevel::WARN, "no pose in the last second" +
+                                         (last_dropped_.empty() ? "" : "; the last message dropped: " + last_dropped_));
   status.add("states", states);
   status.add("states_per_s", static_cast<double>(states - std::exchange(reported_states_, states)) / span_s);
   status.add("dropped", dropped_.load());

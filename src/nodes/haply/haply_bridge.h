@@ -52,6 +52,7 @@ class HaplyBridge {
   // On the socket's thread.
   std::string take(const std::string& message, bool first);
   void choose(const std::string& inventory);
+  void tell(const std::string& event);
   std::string command();
   void lose(const std::string& why);
   void publish(const InverseState& state);
@@ -74,6 +75,7 @@ class HaplyBridge {
   bool is_absolute_ = false;  ///< whether wrenches are in the frame of the poses, not in that of the grip
   Quaterniond grip_ = Quaterniond::Identity();
   Clock::time_point heard_{};  ///< arrival of the newest wrench
+  Clock::time_point posed_{};  ///< of the newest pose, or begin of the connection
   bool connected_ = false, calibrated_ = true;
   std::string state_;  ///< devices, or why there is no connection
   std::string last_dropped_;

@@ -116,7 +116,6 @@ InverseDevices chooseDevices(const std::string& inventory, const std::string& de
   out.watches_for_grip = out.grip.empty();
   if (out.grip.empty() && grip != "any")
     throw InverseError("the service has no grip '" + grip + "' (~grip); it has" + (grips.empty() ? " none" : grips));
-  out.description += out.grip.empty() ? ", without a grip" : ", grip " + out.grip;
   return out;
 }
 
@@ -131,7 +130,7 @@ InverseState readState(const std::string& text, const InverseDevices& devices) {
   out.calibrated = at(at(*device, "status"), "calibrated") != Json(false);
   if (devices.grip.empty()) {
     std::string ignored;
-    out.grip_came = devices.watches_for_grip && !firstGrip(message, "any", ignored).empty();
+    if (devices.watches_for_grip) out.grip_came = firstGrip(message, "any", ignored);
     return out;
   }
   for (const char* kind : kGrips) {

@@ -24,7 +24,7 @@ struct InverseError : Error {
 /// Devices that a connection uses, from the inventory.
 struct InverseDevices {
   std::string device, grip;       ///< identifiers; empty grip: none
-  std::string description;        ///< for the user
+  std::string description;        ///< of the device, for the user
   bool has_session = false;       ///< whether the service is 3.5 or later
   bool watches_for_grip = false;  ///< whether a grip that comes later is to be used
 };
@@ -34,7 +34,7 @@ struct InverseState {
   Vector3d position_m = Vector3d::Zero(), velocity_m_per_s = Vector3d::Zero();
   std::optional<Quaterniond> grip;  ///< orientation of the grip: its +y points away from the user
   std::array<bool, 3> buttons{};    ///< a, b, c
-  bool grip_came = false;           ///< a grip has come, which the inventory did not have
+  std::string grip_came;            ///< identifier of a grip that has come, which the inventory did not have
   bool calibrated = true;
 };
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <utility>
 
 #include "nodes/input/device_messages.h"
@@ -152,9 +151,10 @@ void CrtkArm::onMove(const geometry_msgs::PoseStamped& message) {
 void CrtkArm::onJoints(const sensor_msgs::JointState& message, bool moves) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const char* const topic = moves ? "move_jp" : "servo_jp";
-  if (message.position.size() < arm_->count()) return refuse(topic, Drop::kNoButtons);
-  const DaVinciArm::Joints goal(message.position.begin(),
-                                message.position.begin() + static_cast<std::ptrdiff_t>(arm_->count()));
+  const DaVinciArm::Joints& goal = message.position;
+  if (goal.size() != arm_->count())
+    return refuse(topic, Drop::kJointCount,
+                  ": " + std::to_string(goal.size()) + " positions, not " + std::to_string(arm_->count()));
   for (const double joint : goal)
     if (!std::isfinite(joint)) return refuse(topic, Drop::kNotFinite);
   if (!arm_->isWithin(goal)) return refuse(topic, Drop::kOutsideWorkspace, "; its joints are " + arm_->limitsText());
@@ -177,6 +177,11 @@ bool CrtkArm::isReached(const Pose& pose, const std::string& topic) {
   if (arm_->reach(pose, joints_)) return true;
   refuse(topic, Drop::kOutsideWorkspace, "; its joints are " + arm_->limitsText());
   return false;
+}
+
+/// Returns a pose as its joints reach it: the scope of an ECM has no wrist. Out of reach: that of the present joints.
+Pose CrtkArm::reached(const Pose& pose) const {
+  return arm_ ? arm_->tip(arm_->reach(pose, joints_).value_or(joints_)) : pose;
 }
 
 /// Stops the arm at the end of its reach.
@@ -291,8 +296,8 @@ void CrtkArm::tellSetpoints() {
   const std::lock_guard<std::mutex> lock(mutex_);
   const ros::Time stamp = ros::Time::now();
   const std::string frame = mailbox_.deviceFrame().name;
-  if (isReceived(setpoint_cp_)) setpoint_cp_.publish(stamped(motion_.setpoint(), frame, stamp));
-  if (isReceived(goal_cp_)) goal_cp_.publish(stamped(motion_.goal(), frame, stamp));
+  if (isReceived(setpoint_cp_)) setpoint_cp_.publish(stamped(reached(motion_.setpoint()), frame, stamp));
+  if (isReceived(goal_cp_)) goal_cp_.publish(stamped(reached(motion_.goal()), frame, stamp));
   if (arm_ && isReceived(setpoint_joints_js_)) setpoint_joints_js_.publish(toJoints(joints_, stamp));
   if (!isReceived(measured_js_) && !isReceived(setpoint_js_)) return;
   sensor_msgs::JointState jaw;

@@ -54,6 +54,7 @@ class CrtkArm {
   std::optional<Pose> poseOfFrame(const std::string& frame, const std::string& topic);
   void refuse(const std::string& topic, Drop reason, const std::string& detail = "");
   bool isReached(const Pose& pose, const std::string& topic);
+  Pose reached(const Pose& pose) const;
   void stayWithinReach();
   sensor_msgs::JointState toJoints(const DaVinciArm::Joints& joints, const ros::Time& stamp) const;
   void place();

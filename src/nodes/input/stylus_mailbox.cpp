@@ -33,7 +33,7 @@ double delay_s(const ros::Time& stamp, const Arrival& now) {
 const char* text(Drop reason) {
   static constexpr std::array<const char*, kDropReasons> kNames = {
       "stamp_zero", "not_finite",        "bad_quaternion", "no_transform", "old_transform", "repeated_stamp",
-      "delayed",    "outside_workspace", "no_buttons",     "button_value", "jaw_angle"};
+      "delayed",    "outside_workspace", "no_buttons",     "button_value", "jaw_angle",     "joint_count"};
   return kNames[static_cast<size_t>(reason)];
 }
 

@@ -33,9 +33,10 @@ enum class Drop {
   kOutsideWorkspace,  ///< distance from the tissue frame's origin exceeds StylusConfig::workspace_m
   kNoButtons,         ///< message lacks the button or joint that the profile names
   kButtonValue,       ///< value of a button is not 0, 1 or 2
-  kJawAngle           ///< jaws are open by more than half a turn, in either direction
+  kJawAngle,          ///< jaws are open by more than half a turn, in either direction
+  kJointCount         ///< message has more or fewer joints than the arm
 };
-constexpr size_t kDropReasons = 11;
+constexpr size_t kDropReasons = 12;
 const char* text(Drop reason);  ///< snake_case name, as in the diagnostics
 
 /// Largest deviation of a quaternion's norm from 1. Some trackers are off by a few percent: those are normalised,

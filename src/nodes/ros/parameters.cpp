@@ -55,6 +55,13 @@ std::string Parameters::text(const std::string& key, const std::string& fallback
   return value ? stringOf(*value, key, "a string") : fallback;
 }
 
+std::string Parameters::identifier(const std::string& key, const std::string& fallback) {
+  const XmlRpcValue* value = find(key);
+  if (!value) return fallback;
+  if (value->getType() == XmlRpcValue::TypeInt) return std::to_string(static_cast<const int&>(*value));
+  return stringOf(*value, key, "a string or an integer; in a launch file, type=\"str\" keeps a string");
+}
+
 double Parameters::number(const std::string& key, double fallback, double min, double max) {
   const XmlRpcValue* value = find(key);
   if (!value) return fallback;

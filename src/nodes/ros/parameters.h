@@ -28,6 +28,8 @@ class Parameters {
   static Parameters ofThisNode();
 
   std::string text(const std::string& key, const std::string& fallback);
+  /// Reads a string or an integer, which roscpp makes of an argument with digits alone.
+  std::string identifier(const std::string& key, const std::string& fallback);
   double number(const std::string& key, double fallback, double min, double max);
   bool flag(const std::string& key, bool fallback);
   /// Reads a list of strings, or one string with ';' between the items. Empty items are left out.

@@ -202,7 +202,8 @@ std::string meaningOfDrop(const std::string& reason) {
       {"outside_workspace", "too far from the tissue: the wrong frame or unit (millimetres?), or workspace_m is small"},
       {"no_buttons", "the message lacks the button or joint that the profile names"},
       {"button_value", "the value of a button is not 0, 1 or 2"},
-      {"jaw_angle", "jaws are open by more than half a turn; see gripper.rad_per_unit"}};
+      {"jaw_angle", "jaws are open by more than half a turn; see gripper.rad_per_unit"},
+      {"joint_count", "the message has more or fewer joints than the arm"}};
   const auto found = kMeanings.find(reason);
   return found == kMeanings.end() ? "" : found->second;
 }

@@ -116,7 +116,7 @@ class HaplyBridgeTest(unittest.TestCase):
         self.assertEqual(self.bridge.process.wait(LIMIT_S), 0)
 
     def test_bad_messages_are_dropped_and_counted(self):
-        self.begin()
+        self.begin("_grip:=61548")  # roscpp makes it an integer
         state = self.service.state()
         spoilt = []
         for change in (lambda s: s["inverse3"].clear(), lambda s: s["wireless_verse_grip"].clear(),
@@ -137,6 +137,9 @@ class HaplyBridgeTest(unittest.TestCase):
         self.assertEqual(self.watch.value("inverse3", "connections"), 1)
         self.service.calibrated = False
         wait_until(lambda: "not calibrated" in self.watch.status("inverse3").message, LIMIT_S, "a device that is not calibrated")
+        self.service.has_grip = False
+        wait_until(lambda: "no pose in the last second; the last message dropped: a state lacks the grip 61548" in
+                   self.watch.status("inverse3").message, LIMIT_S, "a grip that has gone")
 
     def test_it_connects_again(self):
         self.begin()
@@ -154,9 +157,11 @@ class HaplyBridgeTest(unittest.TestCase):
         self.service.at = (0.04, 0, 0.1)
         self.bridge.said("without a grip")
         self.wait_pose(0.04)
-        self.service.has_grip = True
-        self.bridge.said("(a grip has come)")
-        self.bridge.said("grip 61548", count=3)
+        self.service.grip, self.service.has_grip = TURNED, True
+        self.bridge.said("a grip has come: 049D, right-handed, grip 61548")
+        wait_until(lambda: self.pose.message.pose.orientation.z > 0.7, LIMIT_S, "orientation of the grip")
+        time.sleep(2)  # the diagnostics are sent once a second
+        self.assertEqual(self.watch.value("inverse3", "connections"), 3, "a new connection would leave a force on the motors")
 
     def test_a_device_that_is_not_there_is_named(self):
         self.begin()

@@ -48,6 +48,16 @@ TEST(InverseMessage, ReadsBothKindsOfGrips) {
   EXPECT_NEAR(wireless.grip->z(), 0.6, 1e-15);
 }
 
+TEST(InverseMessage, FindsAGripThatComesLater) {
+  InverseDevices devices;
+  devices.device = "049D";
+  EXPECT_EQ(readState(kInventory, devices).grip_came, "");
+  devices.watches_for_grip = true;
+  EXPECT_EQ(readState(kInventory, devices).grip_came, "61548");
+  devices.grip = "6";
+  EXPECT_EQ(readState(kInventory, devices).grip_came, "");
+}
+
 TEST(InverseMessage, WritesForcesForBothVersionsOfTheService) {
   InverseDevices devices = chooseDevices(kInventory, "any", "any");
   EXPECT_EQ(

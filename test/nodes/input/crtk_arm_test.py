@@ -303,12 +303,17 @@ class CrtkArmTest(unittest.TestCase):
         sent["move_jp"].publish(JointState(position=goal))
         wait_until(lambda: any(s.is_busy for s in states) and not states[-1].is_busy, LIMIT_S, "a move and its end")
         wait_until(has(joints, goal), LIMIT_S, "joints that were moved")
-        for publisher, command in ((sent["servo_jp"], JointState(position=(0, 0, 0.3, 0, 0, 0))), (poses, PoseStamped())):
-            if publisher is poses:
-                fill(command.pose, (0, 0, 0.1), JAWS)  # above the remote centre
-            before = self.watch.value("right", "dropped_outside_workspace") or 0
+        above = PoseStamped()
+        fill(above.pose, (0, 0, 0.1), JAWS)  # above the remote centre
+        outside = "dropped_outside_workspace"
+        for publisher, command, count in ((sent["servo_jp"], JointState(position=(0, 0, 0.3, 0, 0, 0)), outside),
+                                          (sent["move_jp"], JointState(position=(0, 0, 0, 0, 0, 0)), outside),
+                                          (poses, above, outside),
+                                          (sent["servo_jp"], JointState(position=(*goal, 0)), "dropped_joint_count"),
+                                          (sent["move_jp"], JointState(position=goal[:5]), "dropped_joint_count")):
+            before = self.watch.value("right", count) or 0
             publisher.publish(command)
-            wait_until(lambda: self.watch.value("right", "dropped_outside_workspace") == before + 1, LIMIT_S, "a refused command")
+            wait_until(lambda: self.watch.value("right", count) == before + 1, LIMIT_S, "a refused command")
         self.assertTrue(has(joints, goal)())
         command = PoseStamped()
         command.pose = there

@@ -48,6 +48,14 @@ TEST(Parameters, WholeNumberServesAsANumber) {
   EXPECT_EQ(parameters.number("rate_hz", 30, 1, 100), 25);
 }
 
+TEST(Parameters, IdentifiersAreStringsOrIntegers) {
+  EXPECT_EQ(Parameters(one("grip", XmlRpcValue("04BA"))).identifier("grip", "any"), "04BA");
+  EXPECT_EQ(Parameters(one("grip", XmlRpcValue(61548))).identifier("grip", "any"), "61548");
+  EXPECT_EQ(Parameters(XmlRpcValue()).identifier("grip", "any"), "any");
+  expectRefused([] { Parameters(one("grip", XmlRpcValue(40.0))).identifier("grip", "any"); },
+                {"~grip", "string or an integer", "type=\"str\""});
+}
+
 TEST(Parameters, NumbersAreAListOrOneString) {
   XmlRpcValue list;
   list[0] = 1;

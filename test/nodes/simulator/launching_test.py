@@ -103,6 +103,8 @@ class LaunchingTest(unittest.TestCase):
     def test_arguments_that_mean_nothing_are_refused(self):
         for file, arguments, words in (("fleet", {"n": 0}, "n:=0 is no number of simulators"),
                                        ("fleet", {"n": 1.5}, "n:=1.5 is no number of simulators"),
+                                       ("training", {"device_left": "haply_inverse3:left", "device_right": "haply_inverse3"},
+                                        "two haply_inverse3 need their handedness"),
                                        ("training", {"rviz": "true", "view": "nosuch"}, "nosuch.rviz")):
             with self.assertRaises(roslaunch.core.RLException) as refused:
                 self.nodes_of(file + ".launch", **arguments)
@@ -110,8 +112,9 @@ class LaunchingTest(unittest.TestCase):
         self.assertEqual(set(self.nodes_of("fleet.launch", n=2)), {"/sim1/simulator", "/sim2/simulator"})
         self.assertNotIn("/page_server", self.nodes_of("training.launch"))
         self.assertEqual(self.nodes_of("lesson.launch", page="true", page_port=9000, page_control="true")["/page_server"], "_port:=9000 _control:=true")
-        haply = self.nodes_of("training.launch", device_left="haply_inverse3:left", device_right="haply_inverse3")
-        self.assertEqual((haply["/haply_left"], haply["/haply_right"]), ("_name:=left _device:=left", ""))
+        haply = self.nodes_of("training.launch", device_left="haply_inverse3:left", device_right="haply_inverse3:right")
+        self.assertEqual((haply["/haply_left"], haply["/haply_right"]), ("_name:=left _device:=left", "_name:=right _device:=right"))
+        self.assertEqual(self.nodes_of("training.launch", device_right="haply_inverse3")["/haply_right"], "")
         self.assertIn("/cloth.rviz", self.nodes_of("training.launch", rviz="true", view="cloth")["/rviz"])
 
     def test_a_watchdog_stands_before_each_driver_that_takes_forces(self):

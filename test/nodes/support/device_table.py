@@ -17,7 +17,7 @@ SECONDS = 5
 CENTRE = {"left": (-0.02, -0.058, -0.02), "right": (0.02, -0.058, -0.02)}  # of the probes: in the front wall of the heart
 RADIUS_M, TURNS_HZ = 0.008, 0.5
 REASONS = ("stamp_zero", "not_finite", "bad_quaternion", "no_transform", "old_transform", "repeated_stamp", "delayed",
-           "outside_workspace", "no_buttons", "button_value", "jaw_angle")
+           "outside_workspace", "no_buttons", "button_value", "jaw_angle", "joint_count")
 LATENCIES = ("p50", "p99", "max")
 
 
