@@ -17,7 +17,7 @@ const float kBorder_m = 0.0004;       // amplitude of a layer's border
 const float kLobulePeriod_m = 0.034;  // for lobules of some 4 mm, and bundles of a third of that
 const float kFilled = 0.8;            // share of the relief that is under the film
 const float kFilmRoughness = 0.08;    // of the film: lamps are reflected in it
-const float kFilmDark = 0.07;         // share of the returning light that a film absorbs
+const float kFilmDark = 0.12;         // share of the returning light that a film absorbs
 const vec3 kSeptum = vec3(0.60, 0.33, 0.25), kSheath = vec3(0.46, 0.20, 0.17);  // linear: between lobules, and between
                                                                                 // bundles
 const float kOoze_m = 0.0006;                        // depth to which the edge of a cut oozes
@@ -34,7 +34,7 @@ vec4 grainAt(vec3 rest, float patches) {
 float filmAt(vec4 grain, float alpha) {
 #ifdef FILM
   float specular_wetness = body_finish[bodyOf(alpha)].w, over = 0.7 * grain.x + 0.5 * grain.w + 1.2 * specular_wetness - 0.6;
-  return specular_wetness > 0.0 && alpha >= 0.5 ? smoothstep(-0.45, 0.45, over) : 0.0;
+  return specular_wetness > 0.0 && alpha >= 0.5 ? smoothstep(-0.15, 0.15, over) : 0.0;
 #else
   return 0.0;
 #endif

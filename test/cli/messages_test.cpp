@@ -49,7 +49,7 @@ TEST_F(Messages, CheckSaysHowManyCellsTheWallsOfASceneHave) {
   expectSays(heart.out, " % (an open bowl) too stiff in bending, at most ");
   expectSays(heart.out, "; at spacing_m 0.00");
   const Ending rows =
-      viscera({"check", "heart", "--set", "bodies[0].spacing_m=0.006", "--set", "bodies[0].material.walls=rows"});
+      viscera({"check", "heart", "--set", "bodies[0].spacing_m=0.008", "--set", "bodies[0].material.walls=rows"});
   EXPECT_EQ(rows.status, 0) << rows.err;
   expectSays(rows.out, "material.walls: rows: used in ");
   expectSays(rows.out, " % (an open bowl) too stiff in bending; at spacing_m 0.00");

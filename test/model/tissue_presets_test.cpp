@@ -123,9 +123,10 @@ TEST(TissuePresets, OfAPartGoBeforeItsBodysMaterialAndBehindItsOwnNumbers) {
   EXPECT_TRUE(body.parts[0].tissue.empty());
   const std::vector<std::string> notes = tissueNotes(body);
   ASSERT_EQ(notes.size(), 2U);
-  EXPECT_TRUE(says(notes[0], {"tissue liver: E 6400 Pa (3900 to 8000), nu 0.3 from the scene instead of 0.49, density "
-                              "1060 kg/m3; ",
-                              "Obrzut et al. 2019"}));
+  EXPECT_TRUE(says(
+      notes[0], {"tissue liver: E 6400 Pa (3900 to 8000, strain < 1 %), nu 0.3 from the scene instead of 0.49, density "
+                 "1060 kg/m3; ",
+                 "Obrzut et al. 2019"}));
   EXPECT_TRUE(says(notes[1], {"part b, tissue prostate_cancer: E 24000 Pa", "density 1100 kg/m3 from the scene"}));
 }
 

@@ -125,10 +125,15 @@ TEST(PracticeScenes, AStabIsFelt) {
 }
 
 /// The scene of each strokes file that belongs to no task.
-const std::map<std::string, std::string> kSceneOf = {
-    {"demo", "heart"},         {"cut_cloth", "cloth_on_points"},    {"incision", "skin_under_tension"},
-    {"stab", "practice_skin"}, {"cautery", "cautery_pad"},          {"bleeding", "bleeding_vessel"},
-    {"suture", "suture_pad"},  {"running_suture", "running_suture"}};
+const std::map<std::string, std::string> kSceneOf = {{"demo", "heart"},
+                                                     {"cut_cloth", "cloth_on_points"},
+                                                     {"incision", "skin_under_tension"},
+                                                     {"stab", "practice_skin"},
+                                                     {"cautery", "cautery_pad"},
+                                                     {"bleeding", "bleeding_vessel"},
+                                                     {"hollow_vessel", "hollow_vessel"},
+                                                     {"suture", "suture_pad"},
+                                                     {"running_suture", "running_suture"}};
 
 /// Returns the task of strokes TASK_good and TASK_clumsy; nothing for other files.
 std::optional<TaskConfig> taskOf(const fs::path& strokes) {
