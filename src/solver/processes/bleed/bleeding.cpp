@@ -103,9 +103,10 @@ double Bleeding::fullness(uint32_t group) const {
 
 /// Lets a tick's fluid out. Where it ends, the flow falls with what is left, as out of an elastic bag: exponentially.
 void Bleeding::leak() {
-  std::vector<double> full_m3(left_m3_.size(), 0);
+  const size_t groups = std::max<size_t>(left_m3_.size(), 1);  // leaks outside of vessels are of the first
+  std::vector<double> full_m3(groups, 0);
   for (const Vessels::Leak& leak : leaks_.of_nodes) full_m3[leak.group] += leak.m3_per_s * tick_s_;
-  std::vector<double> share(left_m3_.size(), 1);  // of the flow of a full vessel
+  std::vector<double> share(groups, 1);  // of the flow of a full vessel
   for (size_t group = 0; group < left_m3_.size(); ++group) {
     const double all_m3 = vessels_.supplies_m3()[group];
     if (all_m3 <= 0 || full_m3[group] <= 0) continue;
