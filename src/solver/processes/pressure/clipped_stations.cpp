@@ -13,10 +13,10 @@ namespace viscera {
 namespace {
 
 constexpr double kClosesAcross = 0.5;  // radii to both sides of its axis that a clip must reach to close a lumen
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kClipPi = 3.14159265358979323846;
 
 /// Reach of a clip along one tube or branch.
-struct Reach {
+struct ClipReach {
   double low = 0, high = 0;  ///< to both sides of the axis [radii]
   std::vector<size_t> stations;
 };
@@ -31,7 +31,7 @@ std::vector<uint8_t> clippedStations(const LumenNetwork& lumen, uint32_t body,
   std::map<uint32_t, Vector3d> across;
   for (const Clips::Squeezed& one : squeezed)
     if (isOfBody(one)) across.try_emplace(one.clip, Vector3d::Zero()).first->second += one.ends_m[1] - one.ends_m[0];
-  std::map<std::pair<uint32_t, uint32_t>, Reach> reaches;  // by clip and axis
+  std::map<std::pair<uint32_t, uint32_t>, ClipReach> reaches;  // by clip and axis
   for (const Clips::Squeezed& one : squeezed) {
     if (!isOfBody(one)) continue;
     const auto& [a, b] = one.ends_m;
@@ -42,8 +42,8 @@ std::vector<uint8_t> clippedStations(const LumenNetwork& lumen, uint32_t body,
           middle.norm() > (b - a).norm())
         continue;
       const Vector3d aside = station.along.cross(across.at(one.clip)).stableNormalized();
-      const double radii = middle.dot(aside) / std::sqrt(station.area_m2 / kPi);
-      Reach& reach = reaches[{one.clip, station.axis}];
+      const double radii = middle.dot(aside) / std::sqrt(station.area_m2 / kClipPi);
+      ClipReach& reach = reaches[{one.clip, station.axis}];
       reach.low = std::min(reach.low, radii);
       reach.high = std::max(reach.high, radii);
       reach.stations.push_back(i);
