@@ -133,6 +133,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Lesson{"suture_pad", "suture", 0.9, 1.2}, Lesson{"running_suture", "running_suture", 2.8, 3.0},
                       Lesson{"running_suture", "running_suture", 2.5, 2.7, "loose_needle", 2.6},
                       Lesson{"cautery_pad", "cautery", 0.9, 1.1}, Lesson{"bleeding_vessel", "bleeding", 0.6, 1.6},
+                      Lesson{"hollow_vessel", "hollow_vessel", 3.9, 4.2},
                       Lesson{"skin_under_tension", "incision", 0.3, 0.5},
                       Lesson{"cloth_on_points", "cut_cloth", 1.1, 1.3}),
     [](const auto& info) { return std::string(info.param.name); });

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "math/number_text.h"
 #include "model/scene/integrators.h"
 #include "model/scene/structure_rules.h"
 #include "model/scene/tool_kinds.h"
@@ -148,6 +149,21 @@ void forEachUsed(const Scene& scene, const Visit& visit) {
   }
 }
 
+/// Returns what is wrong with the pressure of a body.
+std::string pressureFault(const BodyConfig& body) {
+  const PressureConfig& pressure = body.pressure;
+  if (!(pressure.mean_pa > 0)) return "";
+  if (pressure.pulse_pa > pressure.mean_pa) {
+    return "pressure.pulse_pa must be within 0 .. pressure.mean_pa, " + numberText(pressure.mean_pa, 6) +
+           " Pa; found " + numberText(pressure.pulse_pa, 6) + " Pa";
+  }
+  const auto isBile = [](const BleedingConfig& it) { return it.flow_ml_per_min > 0 && it.fluid == Fluid::kBile; };
+  if (isBile(body.material.bleeding) ||
+      std::any_of(body.parts.begin(), body.parts.end(), [&](const PartConfig& part) { return isBile(part.bleeding); }))
+    return "pressure.mean_pa above 0 needs bleeding.fluid blood, of the material and of all parts; found bile";
+  return "";
+}
+
 }  // namespace
 
 std::string featureFault(const BodyConfig& body) {
@@ -156,7 +172,7 @@ std::string featureFault(const BodyConfig& body) {
     std::string fault = faultOf(rule, "structure", rule.structures, body.structure, kStructures);
     if (!fault.empty()) return fault;
   }
-  return "";
+  return pressureFault(body);
 }
 
 void requireFeatures(const Scene& scene) {

@@ -95,18 +95,18 @@ void Bleeding::detectClosed(const Clips* clips, const HeatField* heat) {
   }
 }
 
-/// Returns the share of a vessel's fluid that is left; 1 where it does not end.
-double Bleeding::fullness(uint32_t group) const {
-  const double all_m3 = vessels_.supplies_m3()[group];
-  return all_m3 > 0 ? left_m3_[group] / all_m3 : 1;
+/// Returns the share of the fluid of a leak's vessel that is left; 1 where it does not end.
+double Bleeding::fullness(const Vessels::Leak& leak) const {
+  const double all_m3 = leak.group ? vessels_.supplies_m3()[*leak.group] : 0;
+  return all_m3 > 0 ? left_m3_[*leak.group] / all_m3 : 1;
 }
 
 /// Lets a tick's fluid out. Where it ends, the flow falls with what is left, as out of an elastic bag: exponentially.
 void Bleeding::leak() {
-  const size_t groups = std::max<size_t>(left_m3_.size(), 1);  // leaks outside of vessels are of the first
-  std::vector<double> full_m3(groups, 0);
-  for (const Vessels::Leak& leak : leaks_.of_nodes) full_m3[leak.group] += leak.m3_per_s * tick_s_;
-  std::vector<double> share(groups, 1);  // of the flow of a full vessel
+  std::vector<double> full_m3(left_m3_.size(), 0);
+  for (const Vessels::Leak& leak : leaks_.of_nodes)
+    if (leak.group) full_m3[*leak.group] += leak.m3_per_s * tick_s_;
+  std::vector<double> share(left_m3_.size(), 1);  // of the flow of a full vessel
   for (size_t group = 0; group < left_m3_.size(); ++group) {
     const double all_m3 = vessels_.supplies_m3()[group];
     if (all_m3 <= 0 || full_m3[group] <= 0) continue;
@@ -115,7 +115,7 @@ void Bleeding::leak() {
     left_m3_[group] -= out_m3;
   }
   for (const Vessels::Leak& leak : leaks_.of_nodes) {
-    const double m3 = leak.m3_per_s * tick_s_ * share[leak.group];
+    const double m3 = leak.m3_per_s * tick_s_ * (leak.group ? share[*leak.group] : 1);
     film_.give(leak.slot, m3);
     bled_m3_ += m3;
   }
@@ -142,8 +142,7 @@ void Bleeding::suck(const TissuePort& port, const ToolMotions& motions) {
 bool Bleeding::endTick(TissuePort& port, const ProcessTick& tick, const TissueProcesses& all) {
   const Burns* const burns = findProcess<Burns>(all);
   detectClosed(findProcess<Clips>(all), burns ? &burns->heat() : nullptr);
-  if (std::exchange(is_stale_, false)) leaks_ = vessels_.find(is_cut_, is_closed_);
-  if (const Pressures* const pressures = findProcess<Pressures>(all)) flowByPressure(*pressures);
+  findLeaks(fluid_ == Fluid::kBlood ? findProcess<Pressures>(all) : nullptr);
   leak();
   if (film_.wet().empty()) return false;
   film_.step(tick_s_);
@@ -152,16 +151,20 @@ bool Bleeding::endTick(TissuePort& port, const ProcessTick& tick, const TissuePr
   return false;
 }
 
-/// Lets blood flow out of bodies with pressure as their lumens do, in this tick.
-void Bleeding::flowByPressure(const Pressures& pressures) {
-  if (fluid_ != Fluid::kBlood) return;
-  is_stale_ = true;
-  auto& leaks = leaks_.of_nodes;
-  leaks.erase(std::remove_if(leaks.begin(), leaks.end(), [&](const auto& leak) { return pressures.owns(leak.slot); }),
-              leaks.end());
-  for (const Pressures::Leak& leak : pressures.leaks())
-    leaks.push_back({leak.slot, leak.m3_per_s, vessels_.groupOf(leak.slot)});
-  leaks_.stumps = pressures.openStations();
+/// Finds the leaks of this tick. Blood flows out of bodies with pressure as their lumens let it.
+void Bleeding::findLeaks(const Pressures* pressures) {
+  if (is_stale_) {
+    std::vector<uint8_t> is_closed = is_closed_;
+    for (const uint32_t slot : vessels_.nodes())
+      if (pressures && pressures->owns(slot)) is_closed[slot] = 1;
+    found_ = vessels_.find(is_cut_, is_closed);
+  }
+  if (!std::exchange(is_stale_, false) && !pressures) return;
+  leaks_ = found_;
+  if (!pressures) return;
+  for (const Pressures::Leak& leak : pressures->leaks())
+    leaks_.of_nodes.push_back({leak.slot, leak.m3_per_s, vessels_.groupOf(leak.slot)});
+  leaks_.stumps += pressures->openStations();
 }
 
 void Bleeding::updateVisuals() {
@@ -182,7 +185,7 @@ BloodReport Bleeding::seen() const {
   out.dripped_ml = kMlPerM3 * film_.dripped_m3();
   out.suctioned_ml = kMlPerM3 * suctioned_m3_;
   for (const Vessels::Leak& leak : leaks_.of_nodes)
-    out.flow_ml_per_min += kMlPerM3 * kSecondsPerMinute * leak.m3_per_s * fullness(leak.group);
+    out.flow_ml_per_min += kMlPerM3 * kSecondsPerMinute * leak.m3_per_s * fullness(leak);
   out.stumps = leaks_.stumps;
   return out;
 }

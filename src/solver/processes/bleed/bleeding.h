@@ -43,11 +43,11 @@ class Bleeding : public TissueProcess {
   BloodReport seen() const;
 
  private:
-  double fullness(uint32_t group) const;
+  double fullness(const Vessels::Leak& leak) const;
   void leak();
   void suck(const TissuePort& port, const ToolMotions& motions);
   void detectClosed(const Clips* clips, const HeatField* heat);
-  void flowByPressure(const Pressures& pressures);
+  void findLeaks(const Pressures* pressures);
   void updateVisuals();
 
   const Model& model_;
@@ -62,7 +62,8 @@ class Bleeding : public TissueProcess {
   std::vector<std::array<Vector3d, 2>> squeezed_m_;
   size_t coagulated_ = 0;
   bool is_stale_ = true;  ///< something was cut or closed since the last search for leaks
-  Vessels::Leaks leaks_;
+  Vessels::Leaks found_;  ///< by that search
+  Vessels::Leaks leaks_;  ///< with those of bodies under pressure
   double bled_m3_ = 0, suctioned_m3_ = 0;
   std::vector<double> left_m3_;             ///< [groups] of Vessels::supplies_m3()
   std::shared_ptr<const NodePaint> paint_;  ///< null before any fluid

@@ -74,6 +74,11 @@ Vessels::Vessels(const Model& model, const HeatGraph& graph, Fluid fluid)
   sumSupplies();
 }
 
+std::optional<uint32_t> Vessels::groupOf(uint32_t slot) const {
+  const Node& node = of_slots_[slot];
+  return node.flow_m3_per_s > 0 ? std::optional<uint32_t>(node.group) : std::nullopt;
+}
+
 /// Sums the fluid of the parts of each group. A part in several groups has its fluid in each of them.
 void Vessels::sumSupplies() {
   supplies_m3_.assign(group_is_held_.size(), 0);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "solver/processes/burn/heat_graph.h"
@@ -21,14 +22,14 @@ class Vessels {
   const std::vector<uint32_t>& nodes() const { return nodes_; }          ///< slots in the solver's buffers
   const Vector3d& rest_m(uint32_t slot) const { return rest_m_[slot]; }  ///< tissue frame
 
-  /// Returns the connected component of uncut vessels that a node is in; 0 also outside of vessels.
-  uint32_t groupOf(uint32_t slot) const { return of_slots_[slot].group; }
+  /// Returns the connected component of uncut vessels that a node is in; outside of vessels none.
+  std::optional<uint32_t> groupOf(uint32_t slot) const;
 
   /// Flow out of a node.
   struct Leak {
     uint32_t slot = 0;
     double m3_per_s = 0;
-    uint32_t group = 0;  ///< connected component of uncut vessels
+    std::optional<uint32_t> group;  ///< connected component of uncut vessels; none: of any amount of fluid
   };
   struct Leaks {
     std::vector<Leak> of_nodes;

@@ -246,8 +246,14 @@ std::vector<Vector3d> Clips::positions_m(size_t at) const {
 
 std::vector<std::array<Vector3d, 2>> Clips::squeezed_m() const {
   std::vector<std::array<Vector3d, 2>> out;
-  for (const Clip& clip : clips_) {
-    for (const auto& [a, b] : clip.points) out.push_back({a.rest_m, b.rest_m});
+  for (const Squeezed& one : squeezed()) out.push_back(one.ends_m);
+  return out;
+}
+
+std::vector<Clips::Squeezed> Clips::squeezed() const {
+  std::vector<Squeezed> out;
+  for (uint32_t c = 0; c < clips_.size(); ++c) {
+    for (const auto& [a, b] : clips_[c].points) out.push_back({c, {a.body, b.body}, {a.rest_m, b.rest_m}});
   }
   return out;
 }

@@ -40,6 +40,13 @@ class Clips : public TissueProcess {
   /// Returns the vectors from side to side at rest, each in the rest frame of its body, of everything that clips hold
   /// together [m].
   std::vector<std::array<Vector3d, 2>> squeezed_m() const;
+  /// What a clip holds together: as squeezed_m(), with where it is.
+  struct Squeezed {
+    uint32_t clip = 0;  ///< number of the clip
+    std::array<uint32_t, 2> bodies{};
+    std::array<Vector3d, 2> ends_m;
+  };
+  std::vector<Squeezed> squeezed() const;
   ClipStates seen() const;
 
  private:

@@ -129,7 +129,7 @@ class TubeStations {
       const Vector3d line = axis.points_m[piece] - axis.points_m[piece - 1];
       const Vector3d at = axis.points_m[piece - 1] + line * ((along_m - axis.along_m[piece - 1]) / line.norm());
       network.stations.push_back({pose_ * at, pose_.orientation * line.normalized(), length_m,
-                                  kCavityPi * axis.lumenRadius_m() * axis.lumenRadius_m(), 0});
+                                  kCavityPi * axis.lumenRadius_m() * axis.lumenRadius_m(), 0, a});
       if (i > 0) network.links.push_back({first_[a] + i - 1, first_[a] + i});
     }
   }
@@ -222,7 +222,7 @@ Cavities enclosedCavities(const Body& body, const BodyConfig& config) {
     if (m3 > -least_m3) continue;
     station[piece] = static_cast<uint32_t>(out.lumen.stations.size());
     out.lumen.stations.push_back(
-        {Vector3d::Zero(), Vector3d::Zero(), 0, std::pow(-m3, 2.0 / 3), supplyOf_m3_per_s(config, "")});
+        {Vector3d::Zero(), Vector3d::Zero(), 0, std::pow(-m3, 2.0 / 3), supplyOf_m3_per_s(config, ""), 0});
   }
   for (const Triangle& t : mesh.triangles) {
     const auto found = station.find(pieces.find(welded[t[0]]));

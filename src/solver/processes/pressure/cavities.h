@@ -21,8 +21,6 @@ struct Cavities {
   std::vector<std::array<uint32_t, 3>> triangles;  ///< vertices
   std::vector<uint32_t> station_of;                ///< [triangles] station of `lumen`
   LumenNetwork lumen;
-
-  size_t vertices() const { return positions_m.size() + rims.size(); }
 };
 
 /// Returns the cavities of a body: the lumen of a tube, or what its surface mesh encloses.

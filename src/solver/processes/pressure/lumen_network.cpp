@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solver/processes/pressure/lumen_network.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -30,7 +30,8 @@ LumenNetwork::Flow LumenNetwork::solve(double source_pa, const Openings& at,
   const auto count = static_cast<Eigen::Index>(stations.size());
   Flow out{std::vector<double>(stations.size(), 0), std::vector<double>(stations.size(), 0)};
   if (!(source_pa > 0)) return out;
-  Eigen::MatrixXd fixed = Eigen::MatrixXd::Zero(count, count);
+  std::vector<Eigen::Triplet<double>> between;
+  Eigen::VectorXd fixed = Eigen::VectorXd::Zero(count);  // of the diagonal
   Eigen::VectorXd supply = Eigen::VectorXd::Zero(count);
   double largest = 0;
   // Conductance of half a station, from its middle to its end.
@@ -41,10 +42,10 @@ LumenNetwork::Flow LumenNetwork::solve(double source_pa, const Openings& at,
   for (const auto& [a, b] : links) {
     if (at.is_closed[a] || at.is_closed[b]) continue;
     const double of_a = half(a), of_b = half(b), joined = of_a + of_b > 0 ? of_a * of_b / (of_a + of_b) : 0;
-    fixed(a, a) += joined;
-    fixed(b, b) += joined;
-    fixed(a, b) -= joined;
-    fixed(b, a) -= joined;
+    fixed[a] += joined;
+    fixed[b] += joined;
+    between.emplace_back(a, b, -joined);
+    between.emplace_back(b, a, -joined);
     largest = std::max(largest, joined);
   }
   for (uint32_t i = 0; i < stations.size(); ++i) {
@@ -52,22 +53,28 @@ LumenNetwork::Flow LumenNetwork::solve(double source_pa, const Openings& at,
     const double source = stations[i].supply_m3_per_s / source_pa;
     const double within = stations[i].length_m > 0 ? half(i) : 0;
     const double joined = stations[i].length_m > 0 ? source * within / (source + within) : source;
-    fixed(i, i) += joined;
+    fixed[i] += joined;
     supply[i] = joined * source_pa;
     largest = std::max(largest, source);
   }
   double least_supply = largest;
   for (Eigen::Index i = 0; i < count; ++i)
     if (supply[i] > 0) least_supply = std::min(least_supply, supply[i] / source_pa);
-  fixed.diagonal().array() += kSeep * least_supply;
+  fixed.array() += kSeep * least_supply;
+  for (Eigen::Index i = 0; i < count; ++i) between.emplace_back(static_cast<int>(i), static_cast<int>(i), 0);
+  Eigen::SparseMatrix<double> all(count, count);
+  all.setFromTriplets(between.begin(), between.end());
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt;
+  ldlt.analyzePattern(all);
   Eigen::VectorXd pressure = Eigen::Map<const Eigen::VectorXd>(guess_pa.data(), count);
   for (int round = 0; round < kMostRounds; ++round) {
-    Eigen::MatrixXd all = fixed;
     for (Eigen::Index i = 0; i < count; ++i) {
       const double now_pa = std::max(pressure[i], kLeastShare * source_pa);
-      all(i, i) += kDischarge * at.open_m2[static_cast<size_t>(i)] * std::sqrt(2 / (kBlood_kg_per_m3 * now_pa));
+      all.coeffRef(i, i) =
+          fixed[i] + kDischarge * at.open_m2[static_cast<size_t>(i)] * std::sqrt(2 / (kBlood_kg_per_m3 * now_pa));
     }
-    const Eigen::VectorXd next = all.ldlt().solve(supply);
+    ldlt.factorize(all);
+    const Eigen::VectorXd next = ldlt.solve(supply);
     const double change_pa = (next - pressure).cwiseAbs().maxCoeff();
     pressure = next;
     if (change_pa < kConverged * source_pa) break;

@@ -17,6 +17,7 @@ struct LumenStation {
   double length_m = 0;                ///< along the lumen
   double area_m2 = 0;                 ///< cross-section at rest
   double supply_m3_per_s = 0;         ///< flow into it where its pressure is 0; 0: not supplied
+  uint32_t axis = 0;                  ///< number of the tube or branch that it is a piece of
 };
 
 /// Flow in a lumen (docs/physics.md 18): Poiseuille's between stations, that of an orifice out of openings.

@@ -9,6 +9,7 @@
 #include "math/number_text.h"
 #include "solver/processes/burn/burns.h"
 #include "solver/processes/clip/clips.h"
+#include "solver/processes/pressure/clipped_stations.h"
 #include "viscera/math/error.h"
 #include "viscera/math/state_hash.h"
 #include "viscera/model/body/neighbors.h"
@@ -18,12 +19,11 @@ namespace viscera {
 
 namespace {
 
-constexpr double kRise_s = 0.2;        // from the start until the pressure is reached
-constexpr double kSettle_s = 0.05;     // in which pressures follow cuts and clips: loads do not jump
-constexpr double kHoleFrom = 0.05;     // of its own area: growth of a cut triangle below which it is no hole
-constexpr double kClosesAcross = 0.5;  // radii to both sides of its axis that a clip must reach to close a lumen
-constexpr double kMostWidened = 4;     // cross-section over that at rest that flows take into account
-constexpr double kFull = 1 - 1e-4;     // share of the pressure that counts as all of it
+constexpr double kRise_s = 0.2;     // from the start until the pressure is reached
+constexpr double kSettle_s = 0.05;  // in which pressures follow cuts and clips: loads do not jump
+constexpr double kHoleFrom = 0.05;  // of its own area: growth of a cut triangle below which it is no hole
+constexpr double kMostWidened = 4;  // cross-section over that at rest that flows take into account
+constexpr double kFull = 1 - 1e-4;  // share of the pressure that counts as all of it
 constexpr double kMlPerM3 = 1e6, kMinute_s = 60, kTau = 6.283185307179586;
 
 bool isSameNode(const layout::NodeBits& a, const layout::NodeBits& b) {
@@ -93,13 +93,16 @@ void Pressures::reset() {
   leaks_.clear();
   open_ = 0;
   time_s_ = work_j_ = 0;
+  carriers_ = cells_;
   for (uint32_t v = 0; v < cells_.size(); ++v)
     if (cells_[v].count > 0) loads_.carry(v, cells_[v]);
   loads_.gatherNodes();
   vertex_is_cut_.assign(cells_.size(), 0);
+  vertex_is_gone_.assign(cells_.size(), 0);
   size_t triangles = 0;
   for (const Cavities& surface : surfaces_) triangles += surface.triangles.size();
   is_cut_.assign(triangles, 0);
+  is_gone_.assign(triangles, 0);
   loads_.atRest();
   rest_area_m2_.clear();
   for (uint32_t t = 0; t < triangles; ++t) rest_area_m2_.push_back(loads_.area_m2(t).norm());
@@ -132,21 +135,33 @@ bool Pressures::isCut(const TissuePoint& cell, const CutSprings& cuts) const {
   return false;
 }
 
+/// Returns whether at least half of the nodes of a cell have lost all springs along the axes, as erased ones have.
+bool Pressures::isGone(const TissuePoint& cell, const CutSprings& cuts) const {
+  const auto gone = std::count_if(cell.slots.begin(), cell.slots.begin() + cell.count, [&](uint32_t slot) {
+    uint32_t springs = 0;
+    for (uint32_t spring = 0; spring < 6; ++spring) springs += springCount(cuts.nodes[slot], spring);
+    return springs == 0;
+  });
+  return 2 * static_cast<uint32_t>(gone) >= cell.count;
+}
+
 void Pressures::cutsChanged(const CutSprings& cuts) {
   if (cuts.nodes.empty()) return;
+  const auto isChanged = [&](const TissuePoint& point) {
+    return std::any_of(point.slots.begin(), point.slots.begin() + point.count,
+                       [&](uint32_t slot) { return seen_.empty() || !isSameNode(seen_[slot], cuts.nodes[slot]); });
+  };
   bool any = false;
   size_t surface = 0;
   for (uint32_t v = 0; v < cells_.size(); ++v) {
     while (surface + 1 < surfaces_.size() && v >= loads_.firstVertex(surface + 1)) ++surface;
     const TissuePoint& cell = cells_[v];
     if (cell.count == 0) continue;
-    const bool is_changed = std::any_of(cell.slots.begin(), cell.slots.begin() + cell.count, [&](uint32_t slot) {
-      return seen_.empty() || !isSameNode(seen_[slot], cuts.nodes[slot]);
-    });
-    if (!is_changed) continue;
+    if (!isChanged(cell) && !isChanged(carriers_[v])) continue;
     vertex_is_cut_[v] = static_cast<uint8_t>(isCut(cell, cuts));
-    const std::optional<TissuePoint> by = elements_[surface].embed(cell.rest_m, cuts);
-    loads_.carry(v, by ? *by : cell);
+    vertex_is_gone_[v] = static_cast<uint8_t>(isGone(cell, cuts));
+    carriers_[v] = elements_[surface].embed(cell.rest_m, cuts).value_or(cell);
+    loads_.carry(v, carriers_[v]);
     any = true;
   }
   seen_ = cuts.nodes;
@@ -155,6 +170,7 @@ void Pressures::cutsChanged(const CutSprings& cuts) {
   for (uint32_t t = 0; t < is_cut_.size(); ++t) {
     const std::array<uint32_t, 3>& corners = loads_.triangle(t);
     is_cut_[t] = std::any_of(corners.begin(), corners.end(), [&](uint32_t v) { return vertex_is_cut_[v] != 0; });
+    is_gone_[t] = std::all_of(corners.begin(), corners.end(), [&](uint32_t v) { return vertex_is_gone_[v] != 0; });
   }
   setPressures();
 }
@@ -191,7 +207,8 @@ void Pressures::measure(Vessel& vessel, size_t number) {
     for (const uint32_t t : vessel.triangles[i]) {
       if (!is_cut_[t]) continue;
       any = true;
-      open_m2 += std::max(0.0, loads_.area_m2(t).norm() - (stretch + kHoleFrom) * rest_area_m2_[t]);
+      open_m2 += is_gone_[t] ? rest_area_m2_[t]
+                             : std::max(0.0, loads_.area_m2(t).norm() - (stretch + kHoleFrom) * rest_area_m2_[t]);
     }
     const LumenStation& station = surface.lumen.stations[i];
     // Both stumps of a vessel that is cut through are open.
@@ -199,28 +216,6 @@ void Pressures::measure(Vessel& vessel, size_t number) {
     const double now = any || !(vessel.rest_m3[i] > 0) ? 1 : sector_m3(vessel, i) / vessel.rest_m3[i];
     vessel.narrowing[i] = std::clamp(now, 0.0, kMostWidened);
     vessel.at.narrowing[i] = std::max(vessel.narrowing[i], 1e-3);
-  }
-}
-
-/// Closes stations that clips squeeze over their whole width.
-void Pressures::close(Vessel& vessel, size_t number, const Clips* clips) const {
-  const LumenNetwork& lumen = surfaces_[number].lumen;
-  std::fill(vessel.at.is_closed.begin(), vessel.at.is_closed.end(), uint8_t{0});
-  if (!clips) return;
-  const auto squeezed_m = clips->squeezed_m();
-  for (size_t i = 0; i < lumen.stations.size(); ++i) {
-    const LumenStation& station = lumen.stations[i];
-    if (station.length_m == 0) continue;
-    const double radius_m = std::sqrt(station.area_m2 / (0.5 * kTau));
-    double low = 0, high = 0;
-    for (const auto& [a, b] : squeezed_m) {
-      const Vector3d line = b - a, middle = 0.5 * (a + b) - station.at_m;
-      if (std::abs(middle.dot(station.along)) > 0.5 * station.length_m || middle.norm() > line.norm()) continue;
-      const double aside = middle.dot(station.along.cross(line).stableNormalized()) / radius_m;
-      low = std::min(low, aside);
-      high = std::max(high, aside);
-    }
-    vessel.at.is_closed[i] = low < -kClosesAcross && high > kClosesAcross;
   }
 }
 
@@ -238,7 +233,8 @@ void Pressures::seal(Vessel& vessel, const HeatField& heat) const {
   }
 }
 
-/// Finds the pressures. Without holes and clips they are those of the source.
+/// Finds the pressures. Without holes and clips they are those of the source. Without a pressure of the source, shares
+/// stay.
 void Pressures::flow(Vessel& vessel, size_t number) {
   const LumenNetwork& lumen = surfaces_[number].lumen;
   const bool is_open =
@@ -247,7 +243,8 @@ void Pressures::flow(Vessel& vessel, size_t number) {
       std::any_of(vessel.at.is_closed.begin(), vessel.at.is_closed.end(), [](auto it) { return it; });
   std::vector<double> wanted(vessel.share.size(), 1);
   std::fill(vessel.flow.outflow_m3_per_s.begin(), vessel.flow.outflow_m3_per_s.end(), 0);
-  if ((is_open || is_closed) && vessel.source_pa > 0) {
+  if (!(vessel.source_pa > 0)) return;
+  if (is_open || is_closed) {
     std::vector<double> guess_pa;
     for (const double share : vessel.share) guess_pa.push_back(share * vessel.source_pa);
     vessel.flow = lumen.solve(vessel.source_pa, vessel.at, guess_pa);
@@ -262,14 +259,14 @@ void Pressures::flow(Vessel& vessel, size_t number) {
 
 /// Adds the flow out of the holes of a vessel, at nodes next to them.
 void Pressures::addLeaks(const Vessel& vessel) {
+  if (!vessel.bleeds) return;
   for (size_t i = 0; i < vessel.flow.outflow_m3_per_s.size(); ++i) {
     if (!(vessel.flow.outflow_m3_per_s[i] > 0)) continue;
     ++open_;
-    if (!vessel.bleeds) continue;
     std::vector<uint32_t> slots;
     for (const uint32_t t : vessel.triangles[i])
-      if (is_cut_[t] && cells_[loads_.triangle(t)[0]].count > 0)
-        slots.push_back(cells_[loads_.triangle(t)[0]].slots[0]);
+      if (is_cut_[t] && carriers_[loads_.triangle(t)[0]].count > 0)
+        slots.push_back(carriers_[loads_.triangle(t)[0]].slots[0]);
     std::sort(slots.begin(), slots.end());
     slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
     for (const uint32_t slot : slots)
@@ -311,7 +308,8 @@ bool Pressures::endTick(TissuePort& port, const ProcessTick&, const TissueProces
   open_ = 0;
   for (size_t s = 0; s < vessels_.size(); ++s) {
     measure(vessels_[s], s);
-    close(vessels_[s], s, clips);
+    vessels_[s].at.is_closed = clippedStations(surfaces_[s].lumen, vessels_[s].body,
+                                               clips ? clips->squeezed() : std::vector<Clips::Squeezed>());
     if (burns) seal(vessels_[s], burns->heat());
     flow(vessels_[s], s);
     addLeaks(vessels_[s]);

@@ -13,7 +13,6 @@
 namespace viscera {
 
 struct Scene;
-class Clips;
 class HeatField;
 
 /// Pressure in cavities of bodies (docs/physics.md 18): it pushes on their walls, and falls where they are cut open or
@@ -45,6 +44,7 @@ class Pressures : public TissueProcess {
   bool owns(uint32_t slot) const;
   /// Returns where bodies that bleed lose blood.
   const std::vector<Leak>& leaks() const { return leaks_; }
+  /// Returns the number of stations where they do.
   size_t openStations() const { return open_; }
   const SurfaceLoads& loads() const { return loads_; }
 
@@ -65,23 +65,25 @@ class Pressures : public TissueProcess {
   };
   double sector_m3(const Vessel& vessel, size_t station) const;
   void measure(Vessel& vessel, size_t number);
-  void close(Vessel& vessel, size_t number, const Clips* clips) const;
   void seal(Vessel& vessel, const HeatField& heat) const;
   void flow(Vessel& vessel, size_t number);
   void addLeaks(const Vessel& vessel);
   bool isCut(const TissuePoint& cell, const CutSprings& cuts) const;
+  bool isGone(const TissuePoint& cell, const CutSprings& cuts) const;
   void setPressures();
 
   const Model& model_;
   const double tick_s_;
   std::vector<Cavities> surfaces_;  ///< [vessels]
   std::vector<RestElements> elements_;
-  std::vector<TissuePoint> cells_;  ///< [vertices] points that carry them while nothing is cut; centres: none
+  std::vector<TissuePoint> cells_;     ///< [vertices] points that carry them while nothing is cut; centres: none
+  std::vector<TissuePoint> carriers_;  ///< [vertices] points that carry them now
   SurfaceLoads loads_;
   std::vector<Vessel> vessels_;
-  std::vector<double> rest_area_m2_;             ///< [triangles]
-  std::vector<uint8_t> vertex_is_cut_, is_cut_;  ///< [vertices], [triangles]
-  std::vector<layout::NodeBits> seen_;           ///< [slots] nodes when vertices were carried; empty: whole
+  std::vector<double> rest_area_m2_;               ///< [triangles]
+  std::vector<uint8_t> vertex_is_cut_, is_cut_;    ///< [vertices], [triangles]
+  std::vector<uint8_t> vertex_is_gone_, is_gone_;  ///< the same, whether the tissue at them is erased
+  std::vector<layout::NodeBits> seen_;             ///< [slots] nodes when vertices were carried; empty: whole
   std::vector<Leak> leaks_;
   size_t open_ = 0;
   double time_s_ = 0, work_j_ = 0;

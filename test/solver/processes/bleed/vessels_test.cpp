@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -93,6 +94,15 @@ TEST_F(Vessel, IsClosedByAWholeLayerAndNotByHalfOfOne) {
   EXPECT_NEAR(flow(cut(isLeft, [](const Vector3d& at_m) { return std::abs(at_m.x() - 0.01) < 0.0005; })), kFlow,
               kSum * kFlow)
       << "beyond the cut";
+}
+
+TEST_F(Vessel, HasAGroupWhereItIs) {
+  const HeatGraph graph(model_, 1);
+  const Vessels vessels(model_, graph);
+  for (const uint32_t slot : model_.bodies[0].lattice.active_slots) {
+    const bool is_in = std::count(vessels.nodes().begin(), vessels.nodes().end(), slot) > 0;
+    EXPECT_EQ(vessels.groupOf(slot).has_value(), is_in);
+  }
 }
 
 /// Parts with another fluid are no part of a vessel; a part's fluid is that of its vessel.

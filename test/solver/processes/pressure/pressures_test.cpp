@@ -13,6 +13,7 @@
 #include "math/number_text.h"
 #include "model/shape/mesh/plain_meshes.h"
 #include "solver/cpu/cpu_solver.h"
+#include "solver/processes/bleed/bleeding.h"
 #include "support/solver_rig.h"
 #include "support/temporary_folder.h"
 #include "support/text.h"
@@ -258,6 +259,34 @@ TEST(Pressure, AClipStopsTheFlowToACut) {
   EXPECT_EQ(solver.health().trips, 0U);
 }
 
+/// Blood of a wall without vessels of its own comes out in any amount. Stumps are those of bodies that bleed.
+TEST(Pressure, BleedsThroughADryWall) {
+  for (const bool bleeds : {true, false}) {
+    Scene scene = pipe(std::string("young_modulus_pa: 1.0e+5, density_kg_per_m3: 1.0e+4, mass_damping_per_s: 30") +
+                           (bleeds ? ", bleeding: {flow_ml_per_min: 120}" : ""),
+                       3000, "parts: [{part: tube, bleeding: {flow_ml_per_min: 0}}], " + std::string(kHeldEnds));
+    BodyConfig block;
+    block.name = "block";
+    block.source = TissueSource::kBox;
+    block.box_size_m = {0.004, 0.004, 0.004};
+    block.spacing_m = 0.001;
+    block.position_m = {0, 0.05, 0};
+    block.material.bleeding.flow_ml_per_min = 1;
+    scene.bodies.push_back(block);
+    scene.styluses.resize(1);
+    scene.styluses[0].cut.blade_length_m = 0.03;
+    const Model model = buildModel(scene);
+    CpuSolver solver(model, scene);
+    for (int t = 0; t < 13; ++t) solver.step(ToolMotions{});
+    cutAcross(solver, 0.006);
+    for (int t = 0; t < 5; ++t) solver.step(ToolMotions{});
+    EXPECT_GT(factOf(solver, "flow_ml_per_min"), 0);
+    EXPECT_EQ(pressuresOf(solver).openStations() > 0, bleeds);
+    EXPECT_EQ(findProcess<Bleeding>(solver)->seen().stumps, pressuresOf(solver).openStations());
+    EXPECT_EQ(findProcess<Bleeding>(solver)->seen().flow_ml_per_min > 0, bleeds);
+  }
+}
+
 TEST(Pressure, GoesOnFromASavedState) {
   const Scene scene = pipe("young_modulus_pa: 1.0e+6, density_kg_per_m3: 1.0e+5", kPressure_pa, kHeldEnds);
   const Model model = buildModel(scene);
@@ -280,6 +309,22 @@ std::string faultOf(const std::string& keys) {
     return error.what();
   }
   return "";
+}
+
+TEST(Pressure, SaysWhatIsWrong) {
+  const std::string from =
+      "source: tube, spacing_m: 0.001, tube: {radius_m: 0.003, wall_m: 0.0008, path: [{position_m: [-0.012, 0, 0]}, "
+      "{position_m: [0.012, 0, 0]}]}, pressure: {mean_pa: 1000";
+  EXPECT_EQ(faultOf(from + ", pulse_pa: 1000}"), "");
+  const std::string pulse = faultOf(from + ", pulse_pa: 1001}");
+  EXPECT_NE(pulse.find("body 'pipe': pressure.pulse_pa must be within 0 .. pressure.mean_pa, 1000 Pa; found 1001 Pa"),
+            std::string::npos)
+      << pulse;
+  for (const char* const bile : {"material: {bleeding: {flow_ml_per_min: 1, fluid: bile}}",
+                                 "parts: [{part: tube, bleeding: {flow_ml_per_min: 1, fluid: bile}}]"}) {
+    const std::string fault = faultOf(from + "}, " + bile);
+    EXPECT_NE(fault.find("needs bleeding.fluid blood"), std::string::npos) << fault;
+  }
 }
 
 TEST(Tube, SaysWhatIsWrong) {
