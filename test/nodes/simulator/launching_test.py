@@ -154,11 +154,12 @@ class LaunchingTest(unittest.TestCase):
             with open(os.path.join(folder, file)) as text:
                 profile = yaml.safe_load(text)
             name = os.path.splitext(file)[0]
-            nodes = self.nodes_of("training.launch", watchdog="true", device_left=name, device_right=name + ":other")
+            left, right = (name + ":left", name + ":right") if name == "haply_inverse3" else (name, name + ":other")
+            nodes = self.nodes_of("training.launch", watchdog="true", device_left=left, device_right=right)
             if profile["force"]["type"] == "none" or name in ("crtk_arm", "dvrk_psm", "dvrk_ecm"):  # others read their forces
                 self.assertEqual(set(nodes), {"/simulator"}, name)
                 continue
-            for stylus, device in (("left", name), ("right", name + ":other")):
+            for stylus, device in (("left", left), ("right", right)):
                 for argument in ('_device:="%s"' % device, "_stylus:=" + stylus, "wrench_in:=%s/unwatched" % stylus):
                     self.assertIn(argument, nodes["/watchdog_" + stylus])
                 self.assertIn("%s.force.topic=%s/unwatched" % (stylus, stylus), nodes["/simulator"])
