@@ -67,7 +67,7 @@ TEST(Scene, WrongTypeIsRefusedWithFileLineKeyAndWhatIsAccepted) {
       {"bodies:\n  - name: [a]\n", {"s.yaml:2: 'bodies[0].name' must be a non-empty string; found a list of 1"}},
       {"bodies:\n  - name: ''\n", {"s.yaml:2: 'bodies[0].name' must be a non-empty string"}},
       {"bodies:\n  - source: fish\n",
-       {"s.yaml:2: 'bodies[0].source' must be one of mesh, box, ball, phantom, sheet, labels; found 'fish'"}},
+       {"s.yaml:2: 'bodies[0].source' must be one of mesh, box, ball, phantom, sheet, tube, labels; found 'fish'"}},
       {"bodies: [{}]\ncameras:\n  - overlays: lattice\n",
        {"s.yaml:3: 'cameras[0].overlays' must be a list of names out of lattice, springs, normals, strain, forces, "
         "wind"}},
