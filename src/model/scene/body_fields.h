@@ -198,7 +198,7 @@ void visitFields(V& v, PressureConfig& c) {
   v.number("mean_pa", c.mean_pa, kCavityPressure, "Pa",
            "mean pressure in the cavities of the body over that outside, reached after 0.2 s; 0: none. Above 0: needs "
            "structure lattice, solver.integrator leapfrog, solver.backend cpu or auto, solver.start rest");
-  v.number("pulse_pa", c.pulse_pa, kCavityPressure, "Pa", "amplitude of the pulse, added as a sine");
+  v.number("pulse_pa", c.pulse_pa, kCavityPressure, "Pa", "amplitude of the pulse, added as a sine; at most mean_pa");
   v.number("pulse_hz", c.pulse_hz, {0, 20}, "Hz", "frequency of the pulse");
 }
 

@@ -50,8 +50,8 @@ std::unique_ptr<TissueProcess> bleedingOf(const Setup& setup, Fluid fluid) {
 }
 
 /// One row per process, in the order in which they act. A process that reads another one's results of the tick
-/// (TissueProcess::endTick) need not follow it: all have acted by then. Only Bleeding must follow Pressures, which
-/// finds leaks in endTick().
+/// (TissueProcess::endTick) need not follow it: all have acted by then. Bleeding must follow Pressures, as
+/// endTick() of these finds the leaks.
 constexpr Kind kKinds[] = {
     {[](const Setup& setup) { return setup.tools && resistsBlades(setup.scene); }, ProcessActs::kWithTools,
      [](const Setup& setup) -> std::unique_ptr<TissueProcess> {

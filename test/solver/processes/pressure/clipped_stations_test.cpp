@@ -23,7 +23,7 @@ LumenNetwork straightLumen() {
   return out;
 }
 
-/// Returns what a clip holds that lies over a part of the width of a tube.
+/// Returns what a clip holds with legs that run from one part of the width of a tube to another one.
 /// @param from, to  on the legs, of the tube's radius   @param askew_deg  angle of the legs to a cross-section
 /// @param side  1 or -1: direction in which it squeezes, along z
 std::vector<Clips::Squeezed> clip(double from, double to, double askew_deg, double at_m, uint32_t body = 0,

@@ -13,8 +13,7 @@
 #include "math/number_text.h"
 #include "model/shape/mesh/plain_meshes.h"
 #include "solver/cpu/cpu_solver.h"
-#include "solver/processes/bleed/bleeding.h"
-#include "support/solver_rig.h"
+#include "solver/processes/pressure/pipe.h"
 #include "support/temporary_folder.h"
 #include "support/text.h"
 #include "viscera/math/error.h"
@@ -23,39 +22,22 @@
 namespace viscera {
 namespace {
 
-constexpr double kOuter_m = 0.003, kWall_m = 0.0008, kInner_m = kOuter_m - kWall_m;
+using test::cutAcross;
+using test::downAt;
+using test::kHeldEnds;
+using test::kInner_m;
+using test::kOuter_m;
+using test::kStill;
+using test::kWall_m;
+using test::pipe;
+using test::pressureFact;
+using test::pressuresOf;
+
 constexpr double kPressure_pa = 13000;
 constexpr double kAsThickTube = 0.05;   // of the growth of the diameter: the wanted accuracy at cells of 1 mm
 constexpr double kClosed = 1e-5;        // of the forces' sizes: rounding in float32
 constexpr double kOfPoiseuille = 0.05;  // of the flow: the wanted accuracy
 constexpr double kMostResidual = 0.03;  // of a pressure: what stays below a clip or behind a cut
-const char* const kStill =
-    "environment: {gravity_m_per_s2: [0, 0, 0]}\nsolver: {backend: cpu, threads: 1, sleep_speed_m_per_s: 0}\n";
-// Density is high, so that substeps are few; at rest it has no effect.
-const char* const kHeldEnds =
-    "fixed: [{shape: plane, point_m: [-0.012, 0, 0], normal: [1, 0, 0]}, "
-    "{shape: plane, point_m: [0.012, 0, 0], normal: [-1, 0, 0]}]";
-
-Scene pipe(const std::string& material, double pressure_pa, const std::string& more) {
-  return parseScene("bodies:\n  - {name: pipe, source: tube, spacing_m: 0.001, tube: {radius_m: " +
-                        exactText(kOuter_m) + ", wall_m: " + exactText(kWall_m) +
-                        ", path: [{position_m: [-0.012, 0, 0]}, {position_m: [0.012, 0, 0]}]}, pressure: {mean_pa: " +
-                        exactText(pressure_pa) + "}, material: {" + material + "}, " + more + "}\n" + kStill,
-                    "pipe.yaml");
-}
-
-const Pressures& pressuresOf(const Solver& solver) {
-  return *findProcess<Pressures>(solver);
-}
-
-/// Returns a fact of the first body.
-double factOf(const Solver& solver, const std::string& name) {
-  const FactGroups groups = {pressuresOf(solver).facts()};
-  for (const Fact& fact : std::get<std::vector<Fact::Facts>>(*findFact(groups, "pressures", "on")).at(0))
-    if (fact.name == name) return std::get<double>(fact.value);
-  return -1;
-}
-
 /// Returns the mean distance from the axis of the lumen's vertices in the middle of the pipe.
 double lumenRadius_m(const Pressures& pressures, const Cavities& cavities) {
   double sum_m = 0;
@@ -182,26 +164,12 @@ TEST(Pressure, BlowsABalloonUpAsTheNeoHookeanShell) {
   scene.folder = folder.path();
   const Model model = buildModel(scene);
   CpuSolver solver(model, scene);
-  const double before_ml = factOf(solver, "cavity_ml");
+  const double before_ml = pressureFact(solver, "cavity_ml");
   for (int t = 0; t < 20; ++t) solver.step(ToolMotions{});
-  const double over_exact = (std::cbrt(factOf(solver, "cavity_ml") / before_ml) - 1) / (exact - 1);
+  const double over_exact = (std::cbrt(pressureFact(solver, "cavity_ml") / before_ml) - 1) / (exact - 1);
   EXPECT_NEAR(over_exact, 1, kAsThickTube);
   EXPECT_EQ(solver.health().trips, 0U);
   RecordProperty("over_exact", exactText(over_exact));
-}
-
-/// Returns the motion of a tool that points down, its width along the y axis.
-StylusMotion downAt(ToolMode mode, const Vector3d& from_m, const Vector3d& to_m) {
-  StylusMotion out = test::motionOf(mode, from_m, to_m);
-  out.from.orientation = out.to.orientation = rotationFromDegrees({0, 0, 90});
-  return out;
-}
-
-/// Cuts with a blade from its tip upwards, across a pipe along x.
-void cutAcross(Solver& solver, double x_m) {
-  constexpr int kDraws = 8;
-  const auto at = [&](int i) { return Vector3d(x_m, 0.006 - 0.012 * i / kDraws, -0.006); };
-  for (int i = 0; i < kDraws; ++i) solver.step(ToolMotions{downAt(ToolMode::kCut, at(i), at(i + 1))});
 }
 
 /// Poiseuille's flow through what is left of the lumen. The outer piece falls off, so that nothing covers the hole.
@@ -219,14 +187,14 @@ TEST(Pressure, BleedsAsPoiseuilleSays) {
   const Model model = buildModel(scene);
   CpuSolver solver(model, scene);
   for (int t = 0; t < 13; ++t) solver.step(ToolMotions{});
-  EXPECT_EQ(factOf(solver, "flow_ml_per_min"), 0);
+  EXPECT_EQ(pressureFact(solver, "flow_ml_per_min"), 0);
   cutAcross(solver, kCut_m);
   for (int t = 0; t < 20; ++t) solver.step(ToolMotions{});
   const double exact =
       kMlPerMin * 3.14159265 * std::pow(kRadius_m, 4) * kLow_pa / (8 * kViscosity_pa_s * (kCut_m - kStart_m));
-  EXPECT_NEAR(factOf(solver, "flow_ml_per_min") / exact, 1, kOfPoiseuille);
-  RecordProperty("over_exact", exactText(factOf(solver, "flow_ml_per_min") / exact));
-  EXPECT_LT(factOf(solver, "least_pressure_pa"), kMostResidual * kLow_pa);
+  EXPECT_NEAR(pressureFact(solver, "flow_ml_per_min") / exact, 1, kOfPoiseuille);
+  RecordProperty("over_exact", exactText(pressureFact(solver, "flow_ml_per_min") / exact));
+  EXPECT_LT(pressureFact(solver, "least_pressure_pa"), kMostResidual * kLow_pa);
   EXPECT_EQ(solver.health().trips, 0U);
 }
 
@@ -248,43 +216,15 @@ TEST(Pressure, AClipStopsTheFlowToACut) {
   solver.step(ToolMotions{clip});
   clip.opens_to_rad = 0;
   for (int t = 0; t < 20; ++t) solver.step(ToolMotions{clip});
-  EXPECT_LT(factOf(solver, "narrowest"), 0.3);
-  EXPECT_LT(factOf(solver, "least_pressure_pa"), kMostResidual * 3000);
-  EXPECT_NEAR(factOf(solver, "pressure_pa"), 3000, 1);
+  EXPECT_LT(pressureFact(solver, "narrowest"), 0.3);
+  EXPECT_LT(pressureFact(solver, "least_pressure_pa"), kMostResidual * 3000);
+  EXPECT_NEAR(pressureFact(solver, "pressure_pa"), 3000, 1);
   cutAcross(solver, 0.006);
   for (int t = 0; t < 20; ++t) solver.step(ToolMotions{});
-  EXPECT_GT(factOf(solver, "open_m2"), 0);
-  EXPECT_LT(factOf(solver, "flow_ml_per_min"), 1);
-  EXPECT_NEAR(factOf(solver, "pressure_pa"), 3000, 1);
+  EXPECT_GT(pressureFact(solver, "open_m2"), 0);
+  EXPECT_LT(pressureFact(solver, "flow_ml_per_min"), 1);
+  EXPECT_NEAR(pressureFact(solver, "pressure_pa"), 3000, 1);
   EXPECT_EQ(solver.health().trips, 0U);
-}
-
-/// Blood of a wall without vessels of its own comes out in any amount. Stumps are those of bodies that bleed.
-TEST(Pressure, BleedsThroughADryWall) {
-  for (const bool bleeds : {true, false}) {
-    Scene scene = pipe(std::string("young_modulus_pa: 1.0e+5, density_kg_per_m3: 1.0e+4, mass_damping_per_s: 30") +
-                           (bleeds ? ", bleeding: {flow_ml_per_min: 120}" : ""),
-                       3000, "parts: [{part: tube, bleeding: {flow_ml_per_min: 0}}], " + std::string(kHeldEnds));
-    BodyConfig block;
-    block.name = "block";
-    block.source = TissueSource::kBox;
-    block.box_size_m = {0.004, 0.004, 0.004};
-    block.spacing_m = 0.001;
-    block.position_m = {0, 0.05, 0};
-    block.material.bleeding.flow_ml_per_min = 1;
-    scene.bodies.push_back(block);
-    scene.styluses.resize(1);
-    scene.styluses[0].cut.blade_length_m = 0.03;
-    const Model model = buildModel(scene);
-    CpuSolver solver(model, scene);
-    for (int t = 0; t < 13; ++t) solver.step(ToolMotions{});
-    cutAcross(solver, 0.006);
-    for (int t = 0; t < 5; ++t) solver.step(ToolMotions{});
-    EXPECT_GT(factOf(solver, "flow_ml_per_min"), 0);
-    EXPECT_EQ(pressuresOf(solver).openStations() > 0, bleeds);
-    EXPECT_EQ(findProcess<Bleeding>(solver)->seen().stumps, pressuresOf(solver).openStations());
-    EXPECT_EQ(findProcess<Bleeding>(solver)->seen().flow_ml_per_min > 0, bleeds);
-  }
 }
 
 TEST(Pressure, GoesOnFromASavedState) {
