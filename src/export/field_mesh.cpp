@@ -171,23 +171,16 @@ FieldMesh networkFields(const Session& session) {
   FieldMesh mesh = begun(session, 2);
   NodePoints points(model, mesh);
   mesh.of_cells = {{"body", 1, {}}, {"strain_energy", 1, {}}, {"force", 1, {}}};
-  size_t index = 0;  // of springs over all bodies
-  for (size_t b = 0; b < model.bodies.size(); ++b) {
+  forUncutSprings(model, state, [&](size_t b, const NetworkSpring& spring, const Vector3d& step_m) {
     const Body& body = model.bodies[b];
     const uint32_t offset = model.slotOffset(b);
-    if (!body.network) continue;
-    for (const NetworkSpring& spring : body.network->springs) {
-      if (state.spring_cut[index++] != 0) continue;
-      mesh.cells.push_back(points.of(body, b, offset, spring.a, state));
-      mesh.cells.push_back(points.of(body, b, offset, spring.b, state));
-      const Vector3d step = restPosition(body, spring.b) + xyz(state.displacement_m[offset + spring.b]) -
-                            restPosition(body, spring.a) - xyz(state.displacement_m[offset + spring.a]);
-      const double longer_m = step.norm() - spring.rest_length_m;
-      mesh.of_cells[0].values.push_back(static_cast<float>(b));
-      mesh.of_cells[1].values.push_back(static_cast<float>(0.5 * spring.stiffness_n_per_m * longer_m * longer_m));
-      mesh.of_cells[2].values.push_back(static_cast<float>(spring.stiffness_n_per_m * longer_m));
-    }
-  }
+    mesh.cells.push_back(points.of(body, b, offset, spring.a, state));
+    mesh.cells.push_back(points.of(body, b, offset, spring.b, state));
+    const double longer_m = step_m.norm() - spring.rest_length_m;
+    mesh.of_cells[0].values.push_back(static_cast<float>(b));
+    mesh.of_cells[1].values.push_back(static_cast<float>(0.5 * spring.stiffness_n_per_m * longer_m * longer_m));
+    mesh.of_cells[2].values.push_back(static_cast<float>(spring.stiffness_n_per_m * longer_m));
+  });
   if (mesh.cells.empty()) throw Error("--export network: no body has explicit connections; export its lattice");
   return mesh;
 }

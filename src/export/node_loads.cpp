@@ -50,25 +50,17 @@ void NodeLoads::addCells(size_t b, const HostState& state, Sums& sums) const {
 }
 
 void NodeLoads::addSprings(const HostState& state, Sums& sums) const {
-  size_t index = 0;  // of springs over all bodies
-  for (size_t b = 0; b < model_.bodies.size(); ++b) {
-    const Body& body = model_.bodies[b];
+  forUncutSprings(model_, state, [&](size_t b, const NetworkSpring& spring, const Vector3d& step_m) {
+    const double length_m = step_m.norm();
+    if (!(length_m > 0)) return;
     const uint32_t offset = model_.slotOffset(b);
-    if (!body.network) continue;
-    for (const NetworkSpring& spring : body.network->springs) {
-      if (state.spring_cut[index++] != 0) continue;
-      const Vector3d step = restPosition(body, spring.b) + xyz(state.displacement_m[offset + spring.b]) -
-                            restPosition(body, spring.a) - xyz(state.displacement_m[offset + spring.a]);
-      const double length_m = step.norm();
-      if (!(length_m > 0)) continue;
-      const double longer_m = length_m - spring.rest_length_m;
-      const Vector3d force_n = spring.stiffness_n_per_m * longer_m / length_m * step;
-      sums.force_n[offset + spring.b] += force_n;
-      sums.force_n[offset + spring.a] -= force_n;
-      for (const uint32_t end : {spring.a, spring.b})
-        sums.stretch(offset + end, std::abs(longer_m) / spring.rest_length_m);
-    }
-  }
+    const double longer_m = length_m - spring.rest_length_m;
+    const Vector3d force_n = spring.stiffness_n_per_m * longer_m / length_m * step_m;
+    sums.force_n[offset + spring.b] += force_n;
+    sums.force_n[offset + spring.a] -= force_n;
+    for (const uint32_t end : {spring.a, spring.b})
+      sums.stretch(offset + end, std::abs(longer_m) / spring.rest_length_m);
+  });
 }
 
 std::vector<NodeLoad> NodeLoads::of(const HostState& state) const {

@@ -38,4 +38,21 @@ void forUncutCells(const Body& body, const CellStresses& stresses, uint32_t offs
   }
 }
 
+/// Calls visit(body, spring, step_m) for the springs of networks that are not cut. `step_m` runs from end a to end b.
+template <class Visit>
+void forUncutSprings(const Model& model, const HostState& state, const Visit& visit) {
+  size_t index = 0;  // of springs over all bodies
+  for (size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    if (!body.network) continue;
+    const uint32_t offset = model.slotOffset(b);
+    for (const NetworkSpring& spring : body.network->springs) {
+      if (state.spring_cut[index++] != 0) continue;
+      const Vector3d step_m = restPosition(body, spring.b) + xyz(state.displacement_m[offset + spring.b]) -
+                              restPosition(body, spring.a) - xyz(state.displacement_m[offset + spring.a]);
+      visit(b, spring, step_m);
+    }
+  }
+}
+
 }  // namespace viscera

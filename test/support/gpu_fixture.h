@@ -9,6 +9,7 @@
 #include <random>
 
 #include "gpu/program.h"
+#include "math/vec4.h"
 #include "solver/gpu/gpu_solver.h"
 #include "solver/reference/reference_solver.h"
 #include "solver/tissue/joined_lattice.h"
@@ -52,9 +53,6 @@ inline ToolMotions probeAt(const Vector3d& tip_m) {
 
 inline layout::vec4 vec4(const Vector3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0};
-}
-inline Vector3d xyz(const layout::vec4& v) {
-  return {v.x, v.y, v.z};
 }
 
 inline HostState restState(const Model& model) {

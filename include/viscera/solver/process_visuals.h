@@ -21,7 +21,7 @@ struct NodePaint {
 
 /// Drawable state of the processes in the tissue, in addition to the tissue itself.
 struct ProcessVisuals {
-  VisibleTubes sutures;  ///< sutures and pieces of them, needles, clips, strands
+  VisibleTubes sutures;  ///< of all processes: strands, sutures and pieces of them, needles, clips
   /// In ascending order of their kinds. A paint that changed is a new object, so a comparison of pointers shows whether
   /// to draw again.
   std::vector<std::shared_ptr<const NodePaint>> paints;

@@ -168,6 +168,7 @@ void GpuBackend::cutBut(uint32_t spared, uint32_t stylus, bool particles) {
 void GpuBackend::readNodes(const std::vector<uint32_t>& slots, std::vector<Vector3f>& u_m,
                            std::vector<Vector3f>& v_m_per_s) const {
   const gpu::TimedStage timed(gpu::Stage::kCut);
+  if (rest_.resting()) bind();  // suction also reads at rest
   blade_->looked = true;
   blade_->window.read(slots, u_m, v_m_per_s);
 }

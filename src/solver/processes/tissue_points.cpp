@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "viscera/model/body/elasticity.h"
+#include "solver/processes/node_masses.h"
 
 namespace viscera {
 
@@ -34,7 +34,7 @@ std::vector<uint32_t> sparseOf(const Body& body, uint32_t offset) {
 
 TissuePoints::TissuePoints(const Model& model)
     : model_(model),
-      inverse_mass_(model.slots(), 0),
+      inverse_mass_(NodeMasses(model).inverse_per_kg),
       rest_m_(model.slots(), Vector3f::Zero()),
       node_of_(model.slots(), 0) {
   uint32_t first_spring = 0;
@@ -44,12 +44,8 @@ TissuePoints::TissuePoints(const Model& model)
     elements_.emplace_back(model, b, first_spring);
     sparse_.push_back(sparseOf(body, offset));
     if (body.network) first_spring += static_cast<uint32_t>(body.network->springs.size());
-    const bool lattice = body.hasCells();
-    const std::vector<float> mass_kg = lattice ? strengths(body).mass_kg : std::vector<float>();
     for (const uint32_t slot : body.lattice.active_slots) {
-      const double kg = lattice ? static_cast<double>(mass_kg[slot]) : body.network->masses_kg[slot];
       rest_m_[offset + slot] = restPosition(body, slot).cast<float>();
-      if (kg > 0 && !isFixed(body.lattice.nodes[slot])) inverse_mass_[offset + slot] = static_cast<float>(1 / kg);
     }
   }
 }

@@ -5,23 +5,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "viscera/model/body/elasticity.h"
-
 namespace viscera {
 
-FibreForces::FibreForces(const Model& model)
-    : inverse_mass_(model.slots(), 0), mass_kg_(model.slots(), 0), node_of_(model.slots(), 0) {
-  for (uint32_t b = 0; b < model.bodies.size(); ++b) {
-    const Body& body = model.bodies[b];
-    if (!body.hasCells()) continue;
-    const std::vector<float> mass_kg = strengths(body).mass_kg;
-    for (const uint32_t slot : body.lattice.active_slots) {
-      const uint32_t at = model.slotOffset(b) + slot;
-      mass_kg_[at] = mass_kg[slot];
-      if (mass_kg[slot] > 0 && !isFixed(body.lattice.nodes[slot])) inverse_mass_[at] = 1 / mass_kg[slot];
-    }
-  }
-}
+FibreForces::FibreForces(const Model& model) : masses_(model), node_of_(model.slots(), 0) {}
 
 void FibreForces::embed(const std::vector<Fibre>& fibres) {
   slots_.clear();
@@ -109,9 +95,9 @@ double FibreForces::apply(TissuePort& port, double dt_s) {
   const auto dt = static_cast<float>(dt_s);
   double work_j = 0;
   for (size_t i = 0; i < slots_.size(); ++i) {
-    const float inverse = inverse_mass_[slots_[i]];
+    const float inverse = masses_.inverse_per_kg[slots_[i]];
     const Vector3f dv = dt * inverse * impulse_[i].head<3>().matrix();
-    if (inverse > 0) work_j += static_cast<double>(mass_kg_[slots_[i]] * dv.dot(read_v_[i] + 0.5F * dv));
+    if (inverse > 0) work_j += static_cast<double>(masses_.kg[slots_[i]] * dv.dot(read_v_[i] + 0.5F * dv));
     read_u_[i] = dv;
   }
   if (!slots_.empty()) port.pushNodes(layout::kMaxStyluses, dt, slots_, read_u_);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "solver/processes/attach/fibres.h"
+#include "solver/processes/node_masses.h"
 #include "solver/processes/port.h"
 #include "viscera/model/model.h"
 
@@ -89,9 +90,9 @@ class FibreForces {
   Vector3d sumOver(size_t fibre, uint32_t first_node, uint32_t last_node) const;
   bool addToPatch(uint32_t fibre, const std::vector<uint32_t>& nodes);
 
-  std::vector<float> inverse_mass_, mass_kg_;  ///< [slots of the model]; inverse 0 for fixed and missing nodes
-  std::vector<uint32_t> node_of_;              ///< [slots of the model] index into slots_, valid for those in it
-  std::vector<uint32_t> slots_;                ///< slots of the nodes, ascending
+  const NodeMasses masses_;
+  std::vector<uint32_t> node_of_;  ///< [slots of the model] index into slots_, valid for those in it
+  std::vector<uint32_t> slots_;    ///< slots of the nodes, ascending
   std::vector<Patch> patches_;
   std::vector<uint32_t> patch_of_;                ///< [fibres]
   std::vector<uint32_t> nodes_;                   ///< of patches: indices into slots_

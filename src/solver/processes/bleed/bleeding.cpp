@@ -210,6 +210,9 @@ void Bleeding::persist(Archive& archive) {
   archive.value(bled_m3_);
   archive.value(suctioned_m3_);
   archive.values(left_m3_);
+  for (size_t group = 0; archive.reads() && group < left_m3_.size(); ++group)
+    archive.require(left_m3_[group] >= 0 && left_m3_[group] <= vessels_.supplies_m3()[group],
+                    "the fluid that is left is not within 0 and the supply");
   film_.persist(archive);
   if (archive.reads() && !film_.wet().empty()) updateVisuals();
 }

@@ -303,13 +303,13 @@ bool Pressures::act(TissuePort& port, const ProcessTick&, const ProcessSubstep& 
 bool Pressures::endTick(TissuePort& port, const ProcessTick&, const TissueProcesses& all) {
   const Burns* const burns = findProcess<Burns>(all);
   const Clips* const clips = findProcess<Clips>(all);
+  const std::vector<Clips::Squeezed> squeezed = clips ? clips->squeezed() : std::vector<Clips::Squeezed>();
   loads_.read(port, 0);
   leaks_.clear();
   open_ = 0;
   for (size_t s = 0; s < vessels_.size(); ++s) {
     measure(vessels_[s], s);
-    vessels_[s].at.is_closed = clippedStations(surfaces_[s].lumen, vessels_[s].body,
-                                               clips ? clips->squeezed() : std::vector<Clips::Squeezed>());
+    vessels_[s].at.is_closed = clippedStations(surfaces_[s].lumen, vessels_[s].body, squeezed);
     if (burns) seal(vessels_[s], burns->heat());
     flow(vessels_[s], s);
     addLeaks(vessels_[s]);

@@ -5,8 +5,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "viscera/model/body/elasticity.h"
-
 namespace viscera {
 
 namespace {
@@ -21,18 +19,7 @@ Eigen::Array4f cross(const Eigen::Array4f& a, const Eigen::Array4f& b) {
 
 }  // namespace
 
-SurfaceLoads::SurfaceLoads(const Model& model, const std::vector<Cavities>& surfaces)
-    : inverse_mass_(model.slots(), 0), mass_kg_(model.slots(), 0) {
-  for (uint32_t b = 0; b < model.bodies.size(); ++b) {
-    const Body& body = model.bodies[b];
-    if (!body.hasCells()) continue;
-    const std::vector<float> mass_kg = strengths(body).mass_kg;
-    for (const uint32_t slot : body.lattice.active_slots) {
-      if (!(mass_kg[slot] > 0) || isFixed(body.lattice.nodes[slot])) continue;
-      mass_kg_[model.slotOffset(b) + slot] = mass_kg[slot];
-      inverse_mass_[model.slotOffset(b) + slot] = 1 / mass_kg[slot];
-    }
-  }
+SurfaceLoads::SurfaceLoads(const Model& model, const std::vector<Cavities>& surfaces) : masses_(model) {
   for (const Cavities& surface : surfaces) {
     const auto first = static_cast<uint32_t>(rest_m_.size());
     first_vertex_.push_back(first);
@@ -144,8 +131,8 @@ double SurfaceLoads::apply(TissuePort& port, double dt_s) {
   const auto dt = static_cast<float>(dt_s);
   double work_j = 0;
   for (size_t i = 0; i < slots_.size(); ++i) {
-    const Vector3f dv = dt * inverse_mass_[slots_[i]] * force_n_[i].head<3>().matrix();
-    work_j += static_cast<double>(mass_kg_[slots_[i]] * dv.dot(read_v_[i] + 0.5F * dv));
+    const Vector3f dv = dt * masses_.inverse_per_kg[slots_[i]] * force_n_[i].head<3>().matrix();
+    work_j += static_cast<double>(masses_.kg[slots_[i]] * dv.dot(read_v_[i] + 0.5F * dv));
     read_u_[i] = dv;
   }
   port.pushNodes(layout::kMaxStyluses, dt, slots_, read_u_);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/processes/node_masses.h"
 #include "solver/processes/port.h"
 #include "solver/processes/pressure/cavities.h"
 #include "solver/processes/rest_elements.h"
@@ -58,7 +59,7 @@ class SurfaceLoads {
   };
   void loadTriangles();
 
-  std::vector<float> inverse_mass_, mass_kg_;  ///< [slots of the model]; 0 for fixed and missing nodes
+  const NodeMasses masses_;
   std::vector<uint32_t> first_vertex_, first_triangle_;
   std::vector<Carrier> carriers_;  ///< [vertices]
   std::vector<Rim> rims_;

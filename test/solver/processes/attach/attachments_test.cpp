@@ -59,7 +59,7 @@ Vector3d topMoved_m(const GlueLoad& load, const Scene& scene) {
   for (size_t b = 0; b < model.bodies.size(); ++b) {
     for (const uint32_t slot : model.bodies[b].lattice.active_slots) {
       if (restPosition(model.bodies[b], slot).z() < load.size_m.z() - 1e-6) continue;
-      sum += viscera::xyz(state.displacement_m[model.slotOffset(b) + slot]);
+      sum += xyz(state.displacement_m[model.slotOffset(b) + slot]);
       ++count;
     }
   }
@@ -101,8 +101,8 @@ Totals totalsOf(const Model& model, const HostState& state) {
     for (const uint32_t slot : model.bodies[b].lattice.active_slots) {
       const size_t at = model.slotOffset(b) + slot;
       const auto kg = static_cast<double>(strength.mass_kg[slot]);
-      const Vector3d v = viscera::xyz(state.velocity_m_per_s[at]);
-      const Vector3d x = restPosition(model.bodies[b], slot) + viscera::xyz(state.displacement_m[at]);
+      const Vector3d v = xyz(state.velocity_m_per_s[at]);
+      const Vector3d x = restPosition(model.bodies[b], slot) + xyz(state.displacement_m[at]);
       out.momentum += kg * v;
       out.angular += kg * x.cross(v);
       out.kinetic_j += 0.5 * kg * v.squaredNorm();
